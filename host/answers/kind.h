@@ -62,7 +62,9 @@ typedef struct ps_answer {
     bool is_complex; /* pairs (real, imaginary) */
     unsigned rank;
     size_t shape[PS_ANSWER_RANK];
-    ps_error verdict; /* PSPEC_ERROR_CHECK where differences were found; else status PSPEC_OK */
+    /* PSPEC_ERROR_CHECK where differences were found, PSPEC_ERROR_TOLERANCE where a table that is
+     * there all the same misses what was asked; else status PSPEC_OK */
+    ps_error verdict;
 } ps_answer;
 
 /* Two columns of a table, or two entries of its header, against each other: a line for each

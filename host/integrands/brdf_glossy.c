@@ -8,10 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From here on the cut is below the last place (e^-40 = 4e-18), and the boundary value problem of
- * the cut lobe loses n eps/6. */
-static const double NO_CUT = 40;
-
 /* The cut changes coefficients by e^-n: above this more than the paper's figures show. */
 static const double CUT_MATTERS = 1e-3;
 
@@ -89,7 +85,7 @@ static pspec_status fill_cut(double n, size_t max_degree, double *b, ps_error *e
 }
 
 static pspec_status spherical(const ps_brdf *brdf, size_t max_degree, double *b, ps_error *error) {
-    if (!brdf->is_whole_sphere && brdf->exponent < NO_CUT) {
+    if (!brdf->is_whole_sphere && brdf->exponent < PS_UNCUT_LOBE) {
         return fill_cut(brdf->exponent, max_degree, b, error);
     }
     fill_lambda(brdf->exponent, max_degree, b);

@@ -11,6 +11,10 @@
 #define PS_LEAST_LOBE 1e-3
 #define PS_MOST_LOBE 1e6
 
+/* From this exponent on the cut of a glossy lobe at the horizon is below the last place (e^-40 =
+ * 4e-18), and the boundary value problem of the cut lobe would lose n eps/6. */
+#define PS_UNCUT_LOBE 40
+
 /* What the tables of lobes and of integrands both say of them. */
 #define PS_DIFFUSE_SUMMARY "max(0, z), z the cosine to the axis"
 #define PS_GLOSSY_SUMMARY "e^{n(z-1)}, a Gaussian lobe"

@@ -150,6 +150,22 @@ bool ps_integrand_is_isotropic(const ps_integrand *integrand) {
            (integrand->kind->is_isotropic != NULL && integrand->kind->is_isotropic(integrand));
 }
 
+double ps_integrand_reach(const ps_integrand *integrand) {
+    return integrand->kind->reach != NULL ? integrand->kind->reach(integrand) : INFINITY;
+}
+
+bool ps_integrand_is_radial(const ps_integrand *integrand) {
+    return integrand->kind->radial != NULL && ps_integrand_is_isotropic(integrand);
+}
+
+double ps_integrand_radial(const ps_integrand *integrand, double k) {
+    return integrand->kind->radial(integrand, k);
+}
+
+double ps_integrand_whole_square(const ps_integrand *integrand) {
+    return integrand->kind->whole_square(integrand);
+}
+
 const char *ps_integrand_note(const ps_integrand *integrand) {
     return integrand->kind->note != NULL ? integrand->kind->note(integrand) : NULL;
 }

@@ -54,11 +54,20 @@ typedef struct ps_integrand_kind {
     double (*correlation)(const ps_integrand *, const double *x);
     /* Do the powers depend on |k| alone? NULL: no. */
     bool (*is_isotropic)(const ps_integrand *);
+    /* Beyond this |k_i| or degree lies at most PS_BEYOND_REACH of the energy, by a proof: docs of
+     * the integrand. NULL, or infinite: energy falls so slowly that no cut-off has all of it. */
+    double (*reach)(const ps_integrand *);
+    /* Where is_isotropic: |f|^2 of the transform over all of space, at any |k| >= 0, and int F^2
+     * over all of space, without images. NULL: not on the torus, or no function of |k|. */
+    double (*radial)(const ps_integrand *, double k);
+    double (*whole_square)(const ps_integrand *);
     const char *(*note)(const ps_integrand *); /* what a result should say of it; may be NULL */
     const char *(*file)(const ps_integrand *); /* that was read; NULL: kinds without files */
 } ps_integrand_kind;
 
 #define PS_INTEGRAND_ON(where) (1U << (where))
+/* Rounding of the energy. */
+#define PS_BEYOND_REACH 1e-16
 
 struct ps_integrand {
     const ps_integrand_kind *kind;
@@ -105,6 +114,12 @@ pspec_status ps_integrand_pairwise(const ps_integrand *integrand, const double *
 /* Has it the closed form that ps_integrand_pairwise needs? */
 bool ps_integrand_has_pairs(const ps_integrand *integrand);
 bool ps_integrand_is_isotropic(const ps_integrand *integrand);
+/* The largest |k_i| or degree that matters, infinite where all do. */
+double ps_integrand_reach(const ps_integrand *integrand);
+/* Has it a transform that is a function of |k|, for the two below? */
+bool ps_integrand_is_radial(const ps_integrand *integrand);
+double ps_integrand_radial(const ps_integrand *integrand, double k);
+double ps_integrand_whole_square(const ps_integrand *integrand);
 const char *ps_integrand_note(const ps_integrand *integrand); /* or NULL */
 const char *ps_integrand_file(const ps_integrand *integrand); /* or NULL */
 

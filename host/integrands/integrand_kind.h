@@ -63,6 +63,9 @@ ps_half_angle ps_integrand_half_angle(double x);
 
 /* C(cos g) of exp(n (z - 1)) on the whole sphere (docs/mathematics/integrands_sphere.md#lobes). */
 double ps_integrand_lobe_correlation(double n, double x);
+/* The member reach of exp(n (z - 1)) on the whole sphere, and of its even extension on the
+ * hemisphere from PS_UNCUT_LOBE on. */
+double ps_integrand_lobe_reach(double n);
 
 /* PSPEC_ERROR_INVALID_ARGUMENT: "integrand disk: radius=0.7: " and the sentence. */
 pspec_status ps_integrand_fail(const ps_integrand *integrand, const char *key, const char *text,

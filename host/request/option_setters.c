@@ -156,6 +156,10 @@ pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {
                          said->text);
 }
 
+pspec_status ps_set_tail(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, DBL_MAX, "", &said->request->tail, error);
+}
+
 pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {
     ps_error reason = {0};
     PS_TRY(ps_parse_number(said->text, said->shown, -DBL_MAX, DBL_MAX, &said->request->smoothness,

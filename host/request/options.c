@@ -85,6 +85,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                             .help = "measure sets where they are, without shifts; the prediction "
                                     "is of shifted ones, and there is no z-score",
                             FLAG(in_place)},
+    [PS_OPTION_TAIL] = {NAMED("tail", 0, "X"), OF(BIT(variance), 0),
+                        .help = "no more than this may half of upper - lower be, over predicted, "
+                                "of every row; else exit code 3, and the cut-off that would do",
+                        .set = ps_set_tail},
+    [PS_OPTION_PAPER_FORMULA] = {NAMED("paper-formula", 0, NULL), OF(BIT(variance), 0),
+                                 .help = "a column more: the integral over |k| of radial means "
+                                         "(E-13), which neglects P(0+) f_0^2 / N",
+                                 FLAG(paper_formula)},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
@@ -144,10 +152,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_FREQUENCIES] = {NAMED("frequencies", 0, "FILE"), OF(BIT(power), 0),
                                .help = "only the integer frequency vectors in FILE, one per line",
                                TEXT(frequencies.path), .input = ps_input_all},
-    [PS_OPTION_BINS] = {NAMED("bins", 0, PS_BIN_RULES), OF(BIT(power), 0),
+    [PS_OPTION_BINS] = {NAMED("bins", 0, PS_BIN_RULES), OF(BIT(power) | BIT(variance), 0),
                         .help = "rings: of width 1 about whole |k| (round, the default), or by "
                                 "floor of |k|, of |k| Q/P or of |k| Q/P N^(-1/d); or exact shells "
-                                "of |k|^2",
+                                "of |k|^2; variance: shells, a sum over a ball instead of a box",
                         .set = ps_set_bins},
     [PS_OPTION_PER_RING] = {NAMED("per-ring", 0, "S"), OF(BIT(power), 0),
                             .help = "of every ring (or shell) with more than S frequencies of the "

@@ -29,6 +29,8 @@ typedef enum ps_option_id {
     PS_OPTION_INTEGRAND,         /* --integrand NAME[:key=value,...] */
     PS_OPTION_SHIFTS,            /* --shifts S */
     PS_OPTION_IN_PLACE,          /* --in-place */
+    PS_OPTION_TAIL,              /* --tail X */
+    PS_OPTION_PAPER_FORMULA,     /* --paper-formula */
     PS_OPTION_AGAINST,           /* --against FILE */
     PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
@@ -112,6 +114,8 @@ typedef struct ps_request {
     const char *integrands[PS_MAX_INTEGRANDS];
     uint64_t num_shifts; /* 1 unless given */
     bool in_place;       /* sets are not moved */
+    double tail;         /* 0 unless given */
+    bool paper_formula;
     /* Zeros unless given: the defaults of docs/user/conventions.md. */
     ps_weights_spec weights;
     ps_frequencies_spec frequencies;

@@ -136,12 +136,12 @@ judge() { # NAME CLASS NUMBER[+]
         is_clean=no remark= # refused: the picture alone
     elif [[ $code == 0 ]] && lacks_only_sets "$case"; then
         is_clean=no remark=
-    elif [[ $code == 0 ]]; then
+    elif [[ $code == $(<"$case/expected.code") ]]; then
         verdict=tolerated is_clean=no remark=
         # A temporary file that cannot be removed stays; the sentence of a failure would have said so.
         [[ $failed != unlink ]] || rm -f "$run"/folder/.pointspec-*
         diff -rq "${same[@]}" "$run/folder" "$case/expected/folder" >/dev/null &&
-            diff -q "${same[@]}" "$run/stdout" "$case/expected/stdout" >/dev/null || remark="exit 0 with another output"
+            diff -q "${same[@]}" "$run/stdout" "$case/expected/stdout" >/dev/null || remark="exit $code with another output"
     elif [[ $code != 1 ]]; then
         remark="exit $code"
     else

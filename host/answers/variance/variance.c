@@ -1,6 +1,7 @@
 /* The variance of Monte Carlo integration, predicted from spectra and measured beside it. */
 #include "answers/compare.h"
 #include "answers/spectra/spectra.h"
+#include "answers/variance/tail_verdict.h"
 #include "answers/variance/variance_question.h"
 #include "answers/variance/variance_table.h"
 #include "base/memory.h"
@@ -11,6 +12,7 @@ typedef struct variances {
     ps_variance_list list;
     ps_device *device;      /* of all of them, where they share one that was opened for them */
     ps_variance_job **jobs; /* [list.num] */
+    ps_error verdict;       /* on --tail */
 } variances;
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
@@ -34,6 +36,7 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
     PS_TRY(ps_plan_table_find_lack(planner, &question->spectrum.limits.constraints,
                                    &question->spectrum.may_lack_device, error));
     PS_TRY(ps_variance_job_create(&job, question, error));
+    ps_power_job_rate_skips(ps_variance_job_spectrum(job));
     const ps_plan_more more = {add_trials, job};
     const pspec_status status =
         ps_spectra_plan_job(planner, request, ps_variance_job_spectrum(job), &more, index, error);
@@ -89,13 +92,15 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
         list->questions[i].spectrum.open_device = work->device;
         PS_TRY(run_one(&work->jobs[i], &list->questions[i], hooks, error));
     }
-    return PSPEC_OK;
+    return ps_variance_judge_tails(&work->verdict, request, work->jobs, list->num, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const variances *const work = computed;
-    return ps_variance_table(&out->table, request, work->jobs, work->list.num, error);
+    out->verdict = work->verdict;
+    return ps_variance_table(&out->table, request, work->jobs, work->list.num, &work->verdict,
+                             error);
 }
 
 static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {

@@ -27,6 +27,18 @@ static pspec_status fail_conflict(const ps_request *arguments, ps_option_id a, c
                    ps_option_show(arguments, a).text, b, why);
 }
 
+/* The sum is over whole frequencies: rings of a width have no part in it. */
+static pspec_status check_bins(const ps_request *arguments, ps_error *error) {
+    const ps_bin_rule *const bins = &arguments->frequencies.bins;
+    return bins->kind == PS_BINS_ROUND || bins->kind == PS_BINS_SHELLS
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s %s: variances are sums over whole frequencies, in a box (round) or "
+                         "over exact shells (shells)",
+                         ps_option_show(arguments, PS_OPTION_BINS).text,
+                         ps_bin_rule_write(bins).text);
+}
+
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     const ps_shown_option sampler = ps_option_show(arguments, PS_OPTION_SAMPLER);
     if (arguments->num_integrands == 0) {
@@ -55,7 +67,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
         return fail_conflict(arguments, PS_OPTION_HEMISPHERE, sampler.text,
                              "it says where its points are", error);
     }
-    return PSPEC_OK;
+    return check_bins(arguments, error);
 }
 
 /* ---- files --------------------------------------------------------------------------------- */
@@ -155,16 +167,21 @@ static pspec_status fill_sampler(ps_power_question *out, ps_sampler_request *req
 
 static ps_variance_question make_question(const ps_request *arguments) {
     const bool has_shifts = arguments->is_given[PS_OPTION_SHIFTS];
+    const bool over_shells = arguments->frequencies.bins.kind == PS_BINS_SHELLS;
+    ps_frequencies_spec frequencies = arguments->frequencies;
+    frequencies.bins = (ps_bin_rule){.kind = PS_BINS_ROUND}; /* the largest power is of a ring */
     return (ps_variance_question){
         .spectrum = {.max_degree = (int64_t)arguments->max_degree,
-                     .frequencies = arguments->frequencies,
+                     .frequencies = frequencies,
                      /* all of the box: its energy is what the rest is told from */
-                     .wants_full_array = true,
+                     .wants_full_array = !over_shells,
                      .normalization = PSPEC_NORMALIZATION_INTEGRAL,
                      .accuracy = arguments->accuracy,
                      .limits = arguments->limits},
         .texts = arguments->integrands,
         .num_integrands = arguments->num_integrands,
+        .over_shells = over_shells,
+        .wants_paper = arguments->paper_formula,
         .num_shifts = arguments->num_shifts,
         .single_shifts = has_shifts ? arguments->num_shifts : SINGLE_SHIFTS,
         .seed = arguments->seed,

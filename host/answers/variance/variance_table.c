@@ -2,15 +2,21 @@
 
 #include "answers/lead.h"
 #include "answers/spectra/spectrum_header.h"
+#include "answers/variance/tail_verdict.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const char *const columns[] = {"points",         "predicted", "predicted_error",
-                                      "lower",          "upper",     "measured",
-                                      "measured_error", "z_score",   "white"};
+static const char *const columns[] = {"points", "predicted", "predicted_error", "lower",
+                                      "upper",  "measured",  "measured_error",  "z_score",
+                                      "white",  "paper"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+/* The last one is there where it was asked for. */
+static size_t count_columns(const ps_request *request) {
+    return request->paper_formula ? NUM_COLUMNS : NUM_COLUMNS - 1;
+}
 
 /* What a row is of, besides its number of points, which every row has. */
 static ps_lead make_lead(const ps_request *request, size_t question, size_t integrand) {
@@ -33,8 +39,8 @@ static ps_cell points_cell(const ps_spectrum *spectrum) {
                : PS_NUMBER(spectrum->mean_points);
 }
 
-static pspec_status add_row(ps_table *table, const ps_lead *lead, const ps_variance_job *job,
-                            size_t integrand, ps_error *error) {
+static pspec_status add_row(ps_table *table, const ps_request *request, const ps_lead *lead,
+                            const ps_variance_job *job, size_t integrand, ps_error *error) {
     const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
     const ps_cell cells[NUM_COLUMNS] = {
         points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
@@ -46,8 +52,9 @@ static pspec_status add_row(ps_table *table, const ps_lead *lead, const ps_varia
         ps_number_or_missing(row->measured_error),
         ps_number_or_missing(row->z_score),
         PS_NUMBER(row->prediction.white),
+        ps_number_or_missing(row->paper),
     };
-    return ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error);
+    return ps_lead_add_row(table, lead, cells, count_columns(request), error);
 }
 
 /* ---- header -------------------------------------------------------------------------------- */
@@ -112,14 +119,40 @@ static pspec_status add_most_power(ps_table *table, const ps_variance_job *job, 
     const ps_meta entries[] = {
         {"most_power", PS_NUMBER(beyond->most)},
         {"most_power_is",
-         PS_TEXT(beyond->is_known ? "a bound" : "assumed: the largest that was measured")},
+         PS_TEXT(beyond->is_known  ? "a bound"
+                 : beyond->matters ? "assumed: the largest that was measured, at least 1"
+                                   : "assumed; nothing depends on it, for "
+                                     "the integrands end before the cut-off")},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
+/* What was asked for besides. */
+static pspec_status add_choices(ps_table *table, const ps_request *request,
+                                ps_variance_job *const *jobs, size_t num, const ps_error *verdict,
+                                ps_error *error) {
+    const ps_meta tails[] = {
+        {"tail", PS_NUMBER(request->tail)},
+        {"tail_largest", PS_NUMBER(ps_variance_largest_tail(request, jobs, num))},
+        {"tail_verdict", PS_TEXT(verdict->status == PSPEC_OK ? "reached" : verdict->message)},
+    };
+    if (request->frequencies.bins.kind == PS_BINS_SHELLS) {
+        PS_TRY(
+            ps_table_add_meta(table, "sum", PS_TEXT("over exact shells, |k|^2 <= K^2 + K"), error));
+    }
+    if (request->paper_formula) {
+        PS_TRY(ps_table_add_meta(table, "paper",
+                                 PS_TEXT("the integral (E-13) over |k| of radial means, a formula "
+                                         "that neglects P(0+) f_0^2 / N, the last term of (V4)"),
+                                 error));
+    }
+    return request->tail > 0
+               ? ps_table_add_metas(table, tails, sizeof tails / sizeof tails[0], error)
+               : PSPEC_OK;
+}
+
 static pspec_status fill(ps_table *table, const ps_request *request, ps_variance_job *const *jobs,
                          const ps_power_job *const *spectra, size_t num, ps_error *error) {
-    PS_TRY(begin(table, request, jobs[0], error));
     for (size_t i = 0; i < request->num_integrands; i++) {
         PS_TRY(add_integrand(table, request, ps_variance_job_integrand(jobs[0], i), i, error));
     }
@@ -130,14 +163,15 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
             PS_TRY(add_variances(table, &ps_variance_job_rows(jobs[i])[k], error));
-            PS_TRY(add_row(table, &lead, jobs[i], k, error));
+            PS_TRY(add_row(table, request, &lead, jobs[i], k, error));
         }
     }
     return PSPEC_OK;
 }
 
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,
-                               ps_variance_job *const *jobs, size_t num, ps_error *error) {
+                               ps_variance_job *const *jobs, size_t num, const ps_error *verdict,
+                               ps_error *error) {
     const ps_lead first = make_lead(request, 0, 0);
     ps_request own = *request; /* what headers say of powers is said of these */
     own.normalization = PSPEC_NORMALIZATION_INTEGRAL;
@@ -147,7 +181,13 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
         spectra[i] = ps_variance_job_spectrum(jobs[i]);
     }
     pspec_status status =
-        ps_lead_create_table(out, "variance", &first, columns, NUM_COLUMNS, error);
+        ps_lead_create_table(out, "variance", &first, columns, count_columns(request), error);
+    if (status == PSPEC_OK) {
+        status = begin(*out, request, jobs[0], error);
+    }
+    if (status == PSPEC_OK) {
+        status = add_choices(*out, request, jobs, num, verdict, error);
+    }
     if (status == PSPEC_OK) {
         status = fill(*out, &own, jobs, spectra, num, error);
     }

@@ -53,6 +53,10 @@ static double correlation(const ps_integrand *self, const double *x) {
     return sign * harmonic_legendre(t, self->numbers[HARMONIC_DEGREE]);
 }
 
+static double reach(const ps_integrand *self) {
+    return self->numbers[HARMONIC_DEGREE];
+}
+
 PS_INTEGRAND_VALUES(harmonic_value)
 
 const ps_integrand_kind ps_integrand_harmonic = {
@@ -66,4 +70,5 @@ const ps_integrand_kind ps_integrand_harmonic = {
     .degrees = degrees,
     .values = values,
     .correlation = correlation,
+    .reach = reach,
 };

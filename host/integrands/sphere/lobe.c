@@ -74,6 +74,32 @@ double ps_integrand_lobe_correlation(double n, double x) {
     return PS_FOUR_PI * exp(-n * below) * (y > 0 ? -expm1(-y) / y : 1);
 }
 
+/* F_l0^2 = (2l+1) F_00^2 lambda_l^2, lambda_{l+1}/lambda_l = I_{nu+1}(n)/I_nu(n) at nu = l + 1/2,
+ * which is at most n/(nu + 1/2 + sqrt((nu + 1/2)^2 + n^2)) (Amos 1974). From there on terms fall
+ * faster than a geometric series. Even degrees alone have more than a quarter of the energy. */
+double ps_integrand_lobe_reach(double n) {
+    const double quarter = 0.25;
+    const double energy = quarter * spread(n) * n / -expm1(-2 * n); /* over F_00^2 */
+    double term = 1;                                                /* at least (2l+1) lambda_l^2 */
+    double rest = INFINITY;
+    double l = 0;
+    while (rest > PS_BEYOND_REACH * energy) {
+        const double ratio = n / (l + 1 + hypot(l + 1, n));
+        const double factor = (2 * l + 3) / (2 * l + 1) * ratio * ratio;
+        term *= factor;
+        rest = factor < 1 ? term / (1 - factor) : INFINITY; /* factors fall: the next is smaller */
+        l += 1;
+    }
+    return l - 1; /* rest is of l and all beyond */
+}
+
+/* The part that a horizon cuts off is less than rounding where e^-2n is. */
+static double reach(const ps_integrand *self) {
+    const ps_brdf *const glossy = self->own;
+    const bool is_whole = !ps_integrand_is_on_hemisphere(self) || glossy->exponent >= PS_UNCUT_LOBE;
+    return is_whole ? ps_integrand_lobe_reach(glossy->exponent) : INFINITY;
+}
+
 static double correlation(const ps_integrand *self, const double *x) {
     const ps_brdf *const glossy = self->own;
     return ps_integrand_is_on_hemisphere(self)
@@ -99,5 +125,6 @@ const ps_integrand_kind ps_integrand_lobe = {
     .degrees = degrees,
     .values = values,
     .correlation = correlation,
+    .reach = reach,
     .note = note,
 };

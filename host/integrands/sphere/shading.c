@@ -128,6 +128,12 @@ static double correlate_glossy(const ps_integrand *self, const double *x) {
                : NAN;
 }
 
+static double reach_of_glossy(const ps_integrand *self) {
+    const ps_brdf *const brdf = lobe_of(self);
+    const bool is_whole = brdf->is_whole_sphere || brdf->exponent >= PS_UNCUT_LOBE;
+    return is_whole ? ps_integrand_lobe_reach(brdf->exponent) : INFINITY;
+}
+
 PS_INTEGRAND_VALUES_AS(give_glossy, glossy_value)
 
 const ps_integrand_kind ps_integrand_glossy = {
@@ -142,6 +148,7 @@ const ps_integrand_kind ps_integrand_glossy = {
     .degrees = degrees,
     .values = give_glossy,
     .correlation = correlate_glossy,
+    .reach = reach_of_glossy,
     .note = note,
 };
 
@@ -152,6 +159,13 @@ static pspec_status create_phong(ps_integrand *self, const char *const *values, 
     self->numbers[PHONG_EXPONENT] = lobe_of(self)->exponent;
     self->numbers[PHONG_SCALE] = scale_of(self);
     return PSPEC_OK;
+}
+
+/* z^n with an even n is continued evenly as it is: a polynomial. Others have a kink at the horizon.
+ */
+static double reach_of_phong(const ps_integrand *self) {
+    const double n = self->numbers[PHONG_EXPONENT];
+    return ps_integrand_is_on_hemisphere(self) && fmod(n, 2) == 0 ? n : INFINITY;
 }
 
 PS_INTEGRAND_VALUES_AS(give_phong, phong_value)
@@ -167,6 +181,7 @@ const ps_integrand_kind ps_integrand_phong = {
     .energy = energy,
     .degrees = degrees,
     .values = give_phong,
+    .reach = reach_of_phong,
     .note = note,
 };
 

@@ -38,6 +38,11 @@ static double correlation(const ps_integrand *self, const double *x) {
     return PS_FOUR_PI / 9 + ENERGY * (3 * x[0] * x[0] - 1) / 2;
 }
 
+static double reach(const ps_integrand *self) {
+    (void)self;
+    return 2;
+}
+
 PS_INTEGRAND_VALUES(square_value)
 
 const ps_integrand_kind ps_integrand_square = {
@@ -51,4 +56,5 @@ const ps_integrand_kind ps_integrand_square = {
     .degrees = degrees,
     .values = values,
     .correlation = correlation,
+    .reach = reach,
 };

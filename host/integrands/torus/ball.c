@@ -35,15 +35,22 @@ static double energy(const ps_integrand *self) {
 }
 
 /* |f_k|^2 = (r/|k|)^d J_{d/2}(2 pi r |k|)^2. */
+static double radial(const ps_integrand *self, double k) {
+    const unsigned dimension = self->place.dimension;
+    const double radius = self->numbers[BALL_RADIUS];
+    if (k == 0) {
+        return integral(self) * integral(self);
+    }
+    const double bessel = ps_bessel_half(dimension, PS_TWO_PI * radius * k);
+    return pow(radius / k, dimension) * bessel * bessel;
+}
+
 static pspec_status powers(const ps_integrand *self, const int32_t *vectors, size_t num,
                            double *out, ps_error *error) {
     const unsigned dimension = self->place.dimension;
-    const double radius = self->numbers[BALL_RADIUS];
     (void)error;
     for (size_t i = 0; i < num; i++) {
-        const double k = ps_integrand_norm(vectors + i * dimension, dimension);
-        const double bessel = ps_bessel_half(dimension, PS_TWO_PI * radius * k);
-        out[i] = pow(radius / k, dimension) * bessel * bessel;
+        out[i] = radial(self, ps_integrand_norm(vectors + i * dimension, dimension));
     }
     return PSPEC_OK;
 }
@@ -108,4 +115,6 @@ const ps_integrand_kind ps_integrand_ball = {
     .values = values,
     .correlation = correlation,
     .is_isotropic = is_isotropic,
+    .radial = radial,
+    .whole_square = integral,
 };

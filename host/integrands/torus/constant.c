@@ -54,6 +54,12 @@ static bool is_isotropic(const ps_integrand *self) {
     return true;
 }
 
+/* There is nothing but the mean. */
+static double reach(const ps_integrand *self) {
+    (void)self;
+    return 0;
+}
+
 PS_INTEGRAND_VALUES(constant_value)
 
 const ps_integrand_kind ps_integrand_constant = {
@@ -72,4 +78,5 @@ const ps_integrand_kind ps_integrand_constant = {
     .values = values,
     .correlation = correlation,
     .is_isotropic = is_isotropic,
+    .reach = reach,
 };

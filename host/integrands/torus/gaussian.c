@@ -148,6 +148,46 @@ static pspec_status powers(const ps_integrand *self, const int32_t *vectors, siz
     return PSPEC_OK;
 }
 
+/* With g(k) = exp(-4 pi^2 sigma^2 k^2) of one axis and its sums S over all k and R beyond K, at
+ * most d R S^(d-1) of S^d - 1 lies outside of the box. R is less than a geometric series. */
+static double share_beyond(double rate, double largest, double others, unsigned dimension) {
+    const double next = largest + 1;
+    const double rest = 2 * exp(-rate * next * next) / -expm1(-rate * (2 * next + 1));
+    const double all = expm1(dimension * log1p(others)); /* S = 1 + others */
+    return dimension * rest * pow(1 + others, dimension - 1.0) / all;
+}
+
+/* The jumps of what is cut have a spectrum without an end. */
+static double reach(const ps_integrand *self) {
+    const double sigma = sigma_of(self);
+    const double rate = 4 * PS_PI * PS_PI * sigma * sigma;
+    double others = 0; /* 2 sum g(k) over k >= 1 */
+    double term = 1;
+    if (is_cut(self)) {
+        return INFINITY;
+    }
+    for (double k = 1; term > PS_BEYOND_REACH * others; k += 1) {
+        term = 2 * exp(-rate * k * k);
+        others += term;
+    }
+    double largest = 1;
+    while (share_beyond(rate, largest, others, self->place.dimension) > PS_BEYOND_REACH) {
+        largest += 1;
+    }
+    return largest;
+}
+
+/* Of all of space: what the images add is in the sum over whole k alone. */
+static double radial(const ps_integrand *self, double k) {
+    const double rate = 4 * PS_PI * PS_PI * sigma_of(self) * sigma_of(self);
+    const double whole = integral(self);
+    return whole * whole * exp(-rate * k * k);
+}
+
+static double square(const ps_integrand *self) {
+    return pow(sqrt(PS_PI) * sigma_of(self), self->place.dimension);
+}
+
 static bool is_isotropic(const ps_integrand *self) {
     return !is_cut(self);
 }
@@ -176,5 +216,8 @@ const ps_integrand_kind ps_integrand_gaussian = {
     .values = values,
     .correlation = correlation,
     .is_isotropic = is_isotropic,
+    .reach = reach,
+    .radial = radial,
+    .whole_square = square,
     .note = note,
 };

@@ -64,6 +64,15 @@ static double correlation(const ps_integrand *self, const double *x) {
     return cos(PS_TWO_PI * turns) / 2;
 }
 
+/* All of it is at k. */
+static double reach(const ps_integrand *self) {
+    double largest = 0;
+    for (unsigned i = 0; i < self->place.dimension; i++) {
+        largest = fmax(largest, fabs(self->numbers[WAVE_VECTOR + i]));
+    }
+    return largest;
+}
+
 PS_INTEGRAND_VALUES(wave_value)
 
 const ps_integrand_kind ps_integrand_wave = {
@@ -81,4 +90,5 @@ const ps_integrand_kind ps_integrand_wave = {
     .powers = powers,
     .values = values,
     .correlation = correlation,
+    .reach = reach,
 };

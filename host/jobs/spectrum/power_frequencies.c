@@ -24,14 +24,17 @@ static pspec_status default_max_frequency(int32_t *out, const ps_power_question 
     return PSPEC_OK;
 }
 
-static pspec_status choose_degrees(ps_frequencies *out, const ps_power_question *question,
-                                   size_t num_points, ps_error *error) {
+static int64_t find_max_degree(const ps_power_question *question, size_t num_points) {
     /* 4 sqrt N: past the second bump of a blue-noise spectrum, which begins near 1.8 sqrt N. */
     const double times = 4;
     const double by_default = fmin(ceil(times * sqrt((double)num_points)), PS_MAX_DEGREE);
-    const int64_t max_degree =
-        question->max_degree > 0 ? question->max_degree : (int64_t)by_default;
-    return ps_frequencies_degrees(out, max_degree, question->on_hemisphere, error);
+    return question->max_degree > 0 ? question->max_degree : (int64_t)by_default;
+}
+
+static int64_t cut(const ps_power_question *question, int64_t largest) {
+    const bool is_cut =
+        question->useful > 0 && !question->accuracy.no_skip && question->useful < largest;
+    return is_cut ? question->useful : largest;
 }
 
 static pspec_status read_list(ps_frequencies *out, const char *path, uint64_t memory_limit,
@@ -58,7 +61,8 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
     int32_t max_frequency = question->frequencies.max_frequency;
     ps_bin_rule bins = question->frequencies.bins;
     if (question->on_sphere) {
-        return choose_degrees(out, question, num_points, error);
+        return ps_frequencies_degrees(out, cut(question, find_max_degree(question, num_points)),
+                                      question->on_hemisphere, error);
     }
     if (question->frequencies.path != NULL) {
         return read_list(out, question->frequencies.path, question->limits.constraints.memory_limit,
@@ -67,6 +71,7 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
     if (max_frequency == 0) {
         PS_TRY(default_max_frequency(&max_frequency, question, dimension, num_points, error));
     }
+    max_frequency = (int32_t)cut(question, max_frequency);
     ps_bin_rule_resolve(&bins, dimension, num_points);
     if (question->frequencies.per_ring > 0) {
         const ps_frequency_sample sample = {.dimension = dimension,
@@ -79,4 +84,21 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
     const bool only_ball = !question->wants_full_array && !question->accuracy.no_skip;
     return ps_frequencies_grid(out, dimension, max_frequency, only_ball, &bins,
                                question->limits.constraints.offers, error);
+}
+
+int32_t ps_power_frequencies_uncut(const ps_power_question *question, unsigned dimension,
+                                   size_t num_points) {
+    int32_t largest = question->frequencies.max_frequency;
+    if (question->useful == 0) {
+        return 0;
+    }
+    if (question->on_sphere) {
+        return (int32_t)find_max_degree(question, num_points);
+    }
+    if (question->frequencies.path != NULL ||
+        (largest == 0 &&
+         default_max_frequency(&largest, question, dimension, num_points, NULL) != PSPEC_OK)) {
+        return 0;
+    }
+    return largest;
 }

@@ -11,4 +11,9 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
                                   unsigned dimension, size_t num_points,
                                   ps_error *error) PS_MUST_CHECK;
 
+/* The largest frequency or degree that there would be if question->useful did not cut; 0: nothing
+ * is cut, or nobody can tell. */
+int32_t ps_power_frequencies_uncut(const ps_power_question *question, unsigned dimension,
+                                   size_t num_points);
+
 #endif

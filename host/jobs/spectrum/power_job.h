@@ -40,6 +40,10 @@ typedef struct ps_power_question {
     /* frequencies */
     ps_frequencies_spec frequencies;
     double reach; /* the largest frequency is this times N^(1/d) unless it is given; 0: 5 */
+    /* The largest |k_i| or degree that matters to whoever asks: without accuracy.no_skip those
+     * beyond are left out, and why says what nobody needs of them; 0: all matter */
+    int32_t useful;
+    const char *useful_why;
     uint64_t per_ring_seed;
     bool wants_full_array;
 

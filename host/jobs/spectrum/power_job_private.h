@@ -14,6 +14,7 @@ struct ps_power_job {
     uint64_t most_points; /* of any set, as far as it is known */
     ps_frequencies frequencies;
     ps_needs needs;
+    char useless[48];           /* the skip of frequencies that do not matter; "": there is none */
     ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
     uint64_t num_realizations;  /* that are computed; 0: unknown */
     ps_problem problem;

@@ -1,5 +1,10 @@
 #include "jobs/spectrum/power_needs.h"
 
+#include "jobs/spectrum/power_frequencies.h"
+
+#include <math.h>
+#include <stdio.h>
+
 /* Rotated points of the hemisphere that go below it become their antipodes. That changes no even
  * degree, but the odd ones, which points have when they are taken as points of the sphere. */
 static bool folding_matters(const ps_power_question *question) {
@@ -17,6 +22,28 @@ static double count_fewest(const ps_power_job *job) {
     }
     const ps_bin_rule *const bins = &job->frequencies.bins;
     return ps_bin_rule_find(bins, 1) == ps_bin_rule_find(bins, 2) ? d * d : d;
+}
+
+/* Of the whole box, or of all orders, that up to `largest` are, by counts. */
+static double share_up_to(const ps_power_job *job, double largest, double uncut) {
+    const double power = job->question->on_sphere ? 2 : job->dimension;
+    const double both = job->question->on_sphere ? 1 : 2; /* signs */
+    return pow((both * largest + 1) / (both * uncut + 1), power);
+}
+
+/* Frequencies that nobody needs. */
+static void find_useless(ps_power_job *job) {
+    const ps_power_question *const question = job->question;
+    const double largest = job->frequencies.max_frequency;
+    const double uncut =
+        ps_power_frequencies_uncut(question, job->dimension, (size_t)job->num_points);
+    if (!(uncut > largest)) {
+        return;
+    }
+    snprintf(job->useless, sizeof job->useless, "%s beyond %d",
+             question->on_sphere ? "degrees" : "frequencies", (int)job->frequencies.max_frequency);
+    ps_needs_add(&job->needs, job->useless, question->useful_why,
+                 1 - share_up_to(job, largest, uncut));
 }
 
 void ps_power_needs_find(ps_power_job *job) {
@@ -46,6 +73,7 @@ void ps_power_needs_find(ps_power_job *job) {
             ps_sequential_expected(count_fewest(job), question->accuracy.standard_error),
     };
     job->needs = ps_needs_find(&needs);
+    find_useless(job);
 }
 
 /* Without a statistical target. */
@@ -55,22 +83,48 @@ static double strict_tolerance(const ps_power_question *question) {
                : ps_plan_tolerance(question->accuracy.tolerance, question->accuracy.floor);
 }
 
-void ps_power_job_rate_skips(ps_power_job *job) {
-    const ps_candidate *const chosen = job->plan.chosen;
-    ps_frequencies box;
+/* What is not done of a plan for these frequencies; -1: there is no such plan. */
+static double find_share(const ps_power_job *job, const ps_frequencies *frequencies) {
     ps_plan plan;
     ps_problem problem = job->problem;
-    const bool is_box_possible =
-        job->frequencies.kind == PS_FREQUENCIES_BALL && chosen != NULL &&
-        ps_frequencies_lattice(&box, job->dimension, job->frequencies.max_frequency, false, NULL) ==
-            PSPEC_OK;
-    problem.frequencies = &box;
-    if (is_box_possible &&
-        ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->limits.constraints,
-                     NULL) == PSPEC_OK &&
-        plan.chosen != NULL) {
-        const double share = 1 - chosen->seconds / plan.chosen->seconds;
-        ps_needs_rate(&job->needs, PS_SKIP_CORNERS, share > 0 ? share : 0);
+    problem.frequencies = frequencies;
+    if (ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->limits.constraints,
+                     NULL) != PSPEC_OK ||
+        plan.chosen == NULL) {
+        return -1;
+    }
+    const double share = 1 - job->plan.chosen->seconds / plan.chosen->seconds;
+    return share > 0 ? share : 0;
+}
+
+static void rate(ps_power_job *job, const char *what, pspec_status is_possible,
+                 const ps_frequencies *frequencies) {
+    const double share = is_possible == PSPEC_OK ? find_share(job, frequencies) : -1;
+    if (share >= 0) {
+        ps_needs_rate(&job->needs, what, share);
+    }
+}
+
+void ps_power_job_rate_skips(ps_power_job *job) {
+    ps_frequencies more;
+    const ps_frequencies *const set = &job->frequencies;
+    const int32_t uncut =
+        ps_power_frequencies_uncut(job->question, job->dimension, (size_t)job->num_points);
+    if (job->plan.chosen == NULL) {
+        return;
+    }
+    if (set->kind == PS_FREQUENCIES_BALL) {
+        rate(job, PS_SKIP_CORNERS,
+             ps_frequencies_lattice(&more, job->dimension, set->max_frequency, false, NULL), &more);
+    }
+    if (uncut > set->max_frequency && set->kind == PS_FREQUENCIES_DEGREES) {
+        rate(job, job->useless,
+             ps_frequencies_degrees(&more, uncut, job->question->on_hemisphere, NULL), &more);
+    } else if (uncut > set->max_frequency) {
+        rate(job, job->useless,
+             ps_frequencies_lattice(&more, job->dimension, uncut, set->kind == PS_FREQUENCIES_BALL,
+                                    NULL),
+             &more);
     }
 }
 

@@ -18,9 +18,15 @@ static pspec_status weigh_degrees(const ps_integrand *integrand, const ps_freque
     return status;
 }
 
+static bool is_in_ball(const ps_frequencies *frequencies, size_t i) {
+    const unsigned dimension = frequencies->dimension;
+    return ps_frequency_norm2(frequencies->vectors + i * dimension, dimension) <=
+           frequencies->max_norm2;
+}
+
 /* What is held is counted as it is weighed. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                                 double *weights, double *held, ps_error *error) {
+                                 bool over_shells, double *weights, double *held, ps_error *error) {
     const double factor = ps_integrand_factor(integrand);
     const bool is_on_torus = integrand->place.where == PS_SAMPLES_TORUS;
     long double sum = 0;
@@ -28,16 +34,27 @@ pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequen
                                              weights, error)
                        : weigh_degrees(integrand, frequencies, weights, error));
     for (size_t i = 0; i < frequencies->num; i++) {
-        weights[i] *= is_on_torus ? 2 : factor;
+        const bool is_in = !over_shells || is_in_ball(frequencies, i);
+        weights[i] *= !is_in ? 0 : is_on_torus ? 2 : factor;
         sum += weights[i];
     }
     *held = (double)sum / factor;
     return PSPEC_OK;
 }
 
-/* The largest mean power of a ring or degree. */
+double ps_prediction_reach(const ps_integrand *const *integrands, size_t num, bool over_shells) {
+    const ps_integrand_place place = integrands[0]->place;
+    double reach = place.where == PS_SAMPLES_HEMISPHERE ? 2 : 1;
+    for (size_t i = 0; i < num; i++) {
+        reach = fmax(reach, ps_integrand_reach(integrands[i]));
+    }
+    return over_shells ? ceil(reach * sqrt(place.dimension)) : reach; /* the ball about the box */
+}
+
+/* The largest mean power of a ring or degree, and no less than what predictions have beyond the
+ * cut-off, which may lie below the peak. */
 static double largest_power(const ps_spectrum *spectrum) {
-    double largest = 0;
+    double largest = 1;
     for (size_t i = 0; i < spectrum->num_bins; i++) {
         largest = fmax(largest, spectrum->bins[i].power);
     }
@@ -45,13 +62,14 @@ static double largest_power(const ps_spectrum *spectrum) {
 }
 
 ps_power_beyond ps_prediction_power_beyond(const ps_sampler_request *sampler,
-                                           const ps_spectrum *spectrum) {
+                                           const ps_spectrum *spectrum, double reach) {
+    const bool matters = spectrum->frequencies.max_frequency < reach;
     if (sampler != NULL && ps_sampler_has_constant_power(sampler)) {
-        return (ps_power_beyond){1, spectrum->mean_points, true};
+        return (ps_power_beyond){1, spectrum->mean_points, true, matters};
     }
     const double most = sampler != NULL ? ps_sampler_most_power(sampler) : 0;
-    return most > 0 ? (ps_power_beyond){1, most, true}
-                    : (ps_power_beyond){1, largest_power(spectrum), false};
+    return most > 0 ? (ps_power_beyond){1, most, true, matters}
+                    : (ps_power_beyond){1, largest_power(spectrum), false, matters};
 }
 
 ps_prediction ps_prediction_make(const ps_integrand *integrand, ps_mean sum, double held,

@@ -22,16 +22,24 @@ typedef struct ps_power_beyond {
     double white; /* that of independent points with the same weights: 1 where all count the same */
     double most;
     bool is_known; /* a bound of the sampler's expected power, or N of a single set; else the
-                      largest that was measured in a ring or degree */
+                      largest that was measured in a ring or degree, at least 1 */
+    /* false: the cut-off has the reach of every integrand, and what lies beyond is rounding. The
+     * largest power was then measured in few rings, and nothing depends on it. */
+    bool matters;
 } ps_power_beyond;
 
 /* weights [frequencies->num] of the powers, so that N Var is their sum: those of both k and -k on
- * the torus, of all orders of a degree. *held is what they have of the energy of the integrand. */
+ * the torus, of all orders of a degree. Over shells, of a box, the corners beyond its rings have
+ * none. *held is what they have of the energy of the integrand. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                                 double *weights, double *held, ps_error *error) PS_MUST_CHECK;
-/* sampler NULL: of files, of which nothing is known. */
+                                 bool over_shells, double *weights, double *held,
+                                 ps_error *error) PS_MUST_CHECK;
+/* The largest |k_i|, of the ball of shells |k|, or degree that matters to any of them; infinite
+ * where there is no such. At least that of the first frequency or even degree. */
+double ps_prediction_reach(const ps_integrand *const *integrands, size_t num, bool over_shells);
+/* sampler NULL: of files, of which nothing is known; reach: as above. */
 ps_power_beyond ps_prediction_power_beyond(const ps_sampler_request *sampler,
-                                           const ps_spectrum *spectrum);
+                                           const ps_spectrum *spectrum, double reach);
 /* sum is the weighted sum, its mean and standard error over realizations. */
 ps_prediction ps_prediction_make(const ps_integrand *integrand, ps_mean sum, double held,
                                  double num_points, const ps_power_beyond *beyond);

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
+#include "jobs/variance/radial.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +11,8 @@ static pspec_status weigh(void *payload, const ps_frequencies *frequencies, doub
                           ps_error *error) {
     ps_variance_job *const job = payload;
     for (size_t i = 0; i < job->question->num_integrands; i++) {
-        PS_TRY(ps_prediction_weigh(job->integrands[i], frequencies, weights + i * frequencies->num,
-                                   &job->held[i], error));
+        PS_TRY(ps_prediction_weigh(job->integrands[i], frequencies, job->question->over_shells,
+                                   weights + i * frequencies->num, &job->held[i], error));
     }
     return PSPEC_OK;
 }
@@ -29,6 +30,27 @@ static ps_integrand_place place_of(const ps_variance_question *question, unsigne
                            : (ps_integrand_place){where, dimension};
 }
 
+static pspec_status check_integrand(const ps_variance_question *question,
+                                    const ps_integrand *integrand, ps_error *error) {
+    const bool is_on_torus = integrand->place.where == PS_SAMPLES_TORUS;
+    if (question->over_shells && !is_on_torus) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "shells are of frequencies of the torus; degrees are exact as they are");
+    }
+    if (question->over_shells && !ps_integrand_is_isotropic(integrand)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "integrand %s: its powers depend on more than |k|, and a sum over shells "
+                       "takes them from |k| alone",
+                       integrand->kind->name);
+    }
+    return !question->wants_paper || ps_integrand_is_radial(integrand)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "integrand %s: the integral of the paper is over |k| on the torus, and "
+                         "its spectrum is no function of |k|",
+                         integrand->kind->name);
+}
+
 pspec_status ps_variance_question_check(const ps_variance_question *question, ps_error *error) {
     const ps_power_question *const spectrum = &question->spectrum;
     const unsigned dimension =
@@ -40,7 +62,9 @@ pspec_status ps_variance_question_check(const ps_variance_question *question, ps
         ps_integrand *integrand = NULL;
         PS_TRY(ps_integrand_parse(&integrand, question->texts[i], place_of(question, dimension),
                                   error));
+        const pspec_status status = check_integrand(question, integrand, error);
         ps_integrand_destroy(integrand);
+        PS_TRY(status);
     }
     return PSPEC_OK;
 }
@@ -55,6 +79,7 @@ static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     PS_TRY(PS_NEW(&job->rows, num, "variances", error));
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_integrand_parse(&job->integrands[i], question->texts[i], place, error));
+        PS_TRY(check_integrand(question, job->integrands[i], error));
     }
     return PSPEC_OK;
 }
@@ -72,6 +97,18 @@ static pspec_status open_files(ps_variance_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Frequencies that matter to no integrand are left out. */
+static void find_useful(ps_variance_job *job) {
+    const ps_variance_question *const question = job->question;
+    ps_power_question *const spectrum = &job->spectrum_question;
+    job->reach = ps_prediction_reach((const ps_integrand *const *)job->integrands,
+                                     question->num_integrands, question->over_shells);
+    if (job->reach <= PS_MAX_FREQUENCY) {
+        spectrum->useful = (int32_t)job->reach;
+        spectrum->useful_why = "less than 1e-16 of the energy of every integrand is there";
+    }
+}
+
 static pspec_status prepare(ps_variance_job *job, ps_error *error) {
     job->spectrum_question = job->question->spectrum;
     job->spectrum_question.num_weighted = job->question->num_integrands;
@@ -79,6 +116,7 @@ static pspec_status prepare(ps_variance_job *job, ps_error *error) {
     job->spectrum_question.weigh_payload = job;
     PS_TRY(open_files(job, error));
     PS_TRY(parse_integrands(job, error));
+    find_useful(job);
     PS_TRY(ps_power_job_create(&job->spectrum, &job->spectrum_question, error));
     return ps_variance_trials_prepare(job, error);
 }
@@ -124,7 +162,8 @@ static double z_score(const ps_variance_row *row, bool is_moved) {
 /* A single set has at most N (sum |w|)^2/W^2 at any frequency. */
 static ps_power_beyond find_power_beyond(const ps_variance_job *job, const ps_spectrum *spectrum) {
     const double num_points = spectrum->mean_points;
-    ps_power_beyond beyond = ps_prediction_power_beyond(job->question->spectrum.sampler, spectrum);
+    ps_power_beyond beyond =
+        ps_prediction_power_beyond(job->question->spectrum.sampler, spectrum, job->reach);
     if (job->files.num > 0) { /* and no less than what predictions have there */
         beyond.white = num_points * job->files.white;
         beyond.most = fmax(beyond.most, beyond.white);
@@ -136,7 +175,7 @@ static ps_power_beyond find_power_beyond(const ps_variance_job *job, const ps_sp
     return beyond;
 }
 
-static void fill_rows(ps_variance_job *job) {
+static pspec_status fill_rows(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
     const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
     job->beyond = find_power_beyond(job, spectrum);
@@ -148,10 +187,15 @@ static void fill_rows(ps_variance_job *job) {
         }
         row->prediction = ps_prediction_make(job->integrands[i], sum, job->held[i],
                                              spectrum->mean_points, &job->beyond);
+        row->paper = NAN;
+        if (question->wants_paper) {
+            PS_TRY(ps_radial_variance(&row->paper, job->integrands[i], spectrum, error));
+        }
         row->measured = job->measured[i].mean;
         row->measured_error = job->measured[i].standard_error;
         row->z_score = z_score(row, question->is_moved);
     }
+    return PSPEC_OK;
 }
 
 pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) {
@@ -159,8 +203,7 @@ pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) {
     ps_power_job_release(job->spectrum);
     PS_TRY(ps_variance_trials_measure(job, error));
     PS_TRY(ps_variance_trials_sum_pairs(job, error));
-    fill_rows(job);
-    return PSPEC_OK;
+    return fill_rows(job, error);
 }
 
 ps_variance_trials ps_variance_job_trials(const ps_variance_job *job) {

@@ -21,6 +21,9 @@ typedef struct ps_variance_question {
     ps_power_question spectrum;
     const char *const *texts; /* of the integrands */
     size_t num_integrands;
+    /* The sum is over the exact shells of a ball instead of a box: of isotropic integrands */
+    bool over_shells;
+    bool wants_paper; /* (E-13) beside it, of integrands that are radial (jobs/variance/radial.h) */
     uint64_t num_shifts;    /* trials of each set that is measured; 0: nothing is */
     uint64_t single_shifts; /* the same of a single set of a file */
     uint64_t seed;          /* of the trials of files; a sampler has its own */
@@ -30,6 +33,7 @@ typedef struct ps_variance_question {
 /* Of one integrand. nan: there is none. */
 typedef struct ps_variance_row {
     ps_prediction prediction;
+    double paper;                    /* (E-13); nan unless it was asked for */
     double measured, measured_error; /* about the known integral; error over sets */
     double z_score;                  /* nan where sets are not moved, or nothing varies */
     double pairwise;                 /* of a single set, exactly: (V2), (S1'), (H1'); nan: none */

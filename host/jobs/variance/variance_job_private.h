@@ -13,6 +13,7 @@ struct ps_variance_job {
     double *held;              /* [num] of the energy, up to the cut-off */
     ps_mean *measured;         /* [num] */
     ps_variance_row *rows;     /* [num] */
+    double reach;              /* the largest frequency or degree that matters */
     ps_power_beyond beyond;
     ps_variance_sets files;    /* {0} of a sampler */
     ps_variance_trials trials; /* num_shifts 0: none */

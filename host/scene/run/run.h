@@ -90,8 +90,8 @@ pspec_status ps_run_prepare(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Writes all files. The record comes first: with it the folder is one of a run, whatever happens
  * next. A picture that cannot be drawn is no error: run->num_undrawn. */
 pspec_status ps_run_write(ps_run *run, ps_error *error) PS_MUST_CHECK;
-/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others, or a check found another
- * spectrum. */
+/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others, a check found another
+ * spectrum, or a cut-off leaves more open than was asked. */
 pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* ---- the steps of these ---------------------------------------------------------------------- */

@@ -121,7 +121,24 @@ static pspec_status find_differences(const ps_run *run, ps_error *error) {
     return status;
 }
 
+/* The first variance whose cut-off leaves more open than was asked. */
+static pspec_status find_missed_tail(const ps_run *run, ps_error *error) {
+    for (size_t i = 0; i < run->num_results; i++) {
+        const ps_run_result *const result = &run->results[i];
+        for (size_t q = 0; q < result->num; q++) {
+            const ps_cell verdict =
+                ps_table_find_meta(result->questions[q].answer.table, "tail_verdict");
+            if (verdict.kind == PS_CELL_TEXT && strcmp(verdict.text, "reached") != 0) {
+                return ps_fail(error, PSPEC_ERROR_CHECK, "%s: %s", result->asked->name,
+                               verdict.text);
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_run_judge(const ps_run *run, ps_error *error) {
     PS_TRY(compare_with_record(run, error));
-    return find_differences(run, error);
+    PS_TRY(find_differences(run, error));
+    return find_missed_tail(run, error);
 }

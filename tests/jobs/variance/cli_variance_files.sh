@@ -28,7 +28,7 @@ runs 0 "${few[@]}" --integrand disk --in-place sets.npy
 is realizations 10
 is measured_sets 10
 is white_power 1
-is most_power_is 'assumed: the largest that was measured'
+is most_power_is 'assumed: the largest that was measured, at least 1'
 is input_format npy
 is seed 1
 of_files=$(row | cut -d, -f1-4,6-)

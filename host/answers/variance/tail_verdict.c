@@ -1,0 +1,171 @@
+#include "answers/variance/tail_verdict.h"
+
+#include "base/memory.h"
+#include "jobs/variance/tails.h"
+#include "request/options.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The rows of all questions and what would do for them. */
+typedef struct judging {
+    const ps_request *request;
+    ps_variance_job *const *jobs;
+    size_t num_missed;
+    double cutoff;                     /* the largest that a row takes */
+    double missed_cutoff;              /* the largest that one of those that miss takes, which is */
+    size_t worst_job, worst_integrand; /* this one */
+} judging;
+
+static const ps_spectrum *spectrum_of(const judging *self, size_t job) {
+    return ps_power_job_spectrum(ps_variance_job_spectrum(self->jobs[job]));
+}
+
+static double tail_of(const ps_prediction *prediction) {
+    const double half = (prediction->upper - prediction->lower) / 2;
+    return half > 0 ? half / prediction->variance : 0;
+}
+
+double ps_variance_largest_tail(const ps_request *request, ps_variance_job *const *jobs,
+                                size_t num) {
+    double largest = 0;
+    for (size_t i = 0; i < num; i++) {
+        for (size_t k = 0; k < request->num_integrands; k++) {
+            largest = fmax(largest, tail_of(&ps_variance_job_rows(jobs[i])[k].prediction));
+        }
+    }
+    return largest;
+}
+
+/* From here on sets of samplers have the power 1, or that as a mean: the default cut-off. */
+static double white_from(const ps_spectrum *spectrum, bool is_on_torus) {
+    const double times = is_on_torus ? 5 : 4;
+    const unsigned dimension = ps_frequencies_space_dimension(&spectrum->frequencies);
+    return ceil(times * pow(spectrum->mean_points, 1.0 / dimension));
+}
+
+/* What a sampler may have between a cut-off that misses its peak and white noise: more than P15 has
+ * measured of any. */
+static const double MOST_OF_PEAKS = 4;
+
+/* The energy beyond a cut-off that would do: most T/2 <= X (sum + T). The sum can only grow with
+ * the cut-off. Nobody knows what is added between this cut-off and white noise, and then nothing
+ * is. */
+static double find_energy(const judging *self, const ps_variance_job *job, size_t integrand,
+                          const ps_tails *tails) {
+    const ps_integrand *const f = ps_variance_job_integrand(job, integrand);
+    const ps_prediction *const prediction = &ps_variance_job_rows(job)[integrand].prediction;
+    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(ps_variance_job_spectrum(job));
+    const double factor = ps_integrand_factor(f);
+    const double white = white_from(spectrum, f->place.where == PS_SAMPLES_TORUS);
+    const double cutoff = spectrum->frequencies.max_frequency;
+    const bool has_peak = cutoff >= white || beyond->is_known;
+    const double most = has_peak ? beyond->most : fmax(beyond->most, MOST_OF_PEAKS);
+    const double rest = beyond->white * factor * ps_tails_beyond(tails, fmax(cutoff, white));
+    const double sum = prediction->lower * spectrum->mean_points + rest;
+    return 2 * self->request->tail * sum / (most * factor);
+}
+
+/* Two digits, upwards, from a little more: the larger the better, but for what has nothing beyond
+ * its reach. */
+static double round_up(double cutoff, double reach) {
+    const double more = 1.05;
+    const double least = ceil(cutoff * more);
+    const double unit = pow(10, fmax(floor(log10(least)) - 1, 0));
+    const double rounded = isfinite(cutoff) ? ceil(least / unit) * unit : INFINITY;
+    return cutoff <= reach ? fmin(rounded, reach) : rounded;
+}
+
+static bool is_possible(const judging *self, double cutoff) {
+    const ps_integrand_place place = ps_variance_job_integrand(self->jobs[0], 0)->place;
+    ps_frequencies set;
+    if (place.where != PS_SAMPLES_TORUS) {
+        return cutoff <= PS_MAX_DEGREE;
+    }
+    return cutoff <= PS_MAX_FREQUENCY &&
+           ps_frequencies_lattice(&set, place.dimension, (int32_t)cutoff, false, NULL) == PSPEC_OK;
+}
+
+static void add_row(judging *self, size_t job, size_t integrand, const ps_tails *tails) {
+    const ps_variance_job *const asked = self->jobs[job];
+    const double now = spectrum_of(self, job)->frequencies.max_frequency;
+    if (tail_of(&ps_variance_job_rows(asked)[integrand].prediction) <= self->request->tail) {
+        self->cutoff = fmax(self->cutoff, now);
+        return;
+    }
+    const double energy = find_energy(self, asked, integrand, tails);
+    const double found = fmax(ps_tails_find(tails, energy), now + 1);
+    const double cutoff =
+        round_up(found, ps_integrand_reach(ps_variance_job_integrand(asked, integrand)));
+    if (self->num_missed == 0 || cutoff > self->missed_cutoff) {
+        self->missed_cutoff = cutoff;
+        self->worst_job = job;
+        self->worst_integrand = integrand;
+    }
+    self->num_missed++;
+    self->cutoff = fmax(self->cutoff, cutoff);
+}
+
+/* Of all questions: they have the same integrands. */
+static pspec_status add_integrand(judging *self, size_t num, size_t integrand, ps_error *error) {
+    ps_tails *tails = NULL;
+    const bool over_shells = self->request->frequencies.bins.kind == PS_BINS_SHELLS;
+    PS_TRY(ps_tails_create(&tails, ps_variance_job_integrand(self->jobs[0], integrand), over_shells,
+                           error));
+    for (size_t i = 0; i < num; i++) {
+        add_row(self, i, integrand, tails);
+    }
+    ps_tails_destroy(tails);
+    return PSPEC_OK;
+}
+
+/* "half of upper - lower of disk by white at N = 64 is 0.12 of predicted, above --tail 0.01; about
+ * -k 1300 would do" */
+static void describe(const judging *self, ps_text *out) {
+    const ps_request *const request = self->request;
+    const ps_spectrum *const spectrum = spectrum_of(self, self->worst_job);
+    const bool on_torus = spectrum->frequencies.kind != PS_FREQUENCIES_DEGREES;
+    const ps_option_id id = on_torus ? PS_OPTION_MAX_FREQUENCY : PS_OPTION_MAX_DEGREE;
+    const ps_prediction *const prediction =
+        &ps_variance_job_rows(self->jobs[self->worst_job])[self->worst_integrand].prediction;
+    const char *const sampler = ps_request_sampler(request, self->worst_job);
+    ps_text_append(out,
+                   "half of upper - lower of %s by %s at N = %.10g is %.3g of predicted, above %s "
+                   "%g",
+                   request->integrands[self->worst_integrand],
+                   sampler != NULL ? sampler : request->files[0], spectrum->mean_points,
+                   tail_of(prediction), ps_option_show(request, PS_OPTION_TAIL).text,
+                   request->tail);
+    if (self->num_missed > 1) {
+        ps_text_append(out, ", and %zu rows are above it", self->num_missed);
+    }
+    if (is_possible(self, self->cutoff)) {
+        ps_text_append(out, "; about %s %.0f would do%s",
+                       request->is_given[id] ? ps_option_show(request, id).text
+                       : on_torus            ? "-k"
+                                             : "-l",
+                       self->cutoff, self->num_missed > 1 ? " for all rows" : "");
+    } else {
+        ps_text_append(out, "; no cut-off that can be computed would do");
+    }
+}
+
+pspec_status ps_variance_judge_tails(ps_error *verdict, const ps_request *request,
+                                     ps_variance_job *const *jobs, size_t num, ps_error *error) {
+    judging self = {.request = request, .jobs = jobs};
+    ps_text sentence = {0};
+    if (request->tail == 0 || ps_variance_largest_tail(request, jobs, num) <= request->tail) {
+        return PSPEC_OK;
+    }
+    for (size_t k = 0; k < request->num_integrands; k++) {
+        PS_TRY(add_integrand(&self, num, k, error));
+    }
+    describe(&self, &sentence);
+    const pspec_status status = ps_text_check(&sentence, error);
+    if (status == PSPEC_OK) {
+        ps_fail(verdict, PSPEC_ERROR_TOLERANCE, "%s", ps_text_string(&sentence));
+    }
+    ps_text_free(&sentence);
+    return status;
+}
