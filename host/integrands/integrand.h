@@ -28,8 +28,10 @@ typedef struct ps_integrand_place {
 /* What the integrands of one name have in common. Members may be NULL where it says so. */
 typedef struct ps_integrand_kind {
     const char *name;
-    const char *aliases;  /* separated by blanks; NULL: none */
-    const char *summary;  /* one line, for help */
+    const char *aliases; /* separated by blanks; NULL: none */
+    const char *summary; /* one line, for help */
+    /* "ball": ball_value of kernels/integrands/ball.h has its values; NULL: the host has them. */
+    const char *kernel;
     unsigned domains;     /* bits PS_INTEGRAND_ON(ps_sampler_domain) */
     unsigned least, most; /* dimensions of the torus that it has; 0: not on the torus */
     ps_parameter parameters[PS_MAX_INTEGRAND_PARAMETERS + 1]; /* ended by key NULL */

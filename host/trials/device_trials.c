@@ -3,18 +3,16 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "base/text.h"
-#include "device/kernel_source.h"
 #include "device/reals.h"
 #include "engines/engine.h"
 #include "integrands/values.h"
 #include "math/neumaier.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORD_BYTES = 64, AXES = 3 };
+enum { AXES = 3 };
 
 struct ps_device_trials {
     const ps_integrand *integrand;
@@ -31,55 +29,16 @@ struct ps_device_trials {
 
 /* ---- which kernel ---------------------------------------------------------------------------- */
 
-static bool is_source(const char *name) {
-    for (const ps_kernel_source *source = ps_kernel_sources; source->name != NULL; source++) {
-        if (strcmp(source->name, name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Whether the first `length` letters name a header; name is then what its function begins with. */
-static bool is_kernel(const char *word, size_t length, char name[WORD_BYTES]) {
-    char path[2 * WORD_BYTES];
-    if (length >= WORD_BYTES) {
-        return false;
-    }
-    for (size_t i = 0; i < length; i++) {
-        name[i] = word[i] == '-' ? '_' : word[i];
-    }
-    name[length] = '\0';
-    snprintf(path, sizeof path, "integrands/%s.h", name);
-    return is_source(path);
-}
-
-static bool find_kernel(const ps_integrand_kind *kind, char name[WORD_BYTES]) {
-    const char *word = kind->aliases != NULL ? kind->aliases : "";
-    bool is_found = is_kernel(kind->name, strlen(kind->name), name);
-    while (!is_found && *word != '\0') {
-        const size_t length = strcspn(word, " ");
-        is_found = is_kernel(word, length, name);
-        word += length + strspn(word + length, " ");
-    }
-    return is_found;
-}
-
 bool ps_device_trials_has(const ps_integrand *integrand) {
-    char name[WORD_BYTES];
-    return find_kernel(integrand->kind, name);
+    return integrand->kind->kernel != NULL;
 }
 
 static pspec_status create_kernel(ps_device_trials *self, ps_error *error) {
     const ps_integrand_place place = self->integrand->place;
-    char name[WORD_BYTES];
     ps_text options = {0};
-    if (!find_kernel(self->integrand->kind, name)) {
-        return ps_fail(error, PSPEC_ERROR_BUILD, "integrand %s has no kernel",
-                       self->integrand->kind->name);
-    }
-    ps_text_append(&options, "-DINTEGRAND=%s -DPRECISION=%zu -DLANES=%u -DDIMENSION=%u", name,
-                   8 * ps_real_bytes(self->options.precision), self->lanes, place.dimension);
+    ps_text_append(&options, "-DINTEGRAND=%s -DPRECISION=%zu -DLANES=%u -DDIMENSION=%u",
+                   self->integrand->kind->kernel, 8 * ps_real_bytes(self->options.precision),
+                   self->lanes, place.dimension);
     ps_text_append(&options, " -DROTATE=%d -DFOLD=%d", place.where != PS_SAMPLES_TORUS,
                    place.where == PS_SAMPLES_HEMISPHERE);
     pspec_status status = ps_text_check(&options, error);

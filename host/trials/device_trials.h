@@ -6,8 +6,7 @@
 
 typedef struct ps_device_trials ps_device_trials;
 
-/* Whether there is a kernel for the integrand: a header integrands/WORD.h below kernels/, WORD its
- * name or one of its aliases with _ for -. */
+/* Whether there is a kernel for the integrand. */
 bool ps_device_trials_has(const ps_integrand *integrand);
 
 pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand *integrand,

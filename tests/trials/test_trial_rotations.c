@@ -5,6 +5,8 @@
 #include "trials/trials.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static ps_device *device;
 static uint64_t seed = 12;
@@ -20,9 +22,9 @@ static void wave_values(const ps_integrand *self, const double *points, size_t n
     }
 }
 
-static const ps_integrand_kind wave_on_sphere = {.name = "wave", .values = wave_values};
-/* No header of kernels/ has that name. */
-static const ps_integrand_kind without_kernel = {.name = "some-thing", .values = wave_values};
+static const ps_integrand_kind wave_on_sphere = {
+    .name = "some-thing", .kernel = "wave", .values = wave_values};
+static const ps_integrand_kind without_kernel = {.name = "wave", .values = wave_values};
 
 /* A quarter turn about each axis, and one of no simple angle. */
 static const double rotations[][9] = {{1, 0, 0, 0, 0, -1, 0, 1, 0},
@@ -101,8 +103,51 @@ static void rotations_and_halves(void **state) {
     }
 }
 
+/* Estimates of the device and of the host, in doubles. */
+static void check_values(const char *text) {
+    const ps_integrand_place place = {PS_SAMPLES_SPHERE, 3};
+    const ps_trials_options options = {PS_DOUBLE, 1, SPHERE_POINTS, NUM_ROTATIONS};
+    double points[3 * SPHERE_POINTS];
+    const pspec_pattern pattern = {3, SPHERE_POINTS, points, NULL};
+    double found[2][NUM_ROTATIONS];
+    ps_integrand *integrand = NULL;
+    make_unit_vectors(points);
+    assert_ok(ps_integrand_parse(&integrand, text, place, error));
+    for (size_t i = 0; i < 2; i++) {
+        ps_trials *trials = NULL;
+        assert_ok(ps_trials_create(&trials, integrand, &options, i == 0 ? NULL : device, error));
+        assert_true(ps_trials_is_on_device(trials) == (i == 1));
+        assert_ok(ps_trials_run(trials, &pattern, 1, rotations[0], found[i], error));
+        ps_trials_destroy(trials);
+    }
+    for (size_t t = 0; t < NUM_ROTATIONS; t++) {
+        assert_true(fabs(found[1][t] - found[0][t]) <= 1e-13 * fmax(1, fabs(found[0][t])));
+    }
+    ps_integrand_destroy(integrand);
+}
+
+static void kernels_of_rows_have_their_values(void **state) {
+    const size_t least = 8;
+    size_t num = 0;
+    (void)state;
+    for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
+        const ps_integrand_kind *const kind = ps_integrand_kinds[i];
+        if (kind->kernel != NULL && (kind->domains & PS_INTEGRAND_ON(PS_SAMPLES_SPHERE)) != 0 &&
+            ps_device_get_limits(device)->has_fp64) {
+            char text[64];
+            const bool needs_exponent =
+                strcmp(kind->name, "glossy") == 0 || strcmp(kind->name, "phong") == 0;
+            snprintf(text, sizeof text, "%s%s", kind->name, needs_exponent ? ":n=30" : "");
+            check_values(text);
+            num++;
+        }
+    }
+    assert_true(num >= least || !ps_device_get_limits(device)->has_fp64);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rotations_and_halves)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rotations_and_halves),
+                                       cmocka_unit_test(kernels_of_rows_have_their_values)};
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("trial_rotations", tests, NULL, NULL);
     ps_device_close(device);

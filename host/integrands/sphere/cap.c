@@ -98,6 +98,7 @@ PS_INTEGRAND_VALUES(cap_value)
 const ps_integrand_kind ps_integrand_cap = {
     .name = "cap",
     .summary = "1 in a cap of the sphere or the hemisphere",
+    .kernel = "cap",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {{"angle", "1.0471975511965976",
                     "half-angle in radians, above 0, below pi; of the hemisphere pi/2 at most"},

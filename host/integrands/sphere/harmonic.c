@@ -62,6 +62,7 @@ PS_INTEGRAND_VALUES(harmonic_value)
 const ps_integrand_kind ps_integrand_harmonic = {
     .name = "harmonic",
     .summary = "the harmonic Y_l0 about an axis",
+    .kernel = "harmonic",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {{"degree", "4", "l, 1 to 1000; of the hemisphere even"}, PS_INTEGRAND_AXIS},
     .create = create,

@@ -116,6 +116,7 @@ PS_INTEGRAND_VALUES(lobe_value)
 const ps_integrand_kind ps_integrand_lobe = {
     .name = "lobe",
     .summary = "e^{n(z-1)}, z the cosine to an axis; 1 at its top",
+    .kernel = "lobe",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {{"n", "30", "exponent, 0.001 to 1e6"}, PS_INTEGRAND_AXIS},
     .create = create,

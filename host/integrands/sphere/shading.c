@@ -95,6 +95,7 @@ PS_INTEGRAND_VALUES_AS(give_diffuse, diffuse_value)
 const ps_integrand_kind ps_integrand_diffuse = {
     .name = "diffuse",
     .summary = PS_DIFFUSE_SUMMARY "; divided by its integral",
+    .kernel = "diffuse",
     .domains = PS_INTEGRAND_ROUND,
     .create = create_diffuse,
     .destroy = destroy,
@@ -139,6 +140,7 @@ PS_INTEGRAND_VALUES_AS(give_glossy, glossy_value)
 const ps_integrand_kind ps_integrand_glossy = {
     .name = "glossy",
     .summary = PS_GLOSSY_SUMMARY "; divided by its integral",
+    .kernel = "glossy",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_EXPONENT_PARAMETER, PS_CUT_PARAMETER},
     .create = create_glossy,
@@ -173,6 +175,7 @@ PS_INTEGRAND_VALUES_AS(give_phong, phong_value)
 const ps_integrand_kind ps_integrand_phong = {
     .name = "phong",
     .summary = PS_PHONG_SUMMARY "; divided by its integral",
+    .kernel = "phong",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_EXPONENT_PARAMETER},
     .create = create_phong,

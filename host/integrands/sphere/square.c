@@ -48,6 +48,7 @@ PS_INTEGRAND_VALUES(square_value)
 const ps_integrand_kind ps_integrand_square = {
     .name = "square",
     .summary = "the square of the cosine to an axis",
+    .kernel = "square",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_INTEGRAND_AXIS},
     .create = create,

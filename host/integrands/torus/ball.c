@@ -103,6 +103,7 @@ const ps_integrand_kind ps_integrand_ball = {
     .name = "disk",
     .aliases = "ball interval",
     .summary = "1 inside of a disk or ball of the torus",
+    .kernel = "ball",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS),
     .least = 1,
     .most = PS_MAX_DIMENSION,

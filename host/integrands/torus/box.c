@@ -68,6 +68,7 @@ PS_INTEGRAND_VALUES(box_value)
 const ps_integrand_kind ps_integrand_box = {
     .name = "box",
     .summary = "1 inside of a box with its sides along the axes",
+    .kernel = "box",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS),
     .least = 1,
     .most = PS_MAX_DIMENSION,

@@ -65,6 +65,7 @@ PS_INTEGRAND_VALUES(constant_value)
 const ps_integrand_kind ps_integrand_constant = {
     .name = "constant",
     .summary = "the same everywhere; its variance is 0",
+    .kernel = "constant",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS) | PS_INTEGRAND_ON(PS_SAMPLES_SPHERE) |
                PS_INTEGRAND_ON(PS_SAMPLES_HEMISPHERE),
     .least = 1,

@@ -203,6 +203,7 @@ const ps_integrand_kind ps_integrand_gaussian = {
     .name = "gaussian",
     .aliases = "gauss",
     .summary = "exp(-|x - c|^2/(2 sigma^2)), summed over its periodic images",
+    .kernel = "gaussian",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS),
     .least = 1,
     .most = PS_MAX_DIMENSION,

@@ -108,6 +108,7 @@ const ps_integrand_kind ps_integrand_half_plane = {
     .name = "half-plane",
     .aliases = "step",
     .summary = "1 where n.x is below an offset in the cell [0,1)^2",
+    .kernel = "half_plane",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS),
     .least = 2,
     .most = 2,

@@ -79,6 +79,7 @@ const ps_integrand_kind ps_integrand_wave = {
     .name = "wave",
     .aliases = "cosine",
     .summary = "cos(2 pi (k.x + phase))",
+    .kernel = "wave",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS),
     .least = 1,
     .most = PS_MAX_DIMENSION,
