@@ -24,7 +24,9 @@ struct ps_device_trials {
     ps_buffer points, weights, pieces, moves, sums;
     values_piece *host_pieces;
     double *host_moves, *host_sums;
-    int *host_exponents; /* of the weights of each set */
+    int *host_exponents;  /* of the weights of each set */
+    size_t *sizes_of_one; /* points of sets whose weights there are all 1, as they lie there */
+    size_t num_of_one;    /* such sets; 0 where other weights are there */
 };
 
 /* ---- which kernel ---------------------------------------------------------------------------- */
@@ -79,6 +81,7 @@ static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->host_pieces, self->most_pieces, "pieces of sets", error));
     PS_TRY(PS_NEW(&self->host_moves, self->most_moves, "moves of trials", error));
     PS_TRY(PS_NEW(&self->host_exponents, self->options.batch, "sizes of weights", error));
+    PS_TRY(PS_NEW(&self->sizes_of_one, self->options.batch, "sizes of sets", error));
     PS_TRY(PS_NEW(&self->host_sums, 2 * num_sums, "sums of trials", error));
     PS_TRY(ps_buffer_create(self->device, &self->points, self->axis_numbers * point_bytes, "points",
                             error));
@@ -143,6 +146,7 @@ void ps_device_trials_destroy(ps_device_trials *trials) {
     free(trials->host_moves);
     free(trials->host_sums);
     free(trials->host_exponents);
+    free(trials->sizes_of_one);
     free(trials);
 }
 
@@ -218,6 +222,27 @@ static void put_weights(ps_device_trials *self, void *to, const pspec_pattern *p
             (putting){weights != NULL ? weights : &one, weights != NULL, num,
                       ldexp(1, -self->host_exponents[r])});
         at += ps_round_up(num, self->lanes);
+    }
+}
+
+/* Are weights of 1 there already, from sets of the same sizes? */
+static bool has_weights(const ps_device_trials *self, const pspec_pattern *patterns,
+                        size_t num_patterns) {
+    for (size_t r = 0; r < num_patterns; r++) {
+        if (r >= self->num_of_one || patterns[r].weights != NULL ||
+            patterns[r].num_points != self->sizes_of_one[r]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void note_weights(ps_device_trials *self, const pspec_pattern *patterns,
+                         size_t num_patterns) {
+    self->num_of_one = num_patterns;
+    for (size_t r = 0; r < num_patterns; r++) {
+        self->sizes_of_one[r] = patterns[r].num_points;
+        self->num_of_one = patterns[r].weights != NULL ? 0 : self->num_of_one;
     }
 }
 
@@ -325,7 +350,11 @@ pspec_status ps_device_trials_sums(ps_device_trials *trials, const pspec_pattern
                            num_pieces * sizeof *self->host_pieces, error));
     PS_TRY(write_moves(self, num_patterns * self->options.num_trials, moves, error));
     PS_TRY(fill(self, &self->points, put_points, patterns, num_patterns, error));
-    PS_TRY(fill(self, &self->weights, put_weights, patterns, num_patterns, error));
+    if (!has_weights(self, patterns, num_patterns)) {
+        self->num_of_one = 0;
+        PS_TRY(fill(self, &self->weights, put_weights, patterns, num_patterns, error));
+        note_weights(self, patterns, num_patterns);
+    }
     PS_TRY(launch(self, num_pieces, error));
     PS_TRY(ps_reals_read(self->device, &self->sums, self->options.precision, self->host_sums,
                          2 * num_pieces * self->options.num_trials, error));

@@ -4,14 +4,20 @@
 #define PS_INTEGRANDS_GAUSSIAN_H
 
 #include "integrands/fold.h"
+#include "shared/two_to.h"
 
-/* Places among the numbers. IMAGES: how many on each side of the nearest are added up. */
-enum { GAUSSIAN_CENTRE = 0, GAUSSIAN_RATE = 6, GAUSSIAN_IMAGES = 7 }; /* rate: 1/(2 sigma^2) */
+/* Places among the numbers. RATE: 1/(2 sigma^2). IMAGES: how many on each side of the nearest are
+ * added up. RATIO: exp(-2 rate). */
+enum { GAUSSIAN_CENTRE = 0, GAUSSIAN_RATE = 6, GAUSSIAN_IMAGES = 7, GAUSSIAN_RATIO = 8 };
 
-#if defined __OPENCL_C_VERSION__ && LANES > 1
-#define ANY_BELOW(x, limit) any((x) < (realv)(limit))
+/* Takes points of any cell. */
+#define gaussian_folds 1
+
+/* exp(-rate x). On the host, which is the referee of the device, by libm. */
+#ifdef __OPENCL_C_VERSION__
+#define GAUSSIAN_FALL(rate, x) two_to((x) * (realv)(-(rate) * (real)TWO_TO_LOG2E))
 #else
-#define ANY_BELOW(x, limit) ((x) < (limit))
+#define GAUSSIAN_FALL(rate, x) exp(-(rate) * (x))
 #endif
 
 /* Beyond that exponent there is nothing beside a height of 1: 3e-17, in single precision 1.5e-8. */
@@ -21,20 +27,25 @@ enum { GAUSSIAN_CENTRE = 0, GAUSSIAN_RATE = 6, GAUSSIAN_IMAGES = 7 }; /* rate: 1
 #define GAUSSIAN_NOTHING ((real)18)
 #endif
 
-/* The images of an axis over the nearest: (n -+ f)^2 - f^2 = n (n -+ 2 f), f = |x - c|. For most
- * points, and vectors of few of them, none but the nearest is near enough to count. Those at the
- * other side are n and more away. */
-static inline realv gaussian_images(const realv difference, const real rate, const real images) {
+/* The images of an axis over the nearest: (n -+ f)^2 - f^2 = n (1 -+ 2 f) + n (n - 1), f = |x - c|,
+ * so that those of n = 1 on either side give all others by products. On the other side of the
+ * point they are 1 and more away. */
+static inline realv gaussian_images(const realv difference, const real *numbers) {
+    const real rate = numbers[GAUSSIAN_RATE];
     const realv far = fabs(difference);
-    realv sum = 1;
-    for (real n = 1; n <= images; n += 1) {
-        const realv near = n - far;
-        if (ANY_BELOW(rate * near * near, GAUSSIAN_NOTHING)) {
-            sum += exp(-rate * n * (n - 2 * far));
-        }
-        if (rate * n * n < GAUSSIAN_NOTHING) {
-            sum += exp(-rate * n * (n + 2 * far));
-        }
+    const realv near_side = GAUSSIAN_FALL(rate, 1 - 2 * far);
+    realv other_side = 0;
+    if (rate < GAUSSIAN_NOTHING) {
+        other_side = GAUSSIAN_FALL(rate, 1 + 2 * far);
+    }
+    realv near = near_side, other = other_side, sum = 1 + (near_side + other_side);
+    real power = 1, factor = 1;
+    for (real n = 2; n <= numbers[GAUSSIAN_IMAGES]; n += 1) {
+        power *= numbers[GAUSSIAN_RATIO];
+        factor *= power;
+        near *= near_side;
+        other *= other_side;
+        sum += factor * (near + other);
     }
     return sum;
 }
@@ -46,7 +57,7 @@ static inline realv gaussian_nearest(const realv *x, const unsigned dimension,
         const realv difference = fold_difference(x[i], numbers[GAUSSIAN_CENTRE + i]);
         norm2 += difference * difference;
     }
-    return exp(-numbers[GAUSSIAN_RATE] * norm2);
+    return GAUSSIAN_FALL(numbers[GAUSSIAN_RATE], norm2);
 }
 
 static inline realv gaussian_value(const realv *x, const unsigned dimension, const real *numbers) {
@@ -55,8 +66,8 @@ static inline realv gaussian_value(const realv *x, const unsigned dimension, con
     realv product = gaussian_nearest(x, dimension, numbers);
     if (numbers[GAUSSIAN_IMAGES] >= (real)1 && rate * side * side < GAUSSIAN_NOTHING) {
         FOR_AXES(unsigned i = 0; i < dimension; i++) {
-            product *= gaussian_images(fold_difference(x[i], numbers[GAUSSIAN_CENTRE + i]), rate,
-                                       numbers[GAUSSIAN_IMAGES]);
+            product *=
+                gaussian_images(fold_difference(x[i], numbers[GAUSSIAN_CENTRE + i]), numbers);
         }
     }
     return product;

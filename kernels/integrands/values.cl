@@ -14,7 +14,8 @@
  *   moves    [set][trial][MOVE_NUMBERS]: tau in [0,1), or R row by row
  *   sums     [piece][trial][high, low]
  *
- * INTEGRAND=ball takes ball_value of integrands/ball.h. A new integrand is an #include here. With
+ * INTEGRAND=ball takes ball_value of integrands/ball.h. A new integrand is an #include here. Where
+ * ball_folds is 1 there, points are x + tau in [0,2), else in [0,1). With
  * FOLD a point of the lower half of the sphere becomes its opposite, after the rotation.
  *
  * In single precision a coordinate is off by up to 6e-8, half of it from the point and half from
@@ -60,6 +61,7 @@
 
 #define MOVE_NUMBERS (ROTATE ? 9 : DIMENSION)
 #define VALUE PS_JOIN(INTEGRAND, _value)
+#define FOLDS PS_JOIN(INTEGRAND, _folds) /* 0 where it is not defined */
 
 #if PRECISION == 64
 typedef values_doubles integrand_numbers;
@@ -79,12 +81,15 @@ static inline __attribute__((always_inline)) void move_points(realv *x, const re
     }
 }
 #else
-/* Of numbers that may have been rounded to 1, and their sum to 2: less 1 twice. */
 static inline __attribute__((always_inline)) void move_points(realv *x, const real *move) {
     FOR_AXES(uint i = 0; i < DIMENSION; i++) {
-        realv sum = x[i] + move[i];
-        sum -= sum >= (realv)1 ? (realv)1 : (realv)0;
-        x[i] = sum - (sum >= (realv)1 ? (realv)1 : (realv)0);
+        x[i] += move[i];
+#if !FOLDS
+        x[i] -= x[i] >= (realv)1 ? (realv)1 : (realv)0;
+#if PRECISION == 32 /* numbers may have been rounded to 1, and their sum to 2 */
+        x[i] -= x[i] >= (realv)1 ? (realv)1 : (realv)0;
+#endif
+#endif
     }
 }
 #endif

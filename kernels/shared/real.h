@@ -54,8 +54,10 @@ typedef PS_VECTOR(SWORD) swordv;
 #define TO_SWORDV(x) PS_JOIN(convert_, PS_VECTOR(SWORD))(x) /* towards zero */
 #define AS_SWORDV(x) PS_JOIN(as_, PS_VECTOR(SWORD))(x)
 #define AS_WORDV(x) PS_JOIN(as_, PS_VECTOR(WORD))(x)
+#define BITS_OF(x) AS_WORDV(x) /* of a number */
+#define REAL_OF(bits) PS_JOIN(as_, PS_VECTOR(REAL))(bits)
 /* Flips the sign of x where the top bit of the word is set; the other bits must be clear. */
-#define FLIP_SIGN(x, bit) PS_JOIN(as_, PS_VECTOR(REAL))(AS_WORDV(x) ^ (bit))
+#define FLIP_SIGN(x, bit) REAL_OF(BITS_OF(x) ^ (bit))
 
 #else /* C11 */
 
@@ -82,12 +84,20 @@ typedef sword swordv;
 #define AS_SWORDV(x) ((sword)(x))
 #define AS_WORDV(x) ((word)(x))
 
-static inline real FLIP_SIGN(real x, word bit) {
+static inline word BITS_OF(real x) {
     word bits;
     memcpy(&bits, &x, sizeof bits);
-    bits ^= bit;
-    memcpy(&x, &bits, sizeof bits);
+    return bits;
+}
+
+static inline real REAL_OF(word bits) {
+    real x;
+    memcpy(&x, &bits, sizeof x);
     return x;
+}
+
+static inline real FLIP_SIGN(real x, word bit) {
+    return REAL_OF(BITS_OF(x) ^ bit);
 }
 
 #endif

@@ -143,6 +143,7 @@ static void check_gaussian(unsigned dimension, long double sigma, int images) {
     real numbers[NUMBERS] = {(real)0.9, (real)0.1, (real)0.5, 0, 1, (real)0.3};
     numbers[GAUSSIAN_RATE] = (real)(1 / (2 * sigma * sigma));
     numbers[GAUSSIAN_IMAGES] = (real)images;
+    numbers[GAUSSIAN_RATIO] = (real)expl(-2 * (long double)numbers[GAUSSIAN_RATE]);
     const long double own = sqrtl(1 / (2 * (long double)numbers[GAUSSIAN_RATE]));
     const long double top = powl(wide_gaussian(0, 0, own), dimension);
     for (int j = 0; j < POINTS; j++) {

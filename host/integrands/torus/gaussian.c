@@ -43,6 +43,7 @@ static pspec_status create(ps_integrand *self, const char *const *values, ps_err
     self->own = cut ? self : NULL;
     self->numbers[GAUSSIAN_RATE] = 0.5 / (sigma * sigma);
     self->numbers[GAUSSIAN_IMAGES] = cut ? 0 : num_images(sigma);
+    self->numbers[GAUSSIAN_RATIO] = exp(-2 * self->numbers[GAUSSIAN_RATE]);
     return PSPEC_OK;
 }
 
