@@ -72,6 +72,13 @@ table_published_sets() {
     need pointspec &&
         "$docs/scripts/published_sets.sh" "$build/pointspec" "${POINTSPEC_TEST_DATA:-$docs/../../shared/data}" 2>/dev/null
 }
+# Some minutes altogether; FPO takes most.
+variance_table() { # NAME
+    need pointspec && "$docs/scripts/variance_tables.sh" "$build/pointspec" "$1"
+}
+table_variance_laws() { variance_table laws; }
+table_variance_scores() { variance_table scores; }
+table_variance_crossovers() { variance_table crossovers; }
 table_needs_times() { need pointspec && "$docs/scripts/needs_times.sh" "$build/pointspec"; }
 
 # Rows on the Pareto fronts of pointspec bench. Also for the picture of make_figures.sh, which wants the same run.

@@ -9,6 +9,7 @@
 #ifndef PS_ANSWERS_KIND_H
 #define PS_ANSWERS_KIND_H
 
+#include "answers/chart.h"
 #include "answers/plan_table.h"
 #include "base/watch.h"
 #include "device/device.h"
@@ -120,6 +121,9 @@ typedef struct ps_result_kind {
     const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */
     /* Header entries against each other where numbers of points vary; NULL: none */
     const ps_line_kind *convergence;
+    /* A picture of the rows of many answers, against numbers of points or not; NULL: none */
+    pspec_status (*chart)(const ps_chart *chart, ps_error *error);
+    bool has_few_rows; /* pages show all of them, before the summary */
     /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
      * infinite where one has what the other lacks. */
     double (*compare)(const ps_table *a, const ps_table *b);

@@ -162,11 +162,14 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
             const ps_series *const series = &panel->series[j];
             add_text(key, series->formula);
             add_text(key, series->label);
-            ps_text_append(key, "%zu %d %zu\n", series->kind, series->is_front, series->num);
+            ps_text_append(key, "%zu %d %d %zu\n", series->kind, series->is_front,
+                           (int)series->look, series->num);
             add_numbers(key, series->x, series->num);
             add_numbers(key, series->y, series->num);
             add_numbers(key, series->error, series->num);
-            add_numbers(key, series->lower, series->num);
+            add_numbers(key, series->anisotropy, series->num);
+            add_numbers(key, series->low, series->num);
+            add_numbers(key, series->high, series->num);
         }
     }
     if (figure->frames != NULL) {

@@ -8,20 +8,32 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* How a series of a frame looks; other figures do not look at it. */
+typedef enum ps_look {
+    PS_LOOK_LINE,  /* marks that a line joins */
+    PS_LOOK_CURVE, /* a line without marks, on the band from `low` to `high` if there is one */
+    PS_LOOK_MARKS, /* marks that nothing joins, with bars of `error` up and down if there are any */
+    PS_LOOK_REFERENCE /* a thin grey line of dashes, to compare others with */
+} ps_look;
+
 /* Places of one thing in a panel; nan is a gap. Where axes are logarithmic what is not above 0 is a
  * gap, too. */
 typedef struct ps_series {
     const char *formula; /* in gnuplot's enhanced text, "d@_l^2", before the label; NULL: none */
-    const char *label;   /* NULL: none */
+    const char *label;   /* NULL: none; in a frame, the key does not have it */
     /* From 0; series of a kind look the same, and have the same label, in every panel */
     size_t kind;
     bool is_front; /* among marks: joined by a line, in grey, instead of marked */
     size_t num;
     const double *x, *y;
-    const double *error, *lower; /* of spectra: standard errors, and anisotropy in dB; else NULL */
+    const double *error;      /* standard errors, of spectra and of marks; else NULL */
+    const double *anisotropy; /* of spectra, in dB; else NULL */
+    const double *low, *high; /* the band of a curve; NULL: none */
+    ps_look look;
 } ps_series;
 
-/* Appends the slope of a line whose axes are logarithmic to its label, "label: slope -0.5". */
+/* Appends the slope of a line whose axes are logarithmic to its label, "label: slope -0.5"; nothing
+ * where it has none, as of a single place. */
 void ps_series_say_slope(const ps_series *series, ps_text *label);
 
 typedef struct ps_panel {
@@ -64,7 +76,9 @@ typedef enum ps_figure_form {
      * image beside it; on the sphere the powers once more with logarithmic axes instead. It labels
      * its axes itself. */
     PS_FIGURE_SPECTRA,
-    PS_FIGURE_FRAME, /* one panel of lines, with the key below it */
+    /* Panels side by side, each with axes and a key of its own, which stands below it. One panel
+     * has the page for itself. */
+    PS_FIGURE_FRAME,
     /* Panels of lines, three in a row, with the same axes and one key for all of them. */
     PS_FIGURE_PANELS,
     PS_FIGURE_MARKS, /* the same of marks that nothing joins, each panel with axes of its own */

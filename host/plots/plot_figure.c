@@ -6,14 +6,18 @@
 
 /* ---- data ----------------------------------------------------------------------------------- */
 
+/* Columns 1 and 2 are x and y; where there is more, 3 is the error, 4 the anisotropy, 5 and 6 are
+ * the ends of the band, NaN for what there is not. */
 static void print_series(const ps_figure *figure, const ps_series *series, FILE *stream) {
+    const double *const more[] = {series->error, series->anisotropy, series->low, series->high};
+    const bool has_more = series->error != NULL || series->anisotropy != NULL ||
+                          (series->low != NULL && series->high != NULL);
     for (size_t place = 0; place < series->num; place++) {
         const bool is_shown = ps_script_is_shown(figure, series, place);
         ps_script_print_value(series->x[place], stream);
         ps_script_print_value(is_shown ? series->y[place] : NAN, stream);
-        if (series->error != NULL) {
-            ps_script_print_value(series->error[place], stream);
-            ps_script_print_value(series->lower[place], stream);
+        for (size_t i = 0; has_more && i < sizeof more / sizeof more[0]; i++) {
+            ps_script_print_value(more[i] != NULL ? more[i][place] : NAN, stream);
         }
         putc('\n', stream);
     }
@@ -70,6 +74,9 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
     if (figure->form == PS_FIGURE_PANELS || figure->form == PS_FIGURE_MARKS) {
         ps_script_size_panels(figure, &width, &height);
     }
+    if (figure->form == PS_FIGURE_FRAME) {
+        ps_script_size_frames(figure, &width, &height);
+    }
     if (figure->form == PS_FIGURE_POINTS) {
         ps_script_size_points(figure, &width, &height);
     }
@@ -80,7 +87,7 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
         PS_TRY(ps_script_print_spectra(figure, stream, error));
         break;
     case PS_FIGURE_FRAME:
-        ps_script_print_frame(figure, stream);
+        ps_script_print_frames(figure, stream);
         break;
     case PS_FIGURE_PANELS:
     case PS_FIGURE_MARKS:

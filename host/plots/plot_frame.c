@@ -1,22 +1,111 @@
-/* The gnuplot script of a frame: lines in one panel. */
+/* The gnuplot script of frames: panels side by side, each with its key below it. */
 #include "plots/plot_script.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Rounding leaves numbers far below all that matter; an axis that shows them shows nothing else. */
-static double find_least(const ps_panel *panel) {
-    const double digits = 1e-16;
-    double most = 0;
+/* In pixels. A panel among others is smaller than one alone, and the page has a line for the
+ * title. */
+enum {
+    MOST_COLUMNS = 3,
+    WIDTH = 720,
+    HEIGHT = 640,
+    HEAD = 40,
+    LEFT = 95,
+    RIGHT = 15,
+    ABOVE = 56,
+    ABOVE_AMONG_OTHERS = 30,
+    BELOW = 77 /* numbers and label of the axis */
+};
+static const double KEY_ROW = 23.1;
+
+/* ---- where things are ------------------------------------------------------------------------ */
+
+/* Four are two rows of two. */
+static size_t num_columns(const ps_figure *figure) {
+    return figure->num_panels == 4             ? 2
+           : figure->num_panels < MOST_COLUMNS ? figure->num_panels
+                                               : MOST_COLUMNS;
+}
+
+void ps_script_size_frames(const ps_figure *figure, int *width, int *height) {
+    const size_t columns = num_columns(figure);
+    if (figure->num_panels > 1) {
+        *width = (int)columns * WIDTH;
+        *height = HEAD + HEIGHT * (int)((figure->num_panels + columns - 1) / columns);
+    }
+}
+
+/* The cell of a panel, in pixels from the upper left corner of the page. */
+typedef struct cell {
+    double x, y, width, height, above;
+    double page_width, page_height;
+} cell;
+
+static cell find_cell(const ps_figure *figure, size_t index) {
+    int width = PS_SCRIPT_WIDTH;
+    int height = PS_SCRIPT_HEIGHT;
+    ps_script_size_frames(figure, &width, &height);
+    if (figure->num_panels <= 1) {
+        return (cell){0, 0, width, height, ABOVE, width, height};
+    }
+    const size_t columns = num_columns(figure);
+    return (cell){(double)(index % columns) * WIDTH,
+                  HEAD + (double)(index / columns) * HEIGHT,
+                  WIDTH,
+                  HEIGHT,
+                  ABOVE_AMONG_OTHERS,
+                  width,
+                  height};
+}
+
+/* ---- ranges ---------------------------------------------------------------------------------- */
+
+/* The smallest number above a limit, infinite where there is none, and the largest. */
+static double find_least(const ps_panel *panel, double limit) {
     double least = INFINITY;
     for (size_t i = 0; i < panel->num_series; i++) {
         for (size_t k = 0; k < panel->series[i].num; k++) {
             const double y = panel->series[i].y[k];
-            most = isfinite(y) ? fmax(most, y) : most;
-            least = y > 0 ? fmin(least, y) : least;
+            least = y > limit ? fmin(least, y) : least;
         }
     }
-    return least < most * digits ? most * digits : 0;
+    return least;
+}
+
+static double find_most(const ps_panel *panel) {
+    double most = 0;
+    for (size_t i = 0; i < panel->num_series; i++) {
+        for (size_t k = 0; k < panel->series[i].num; k++) {
+            const double y = panel->series[i].y[k];
+            most = isfinite(y) ? fmax(most, y) : most;
+        }
+    }
+    return most;
+}
+
+/* Where a logarithmic axis ends at the latest; 0 where nothing is above 0. Rounding leaves
+ * numbers far below all that matter, and bands may go down to nothing; an axis that has them shows
+ * nothing else. */
+static double find_bottom(const ps_panel *panel) {
+    const double digits = 1e-16;
+    const double below = 1e-2; /* of the least number: so much of bands is worth seeing */
+    const double most = find_most(panel);
+    return most > 0 ? fmax(find_least(panel, digits * most) * below, most * digits) : 0;
+}
+
+/* Does a number, or the band around it, go further down? */
+static bool goes_below(const ps_panel *panel, double bottom) {
+    for (size_t i = 0; i < panel->num_series; i++) {
+        const ps_series *const series = &panel->series[i];
+        for (size_t k = 0; k < series->num; k++) {
+            const bool has_low = series->low != NULL && series->low[k] < bottom;
+            if (has_low || (series->y[k] > 0 && series->y[k] < bottom)) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 /* gnuplot would go on to whole powers of ten, where few points are. */
@@ -36,55 +125,197 @@ static void print_log_range(const ps_panel *panel, FILE *stream) {
     }
 }
 
-/* The key stands below: labels beside each other where they are short. */
-static size_t count_key_columns(const ps_panel *panel) {
-    const size_t longest_of_two = 40;
-    for (size_t i = 0; i < panel->num_series; i++) {
-        if (panel->series[i].label != NULL && strlen(panel->series[i].label) > longest_of_two) {
-            return 1;
-        }
-    }
-    return 2;
+/* ---- the key --------------------------------------------------------------------------------- */
+
+static bool is_named(const ps_series *series) {
+    return series->label != NULL || series->formula != NULL;
 }
 
-void ps_script_print_frame(const ps_figure *figure, FILE *stream) {
-    const ps_panel *const panel = figure->panels;
-    const double bottom = 0.11; /* of the page: numbers and label of the axis */
-    const double row = 0.033;   /* a line of the key */
-    const size_t num_columns = count_key_columns(panel);
-    const size_t num_rows =
-        panel->num_series > 1 ? (panel->num_series + num_columns - 1) / num_columns : 0;
+static size_t count_named(const ps_panel *panel) {
+    size_t num = 0;
+    for (size_t i = 0; i < panel->num_series; i++) {
+        num += is_named(&panel->series[i]);
+    }
+    return num;
+}
+
+static size_t find_longest(const ps_panel *panel) {
+    size_t longest = 0;
+    for (size_t i = 0; i < panel->num_series; i++) {
+        const char *const label = panel->series[i].label;
+        longest = label != NULL && strlen(label) > longest ? strlen(label) : longest;
+    }
+    return longest;
+}
+
+/* Labels stand beside each other where they are short. */
+static size_t count_key_columns(const ps_panel *panel, const cell *where) {
+    const double letter = 25; /* pixels of the panel, for two columns with what they begin with */
+    return (double)find_longest(panel) * letter > where->width ? 1 : 2;
+}
+
+static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
+    const double middle = (where->x + (LEFT + where->width - RIGHT) / 2) / where->page_width;
+    const double bottom = 1 - (where->y + where->height) / where->page_height;
+    /* gnuplot takes letters for wider than they are: it would have one column where there is room
+     * for two */
+    const size_t long_label = 20;
+    const bool is_narrow = where->width < PS_SCRIPT_WIDTH && find_longest(panel) > long_label;
     fprintf(stream,
-            "set bmargin at screen %.3f\nset lmargin at screen 0.095\n"
-            "set rmargin at screen 0.985\nset tmargin at screen 0.92\n%s",
-            bottom + row * (double)num_rows, ps_script_ticks);
+            "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
+            "samplen 2 width %d\n",
+            middle, bottom + 7 / where->page_height, count_key_columns(panel, where),
+            is_narrow ? -4 : 0);
+}
+
+/* ---- series ---------------------------------------------------------------------------------- */
+
+static void print_title(const ps_series *series, FILE *stream) {
+    if (is_named(series)) {
+        fputs(" title ", stream);
+        ps_script_print_formula(series->formula, series->label, stream);
+    } else {
+        fputs(" notitle", stream);
+    }
+}
+
+/* A column that is no smaller than the end of a logarithmic axis; bottom 0: of a linear one. */
+static void print_raised(const char *column, double bottom, FILE *stream) {
+    if (bottom > 0) {
+        fprintf(stream, "(%s > %.9g ? %s : %.9g)", column, bottom, column, bottom);
+    } else {
+        fprintf(stream, "(%s)", column);
+    }
+}
+
+/* data: its name. */
+static void print_band(const char *data, const ps_series *series, double bottom, FILE *stream) {
+    fprintf(stream, "%s using 1:", data);
+    print_raised("$5", bottom, stream);
+    fputs(":6 with filledcurves fillstyle transparent solid 0.25 noborder ", stream);
+    ps_script_print_colour(series->kind, stream);
+    fputs(" notitle, ", stream);
+}
+
+/* None without a length. */
+static void print_bars(const char *data, const ps_series *series, double bottom, FILE *stream) {
+    fprintf(stream, "%s using 1:($3 > 0 ? $2 : NaN):", data);
+    print_raised("$2-$3", bottom, stream);
+    fputs(":($2+$3) with yerrorbars pointtype 7 pointsize 0.1 linewidth 1.2 ", stream);
+    ps_script_print_colour(series->kind, stream);
+    fputs(" notitle, ", stream);
+}
+
+static void print_series(const char *data, const ps_series *series, double bottom, FILE *stream) {
+    switch (series->look) {
+    case PS_LOOK_LINE:
+        fprintf(stream, "%s using 1:2 with linespoints pointtype 7 pointsize 0.4 linewidth 1.6 ",
+                data);
+        ps_script_print_style(series->kind, stream);
+        break;
+    case PS_LOOK_CURVE:
+        if (series->low != NULL && series->high != NULL) {
+            print_band(data, series, bottom, stream);
+        }
+        /* No line goes through a single place; the ring leaves room for a mark in it. */
+        fprintf(stream, "%s using 1:2 with %s linewidth 1.6 ", data,
+                series->num > 1 ? "lines" : "points pointtype 6 pointsize 1.4");
+        ps_script_print_style(series->kind, stream);
+        break;
+    case PS_LOOK_MARKS:
+        if (series->error != NULL) {
+            print_bars(data, series, bottom, stream);
+        }
+        fprintf(stream, "%s using 1:2 with points pointtype 7 pointsize 0.6 ", data);
+        ps_script_print_colour(series->kind, stream);
+        break;
+    case PS_LOOK_REFERENCE:
+        fprintf(stream, "%s using 1:2 with %s linewidth 1 linecolor rgb '#808080' dashtype 2", data,
+                series->num > 1 ? "lines" : "points pointtype 1 pointsize 1.4");
+        break;
+    }
+    print_title(series, stream);
+}
+
+/* ---- panels ---------------------------------------------------------------------------------- */
+
+/* gnuplot makes no axes for nothing. */
+static bool has_places(const ps_figure *figure, const ps_panel *panel) {
+    for (size_t i = 0; i < panel->num_series; i++) {
+        for (size_t place = 0; place < panel->series[i].num; place++) {
+            if (ps_script_is_shown(figure, &panel->series[i], place)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void print_margins(const cell *where, double key_height, FILE *stream) {
+    fprintf(stream,
+            "set bmargin at screen %.4f\nset lmargin at screen %.4f\n"
+            "set rmargin at screen %.4f\nset tmargin at screen %.4f\n",
+            1 - (where->y + where->height - BELOW - key_height) / where->page_height,
+            (where->x + LEFT) / where->page_width,
+            (where->x + where->width - RIGHT) / where->page_width,
+            1 - (where->y + where->above) / where->page_height);
+}
+
+static void print_ranges(const ps_figure *figure, const ps_panel *panel, double bottom,
+                         FILE *stream) {
+    if (figure->is_log_x) {
+        print_log_range(panel, stream);
+    }
+    if (bottom > 0 && goes_below(panel, bottom)) {
+        fprintf(stream, "set yrange [%.3g:*]\n", bottom);
+    }
+    ps_script_print_asked(figure, stream);
+}
+
+static void print_all_series(const ps_panel *panel, size_t index, double bottom, FILE *stream) {
+    enum { DATA_BYTES = 64 };
+    fputs("plot ", stream);
+    for (size_t i = 0; i < panel->num_series; i++) {
+        char data[DATA_BYTES];
+        snprintf(data, sizeof data, "$data%zu_%zu", index, i);
+        print_series(data, &panel->series[i], bottom, stream);
+        fputs(i + 1 < panel->num_series ? ", " : "\n", stream);
+    }
+}
+
+static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
+    const ps_panel *const panel = &figure->panels[index];
+    const cell where = find_cell(figure, index);
+    const size_t columns = count_key_columns(panel, &where);
+    const bool has_key = panel->num_series > 1;
+    const size_t num_rows = has_key ? (count_named(panel) + columns - 1) / columns : 0;
+    const double bottom = figure->is_log_y ? find_bottom(panel) : 0;
+    print_margins(&where, KEY_ROW * (double)num_rows, stream);
+    if (figure->num_panels > 1) {
+        fputs(index > 0 ? "unset label 1\nset autoscale\nset title " : "set title ", stream);
+        ps_script_print_text(panel->title, stream);
+        fputs(" noenhanced offset 0,-0.6\n", stream);
+    }
+    if (figure->num_panels > 1 && !has_places(figure, panel)) {
+        fputs("unset key\nset xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\n", stream);
+        return;
+    }
+    print_ranges(figure, panel, bottom, stream);
+    if (has_key) {
+        print_key(panel, &where, stream);
+    } else {
+        fputs("unset key\n", stream);
+    }
+    print_all_series(panel, index, bottom, stream);
+}
+
+void ps_script_print_frames(const ps_figure *figure, FILE *stream) {
+    fputs(ps_script_ticks, stream);
     ps_script_print_scale("x", figure->is_log_x, stream);
     ps_script_print_scale("y", figure->is_log_y, stream);
     ps_script_print_label("x", figure->x_label, "0,0", stream);
     ps_script_print_label("y", figure->y_label, "0,0", stream);
-    if (figure->is_log_x) {
-        print_log_range(panel, stream);
-    }
-    const double least = figure->is_log_y ? find_least(panel) : 0;
-    if (least > 0) {
-        fprintf(stream, "set yrange [%.3g:*]\n", least);
-    }
-    ps_script_print_asked(figure, stream);
-    if (panel->num_series > 1) {
-        fprintf(stream,
-                "set key at screen 0.54,0.01 center bottom horizontal Left reverse maxcols %zu "
-                "samplen 2\nplot ",
-                num_columns);
-    } else {
-        fputs("unset key\nplot ", stream);
-    }
-    for (size_t i = 0; i < panel->num_series; i++) {
-        fprintf(stream,
-                "$data0_%zu using 1:2 with linespoints pointtype 7 pointsize 0.4 linewidth 1.6 ",
-                i);
-        ps_script_print_style(panel->series[i].kind, stream);
-        fputs(" title ", stream);
-        ps_script_print_formula(panel->series[i].formula, panel->series[i].label, stream);
-        fputs(i + 1 < panel->num_series ? ", " : "\n", stream);
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        print_panel(figure, i, stream);
     }
 }

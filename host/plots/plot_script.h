@@ -12,14 +12,15 @@ pspec_status ps_figure_write_script(const ps_figure *figure, const char *termina
 
 /* ---- what stands between the page and its end ------------------------------------------------ */
 
-/* Spectra, a frame, panels of lines or marks, points; the data are there. */
+/* Spectra, frames, panels of lines or marks, points; the data are there. */
 pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream,
                                      ps_error *error) PS_MUST_CHECK;
-void ps_script_print_frame(const ps_figure *figure, FILE *stream);
+void ps_script_print_frames(const ps_figure *figure, FILE *stream);
 void ps_script_print_panels(const ps_figure *figure, FILE *stream);
 void ps_script_print_points(const ps_figure *figure, const char *terminal, FILE *stream);
 /* Sizes of the page, in pixels. */
 enum { PS_SCRIPT_WIDTH = 1000, PS_SCRIPT_HEIGHT = 700 };
+void ps_script_size_frames(const ps_figure *figure, int *width, int *height);
 void ps_script_size_panels(const ps_figure *figure, int *width, int *height);
 void ps_script_size_points(const ps_figure *figure, int *width, int *height);
 /* Diameter, in pixels, of the marks of a panel of points. */

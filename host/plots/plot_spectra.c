@@ -65,8 +65,8 @@ static double take_error(const ps_series *series, size_t bin) {
     return series->error[bin];
 }
 
-static double take_lower(const ps_series *series, size_t bin) {
-    return series->lower[bin];
+static double take_anisotropy(const ps_series *series, size_t bin) {
+    return series->anisotropy[bin];
 }
 
 static range find_range(const ps_panel *curves, take_number *take) {
@@ -252,7 +252,7 @@ static void print_power_panel(const ps_figure *figure, const layout *where, FILE
 /* Few enough ticks for a low panel: a step of 1, 2 or 5 times a power of ten. */
 static double find_tick_step(const ps_figure *figure) {
     const double most_ticks = 6;
-    range all = find_range(figure->panels, take_lower);
+    range all = find_range(figure->panels, take_anisotropy);
     widen(&all, figure->noise_level_db);
     const double least = all.most > all.least ? (all.most - all.least) / most_ticks : 1;
     const double unit = pow(10, floor(log10(least)));
@@ -300,14 +300,14 @@ static pspec_status print_image(const ps_plot_image *image, FILE *stream, ps_err
 
 pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream, ps_error *error) {
     const bool on_sphere = figure->on_sphere;
-    const layout where = {.curves = figure->panels,
-                          .has_lower = on_sphere || has_any(find_range(figure->panels, take_lower)),
-                          .x_label = on_sphere ? "normalized degree l N^{-1/2}"
-                                               : "normalized frequency |k| N^{-1/d}",
-                          .y_label = on_sphere ? "power" : "radial mean power",
-                          .left = figure->image != NULL ? 0.605 : 0.085,
-                          .right = 0.985,
-                          .middle = on_sphere ? 0.48 : 0.38};
+    const layout where = {
+        .curves = figure->panels,
+        .has_lower = on_sphere || has_any(find_range(figure->panels, take_anisotropy)),
+        .x_label = on_sphere ? "normalized degree l N^{-1/2}" : "normalized frequency |k| N^{-1/d}",
+        .y_label = on_sphere ? "power" : "radial mean power",
+        .left = figure->image != NULL ? 0.605 : 0.085,
+        .right = 0.985,
+        .middle = on_sphere ? 0.48 : 0.38};
     if (figure->image != NULL) {
         PS_TRY(print_image(figure->image, stream, error));
     }

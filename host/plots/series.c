@@ -21,6 +21,8 @@ static double slope(const double *x, const double *y, size_t num) {
 }
 
 void ps_series_say_slope(const ps_series *series, ps_text *label) {
-    ps_text_append(label, "%sslope %.3f", label->length > 0 ? ": " : "",
-                   slope(series->x, series->y, series->num));
+    const double own = slope(series->x, series->y, series->num);
+    if (isfinite(own)) {
+        ps_text_append(label, "%sslope %.3f", label->length > 0 ? ": " : "", own);
+    }
 }

@@ -83,10 +83,13 @@ static pspec_status check_value(const ps_scene_file *file, const ps_result_kind 
         return PSPEC_OK;
     }
     const ps_option_id id = (ps_option_id)option;
-    return ps_option_apply(&scratch, id, ps_result_words(kind, id), value->texts[0], &reason) ==
-                   PSPEC_OK
-               ? PSPEC_OK
-               : complain_of_value(file, value->line, key, &reason);
+    for (size_t i = 0; i < value->num_texts; i++) {
+        if (ps_option_apply(&scratch, id, ps_result_words(kind, id), value->texts[i], &reason) !=
+            PSPEC_OK) {
+            return complain_of_value(file, value->line, key, &reason);
+        }
+    }
+    return PSPEC_OK;
 }
 
 /* A value of num texts, which are set one by one. */
@@ -120,7 +123,7 @@ static pspec_status take_value(ps_scene *scene, const ps_scene_file *file, const
     return PSPEC_OK;
 }
 
-/* A list of paths is one value; a list in which there are lists has a value in each item. */
+/* Of a list of paths in which there are lists each item is a value. */
 static bool has_lists(const ps_scene_node *node) {
     for (const ps_scene_node *item = node->first; item != NULL; item = item->next) {
         if (node->kind == PS_NODE_LIST && item->kind == PS_NODE_LIST) {
@@ -128,6 +131,11 @@ static bool has_lists(const ps_scene_node *node) {
         }
     }
     return false;
+}
+
+/* One spectrum serves all integrands of a question, and several files are one set of points. */
+static bool is_one_value(int option, const ps_scene_node *node) {
+    return option == PS_OPTION_INTEGRAND || (option == PS_SCENE_FILES && !has_lists(node));
 }
 
 static pspec_status refuse_list(const ps_scene_file *file, const char *key,
@@ -178,7 +186,7 @@ static pspec_status take_points(ps_scene *scene, const ps_scene_file *file, cons
 
 static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, const char *key,
                                 const ps_scene_node *node, ps_scene_entry *out) {
-    const bool is_one = out->option == PS_SCENE_FILES && !has_lists(node);
+    const bool is_one = is_one_value(out->option, node);
     const size_t num = is_one ? 1 : ps_scene_num_items(node);
     void *values = NULL;
     if (num == 0 || num > MOST_VALUES) {
@@ -191,7 +199,7 @@ static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, cons
     out->num_values = num;
     const ps_scene_node *item = is_one ? node : ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
-        PS_TRY(out->option != PS_SCENE_FILES ? refuse_list(file, key, item) : PSPEC_OK);
+        PS_TRY(!is_one && out->option != PS_SCENE_FILES ? refuse_list(file, key, item) : PSPEC_OK);
         PS_TRY(take_value(scene, file, key, item, &out->values[i]));
     }
     return PSPEC_OK;

@@ -36,9 +36,12 @@ static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *ent
         return PSPEC_OK;
     }
     const ps_option_id id = (ps_option_id)entry->option;
-    ps_option_append(&out->command, id, value->texts[0]);
-    return ps_option_apply(&out->request, id, ps_result_words(out->result->kind, id),
-                           value->texts[0], error);
+    for (size_t i = 0; i < value->num_texts; i++) { /* several of an option that may be repeated */
+        ps_option_append(&out->command, id, value->texts[i]);
+        PS_TRY(ps_option_apply(&out->request, id, ps_result_words(out->result->kind, id),
+                               value->texts[i], error));
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_result *result,

@@ -13,8 +13,8 @@ void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *kn
     }
 }
 
-static const char *const own_keys[] = {"result",   "name",   "title", "plot",
-                                       "pictures", "arrays", "files", "samplers"};
+static const char *const own_keys[] = {"result", "name",  "title",    "plot",      "pictures",
+                                       "arrays", "files", "samplers", "integrands"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 /* The option that a key of a result means; -1: none. */
@@ -22,7 +22,9 @@ static int find_option(const ps_result_kind *kind, const char *key) {
     if (strcmp(key, "files") == 0) {
         return ps_result_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
     }
-    const char *const name = strcmp(key, "samplers") == 0 ? "sampler" : key;
+    const char *const name = strcmp(key, "samplers") == 0     ? "sampler"
+                             : strcmp(key, "integrands") == 0 ? "integrand"
+                                                              : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (strcmp(ps_options[id].name, name) == 0) {
             return ps_result_asks(kind, (ps_option_id)id) ? id : -1;
@@ -273,8 +275,8 @@ pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_
                                  "a result is a mapping of keys");
     }
     PS_TRY(find_kind(reader, node, out));
-    /* every option, files, and `sampler` beside `samplers` */
-    PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 2, sizeof *out->entries, &entries,
+    /* every option, files, and `sampler` beside `samplers`, `integrand` beside `integrands` */
+    PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 3, sizeof *out->entries, &entries,
                              reader->file->error));
     out->entries = entries;
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {

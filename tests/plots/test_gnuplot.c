@@ -23,7 +23,7 @@ static void make_example(example *out) {
         out->x[i] = out->y[i] = (double)(i + 1);
     }
     const ps_series curve = {
-        .label = "a", .num = NUM, .x = out->x, .y = out->y, .error = out->y, .lower = out->y};
+        .label = "a", .num = NUM, .x = out->x, .y = out->y, .error = out->y, .anisotropy = out->y};
     out->curves[0] = out->curves[1] = curve;
     out->panel = (ps_panel){NULL, 2, out->curves};
     out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,

@@ -42,7 +42,7 @@ static void make_example(example *out, size_t num_curves, bool has_image, bool h
                                      .x = out->frequency,
                                      .y = out->power,
                                      .error = out->error,
-                                     .lower = out->anisotropy};
+                                     .anisotropy = out->anisotropy};
     }
     out->picture = (ps_plot_image){IMAGE_SIZE, out->image, 8};
     out->panel = (ps_panel){NULL, num_curves, out->curves};

@@ -97,6 +97,24 @@ static void defaults(void **state) {
     ps_scene_free(&scene);
 }
 
+/* One spectrum serves all integrands: a list of them is one value, and asks one question. */
+static void lists_of_integrands(void **state) {
+    char path[TEST_PATH_BYTES];
+    ps_scene scene;
+    must_read(state, &scene,
+              "scene: 1\ndefaults: {integrand: cap}\nresults:\n"
+              "  - {result: variance, samplers: [white, jittered], integrands: [disk, "
+              "'gaussian:sigma=0.1'], seed: 3}\n"
+              "  - {result: variance, sampler: zphi}\n",
+              path);
+    assert_int_equal(ps_scene_num_questions(&scene.results[0]), 2);
+    assert_command(&scene, 0, 1,
+                   "pointspec variance --sampler jittered --integrand disk --integrand "
+                   "gaussian:sigma=0.1 --seed 3");
+    assert_command(&scene, 1, 0, "pointspec variance --sampler zphi --integrand cap");
+    ps_scene_free(&scene);
+}
+
 static void names_and_switches(void **state) {
     char path[TEST_PATH_BYTES];
     ps_scene scene;
@@ -299,7 +317,8 @@ static void records_ask_the_same(void **state) {
                   "arrays: true}\n"
                   "  - {result: quadrature, brdf: ['zonal:file=l', diffuse], weights: [w, equal]}\n"
                   "  - {result: check, against: s, samplers: white, plot: false, no-skip: true}\n"
-                  "  - {result: angular, samplers: zphi, arrays: coefficients}\n",
+                  "  - {result: angular, samplers: zphi, arrays: coefficients}\n"
+                  "  - {result: variance, samplers: zphi, integrands: [cap, square]}\n",
                   2);
     /* characters that YAML refuses, or folds, unless they are escaped */
     assert_record(
@@ -351,6 +370,7 @@ int main(void) {
         IN_FOLDER(combinations),
         IN_FOLDER(ranges_of_points),
         IN_FOLDER(defaults),
+        IN_FOLDER(lists_of_integrands),
         IN_FOLDER(names_and_switches),
         IN_FOLDER(paths),
         IN_FOLDER(command_lines_ask_the_same),

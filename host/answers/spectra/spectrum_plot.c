@@ -35,7 +35,7 @@ static pspec_status make_curve(ps_series *curve, size_t number, const char *labe
                          .x = columns,
                          .y = columns + num,
                          .error = columns + 2 * num,
-                         .lower = columns + 3 * num};
+                         .anisotropy = columns + 3 * num};
     return PSPEC_OK;
 }
 

@@ -103,9 +103,15 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                              error);
 }
 
+/* By a table, as scenes have it. */
 static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
-    const variances *const work = computed;
-    return ps_variance_plot(request, work->jobs, work->list.num, error);
+    ps_answer rows = {0};
+    pspec_status status = tabulate(&rows, computed, request, error);
+    if (status == PSPEC_OK) {
+        status = ps_variance_plot(request, rows.table, error);
+    }
+    ps_answer_free(&rows);
+    return status;
 }
 
 static void discard(void *computed) {
@@ -124,18 +130,9 @@ static void discard(void *computed) {
 
 /* ---- what tables mean ------------------------------------------------------------------------ */
 
-static const char *const summary[] = {"points",
-                                      "points_smallest",
-                                      "points_largest",
-                                      "realizations",
-                                      "predicted_variance",
-                                      "measured_variance",
-                                      "most_power",
-                                      NULL};
-static const ps_line_kind lines[] = {{.suffix = NULL}}; /* a question is one row */
-static const ps_line_kind convergence = {
-    "-convergence", "predicted variance", "points", "predicted_variance",
-    "points N",     "variance",           true,     true};
+static const char *const summary[] = {"points", "points_smallest", "points_largest", "realizations",
+                                      "shifts", "most_power",      "most_power_is",  NULL};
+static const ps_line_kind lines[] = {{.suffix = NULL}}; /* a question is a row for each integrand */
 
 const ps_result_kind ps_result_variance = {
     .name = "variance",
@@ -150,6 +147,7 @@ const ps_result_kind ps_result_variance = {
     .discard = discard,
     .summary = summary,
     .lines = lines,
-    .convergence = &convergence,
+    .chart = ps_variance_chart,
+    .has_few_rows = true,
     .compare = ps_compare_variances,
 };

@@ -1,122 +1,277 @@
-/* Variances against N. */
+/* Variances against N: a panel for each integrand, and in it a colour for each sampler. */
 #include "answers/variance/variance_table.h"
 #include "base/memory.h"
-#include "plots/plot.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* Of a sampler and an integrand; white noise is one more line of each integrand. */
-typedef enum curve_form { PREDICTED, MEASURED, NUM_FORMS } curve_form;
+typedef enum quantity {
+    POINTS,
+    PREDICTED,
+    LOWER,
+    UPPER,
+    MEASURED,
+    MEASURED_ERROR,
+    WHITE,
+    NUM_QUANTITIES
+} quantity;
 
-typedef struct curves {
-    size_t num, num_counts;
-    ps_series *series; /* [num] */
-    ps_text *labels;   /* [num] */
-    double *numbers;   /* [num][x, y][num_counts] */
-} curves;
+/* Texts are borrowed from the parts. */
+typedef struct row {
+    const char *label, *sampler, *integrand; /* sampler "": its table has one, and no such column */
+    double numbers[NUM_QUANTITIES];
+    size_t curve, panel;
+} row;
 
-static void release(curves *self) {
-    for (size_t i = 0; self->labels != NULL && i < self->num; i++) {
+/* A curve is a line, with the places and ends of its band, and marks, with places and errors; white
+ * noise has the rows of one curve of each panel. */
+enum { SERIES_OF_CURVE = 2, NUMBERS_OF_LINE = 4, NUMBERS_OF_MARKS = 3, NUMBERS_OF_WHITE = 2 };
+
+typedef struct picture {
+    size_t num_rows, num_curves, num_panels;
+    row *rows;
+    const row **curves, **panels; /* [num_rows]: the first row of each */
+    size_t num_series, num_numbers;
+    ps_series *series; /* those of a panel together */
+    ps_text *labels;   /* [num_series] */
+    double *numbers;   /* of all series */
+    ps_panel *plots;   /* [num_panels] */
+} picture;
+
+static void release(picture *self) {
+    for (size_t i = 0; self->labels != NULL && i < self->num_series; i++) {
         ps_text_free(&self->labels[i]);
     }
+    free(self->rows);
+    free(self->curves);
+    free(self->panels);
     free(self->series);
     free(self->labels);
     free(self->numbers);
+    free(self->plots);
 }
 
-/* Files are one. */
-static size_t count_samplers(const ps_request *request) {
-    return request->num_samplers > 0 ? request->num_samplers : 1;
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+static const char *text_of(ps_cell cell) {
+    return cell.kind == PS_CELL_TEXT ? cell.text : "";
 }
 
-static double value_of(const ps_variance_row *row, curve_form form) {
-    return form == PREDICTED  ? row->prediction.variance
-           : form == MEASURED ? row->measured
-                              : row->prediction.white;
+/* The cell of a column, or where there is no such column what `otherwise` is. */
+static const char *find_text(const ps_table *table, size_t index, const char *name,
+                             const char *otherwise) {
+    size_t column = 0;
+    return ps_table_find_column(table, name, &column) ? text_of(ps_table_cell(table, index, column))
+                                                      : otherwise;
 }
 
-/* form NUM_FORMS: white noise. */
-static pspec_status add_curve(curves *self, size_t index, const ps_request *request,
-                              ps_variance_job *const *jobs, size_t sampler, size_t integrand,
-                              curve_form form, ps_error *error) {
-    static const char *const names[] = {"predicted", "measured", "white noise"};
-    double *const x = self->numbers + 2 * index * self->num_counts;
-    double *const y = x + self->num_counts;
-    ps_text *const label = &self->labels[index];
-    for (size_t i = 0; i < self->num_counts; i++) {
-        const ps_variance_job *const job = jobs[sampler * self->num_counts + i];
-        x[i] = ps_power_job_spectrum(ps_variance_job_spectrum(job))->mean_points;
-        y[i] = value_of(&ps_variance_job_rows(job)[integrand], form);
+static double find_number(const ps_table *table, size_t index, const char *name) {
+    size_t column = 0;
+    return ps_table_find_column(table, name, &column)
+               ? ps_cell_number(ps_table_cell(table, index, column))
+               : NAN;
+}
+
+static bool are_of_one_curve(const row *a, const row *b) {
+    return strcmp(a->label, b->label) == 0 && strcmp(a->sampler, b->sampler) == 0;
+}
+
+static bool are_of_one_panel(const row *a, const row *b) {
+    return strcmp(a->integrand, b->integrand) == 0;
+}
+
+typedef bool are_alike(const row *a, const row *b);
+
+/* The number of the first row that is like this one, which may become that row. */
+static size_t find_class(const row **firsts, size_t *num, const row *one, are_alike *are) {
+    size_t i = 0;
+    while (i < *num && !are(firsts[i], one)) {
+        i++;
     }
-    if (form != NUM_FORMS && request->num_samplers > 1) {
-        ps_text_append(label, "%s, ", request->samplers[sampler]);
+    if (i == *num) {
+        firsts[(*num)++] = one;
     }
-    if (request->num_integrands > 1) {
-        ps_text_append(label, "%s, ", request->integrands[integrand]);
+    return i;
+}
+
+static void take_part(picture *self, const ps_chart_part *part) {
+    static const char *const names[NUM_QUANTITIES] = {
+        [POINTS] = "points", [PREDICTED] = "predicted", [LOWER] = "lower",
+        [UPPER] = "upper",   [MEASURED] = "measured",   [MEASURED_ERROR] = "measured_error",
+        [WHITE] = "white"};
+    const ps_table *const table = part->table;
+    const char *const integrand = text_of(ps_table_find_meta(table, "integrand"));
+    for (size_t i = 0; i < ps_table_num_rows(table); i++) {
+        row *const one = &self->rows[self->num_rows++];
+        one->label = part->label;
+        one->sampler = find_text(table, i, "sampler", "");
+        one->integrand = find_text(table, i, "integrand", integrand);
+        for (size_t k = 0; k < NUM_QUANTITIES; k++) {
+            one->numbers[k] = find_number(table, i, names[k]);
+        }
+        one->curve = find_class(self->curves, &self->num_curves, one, are_of_one_curve);
+        one->panel = find_class(self->panels, &self->num_panels, one, are_of_one_panel);
     }
-    ps_text_append(label, "%s", names[form]);
-    ps_series *const series = &self->series[index];
-    *series = (ps_series){.kind = index, .num = self->num_counts, .x = x, .y = y};
+}
+
+static pspec_status take_rows(picture *self, const ps_chart *chart, ps_error *error) {
+    size_t num = 0;
+    for (size_t i = 0; i < chart->num_parts; i++) {
+        num += ps_table_num_rows(chart->parts[i].table);
+    }
+    PS_TRY(PS_NEW(&self->rows, num, "a picture", error));
+    PS_TRY(PS_NEW(&self->curves, num, "a picture", error));
+    PS_TRY(PS_NEW(&self->panels, num, "a picture", error));
+    for (size_t i = 0; i < chart->num_parts; i++) {
+        take_part(self, &chart->parts[i]);
+    }
+    return PSPEC_OK;
+}
+
+/* ---- series ---------------------------------------------------------------------------------- */
+
+/* Numbers of one quantity of all rows of a curve in a panel. */
+static const double *gather(picture *self, size_t curve, size_t panel, quantity which,
+                            size_t *num) {
+    double *const out = self->numbers + self->num_numbers;
+    *num = 0;
+    for (size_t i = 0; i < self->num_rows; i++) {
+        const row *const one = &self->rows[i];
+        if (one->curve == curve && one->panel == panel) {
+            out[(*num)++] = one->numbers[which];
+        }
+    }
+    self->num_numbers += *num;
+    return out;
+}
+
+/* Without a label, and without places where there is no such curve in the panel. */
+static ps_series *add_series(picture *self, size_t curve, size_t panel, quantity which,
+                             ps_look look) {
+    ps_series *const series = &self->series[self->num_series++];
+    *series = (ps_series){.kind = curve, .look = look};
+    series->x = gather(self, curve, panel, POINTS, &series->num);
+    series->y = gather(self, curve, panel, which, &series->num);
+    return series;
+}
+
+/* label: of this series, and begun already. */
+static pspec_status name_series(ps_series *series, ps_text *label, ps_error *error) {
     ps_series_say_slope(series, label);
     series->label = ps_text_string(label);
     return ps_text_check(label, error);
 }
 
-static pspec_status add_all(curves *self, const ps_request *request, ps_variance_job *const *jobs,
-                            ps_error *error) {
-    size_t index = 0;
-    for (size_t integrand = 0; integrand < request->num_integrands; integrand++) {
-        for (size_t sampler = 0; sampler < count_samplers(request); sampler++) {
-            for (int form = PREDICTED; form < NUM_FORMS; form++) {
-                PS_TRY(add_curve(self, index++, request, jobs, sampler, integrand, (curve_form)form,
-                                 error));
-            }
-        }
-        PS_TRY(add_curve(self, index++, request, jobs, 0, integrand, NUM_FORMS, error));
+/* One entry of the key: marks have the colour of the line. */
+static pspec_status add_curve(picture *self, size_t curve, size_t panel, ps_error *error) {
+    const row *const first = self->curves[curve];
+    ps_text *const label = &self->labels[self->num_series];
+    ps_series *const line = add_series(self, curve, panel, PREDICTED, PS_LOOK_CURVE);
+    if (line->num == 0) {
+        self->num_series--;
+        return PSPEC_OK;
+    }
+    line->low = gather(self, curve, panel, LOWER, &line->num);
+    line->high = gather(self, curve, panel, UPPER, &line->num);
+    ps_series *const marks = add_series(self, curve, panel, MEASURED, PS_LOOK_MARKS);
+    marks->error = gather(self, curve, panel, MEASURED_ERROR, &marks->num);
+    ps_text_append(label, "%s%s%s", first->label,
+                   first->label[0] != '\0' && first->sampler[0] != '\0' ? ", " : "",
+                   first->sampler);
+    return name_series(line, label, error);
+}
+
+/* By the rows of the first sampler that there is: it depends on N alone. */
+static pspec_status add_white(picture *self, size_t panel, ps_error *error) {
+    ps_text *const label = &self->labels[self->num_series];
+    ps_series *const line =
+        add_series(self, self->panels[panel]->curve, panel, WHITE, PS_LOOK_REFERENCE);
+    ps_text_append(label, "white noise");
+    return name_series(line, label, error);
+}
+
+static pspec_status add_panel(picture *self, size_t panel, ps_error *error) {
+    const size_t begin = self->num_series;
+    for (size_t curve = 0; curve < self->num_curves; curve++) {
+        PS_TRY(add_curve(self, curve, panel, error));
+    }
+    PS_TRY(add_white(self, panel, error));
+    self->plots[panel] =
+        (ps_panel){self->panels[panel]->integrand, self->num_series - begin, self->series + begin};
+    return PSPEC_OK;
+}
+
+static pspec_status add_all(picture *self, ps_error *error) {
+    const size_t most = self->num_panels * (SERIES_OF_CURVE * self->num_curves + 1);
+    const size_t most_of_row = NUMBERS_OF_LINE + NUMBERS_OF_MARKS + NUMBERS_OF_WHITE;
+    PS_TRY(PS_NEW(&self->series, most, "a picture", error));
+    PS_TRY(PS_NEW(&self->labels, most, "a picture", error));
+    PS_TRY(PS_NEW(&self->numbers, most_of_row * self->num_rows, "a picture", error));
+    PS_TRY(PS_NEW(&self->plots, self->num_panels, "a picture", error));
+    for (size_t panel = 0; panel < self->num_panels; panel++) {
+        PS_TRY(add_panel(self, panel, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status write_figure(const curves *self, const ps_request *request, ps_error *error) {
-    ps_text title = {0};
-    ps_text_append(&title, "%s",
-                   request->num_integrands == 1 ? request->integrands[0] : "variance");
-    if (request->num_samplers > 0) {
-        ps_text_append(&title, ", %llu sets", (unsigned long long)request->num_realizations);
-    }
-    if (request->num_samplers == 1) {
-        ps_text_append(&title, " of %s", request->samplers[0]);
-    }
-    const ps_panel panel = {NULL, self->num, self->series};
+/* ---- all ------------------------------------------------------------------------------------- */
+
+pspec_status ps_variance_chart(const ps_chart *chart, ps_error *error) {
+    picture self = {0};
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, take_rows(&self, chart, error));
+    PS_TRY_OUT(status, add_all(&self, error));
     const ps_figure figure = {.form = PS_FIGURE_FRAME,
-                              .title = ps_text_string(&title),
+                              .title = chart->title,
                               .x_label = "points N",
-                              .y_label = "variance of the estimate",
-                              .axes = request->plot_axes,
+                              .y_label = "variance: lines predicted, marks measured",
+                              .axes = chart->axes,
                               .is_log_x = true,
                               .is_log_y = true,
-                              .num_panels = 1,
-                              .panels = &panel};
-    pspec_status status = ps_text_check(&title, error);
-    if (status == PSPEC_OK) {
-        status = ps_figure_write(request->plot, &figure, error);
-    }
-    ps_text_free(&title);
+                              .num_panels = self.num_panels,
+                              .panels = self.plots};
+    status = chart->take(chart->payload, &figure, error);
+out:
+    release(&self);
     return status;
 }
 
-pspec_status ps_variance_plot(const ps_request *request, ps_variance_job *const *jobs, size_t num,
-                              ps_error *error) {
-    curves self = {.num = request->num_integrands * (count_samplers(request) * NUM_FORMS + 1),
-                   .num_counts = num / count_samplers(request)};
-    pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, PS_NEW(&self.series, self.num, "a picture", error));
-    PS_TRY_OUT(status, PS_NEW(&self.labels, self.num, "a picture", error));
-    PS_TRY_OUT(status, PS_NEW(&self.numbers, 2 * self.num * self.num_counts, "a picture", error));
-    PS_TRY_OUT(status, add_all(&self, request, jobs, error));
-    PS_TRY_OUT(status, write_figure(&self, request, error));
-out:
-    release(&self);
+static pspec_status write_figure(void *payload, const ps_figure *figure, ps_error *error) {
+    const ps_request *const request = payload;
+    return ps_figure_write(request->plot, figure, error);
+}
+
+/* Of one integrand there is no panel to name it. */
+static void append_title(const ps_request *request, const ps_table *table, ps_text *out) {
+    const double sets = ps_cell_number(ps_table_find_meta(table, "realizations"));
+    const double shifts = ps_cell_number(ps_table_find_meta(table, "shifts"));
+    ps_text_append(out, "%s", request->num_integrands == 1 ? request->integrands[0] : "variance");
+    if (request->num_samplers == 1) {
+        ps_text_append(out, ", %s", request->samplers[0]);
+    }
+    if (sets > 0) {
+        ps_text_append(out, ", M = %.0f", sets);
+    }
+    if (sets > 0 && shifts > 0) {
+        ps_text_append(out, ", %.0f trials", sets * shifts);
+    }
+}
+
+pspec_status ps_variance_plot(const ps_request *request, const ps_table *table, ps_error *error) {
+    ps_text title = {0};
+    append_title(request, table, &title);
+    const ps_chart_part part = {table, request->num_samplers == 1 ? request->samplers[0] : ""};
+    const ps_chart chart = {.title = ps_text_string(&title),
+                            .axes = request->plot_axes,
+                            .num_parts = 1,
+                            .parts = &part,
+                            .take = write_figure,
+                            .payload = (void *)request};
+    pspec_status status = ps_text_check(&title, error);
+    if (status == PSPEC_OK) {
+        status = ps_variance_chart(&chart, error);
+    }
+    ps_text_free(&title);
     return status;
 }

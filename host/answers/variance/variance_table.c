@@ -73,6 +73,9 @@ static pspec_status begin(ps_table *table, const ps_request *request, const ps_v
                            : request->in_place      ? "sets where they are"
                                                     : "sets moved at random, one for each trial")},
         {"shifts", PS_INTEGER(request->num_samplers > 0 ? request->num_shifts : trials.num_shifts)},
+        {"predicted_error_is",
+         PS_TEXT("below, a bound on the numerical error of S; as a column, the "
+                 "standard error of the prediction")},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
@@ -101,13 +104,8 @@ static pspec_status add_files(ps_table *table, const ps_request *request,
                : ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
-/* For who draws many questions, each of one integrand, against N. */
-static pspec_status add_variances(ps_table *table, const ps_variance_row *row, ps_error *error) {
-    const ps_meta entries[] = {
-        {"predicted_variance", PS_NUMBER(row->prediction.variance)},
-        {"measured_variance", ps_number_or_missing(row->measured)},
-    };
-    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+/* Of a single set. */
+static pspec_status add_pairwise(ps_table *table, const ps_variance_row *row, ps_error *error) {
     return isnan(row->pairwise)
                ? PSPEC_OK
                : ps_table_add_meta(table, "pairwise_variance", PS_NUMBER(row->pairwise), error);
@@ -162,7 +160,7 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         PS_TRY(add_most_power(table, jobs[i], error));
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
-            PS_TRY(add_variances(table, &ps_variance_job_rows(jobs[i])[k], error));
+            PS_TRY(add_pairwise(table, &ps_variance_job_rows(jobs[i])[k], error));
             PS_TRY(add_row(table, request, &lead, jobs[i], k, error));
         }
     }

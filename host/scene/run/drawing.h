@@ -27,6 +27,15 @@ pspec_status ps_run_add_plot(const ps_artist *artist, const ps_picture *picture,
 pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
                             const ps_plot_image *image) PS_MUST_CHECK;
 
+/* A picture of the rows of all questions, as the kind draws them. */
+pspec_status ps_draw_chart(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
+
+/* What tells the curve of a question from the others of its panel. */
+void ps_label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                    ps_text *out);
+/* How far apart are questions that differ in that entry alone, by one value? */
+size_t ps_question_step(const ps_scene_result *asked, size_t entry);
+
 /* A picture of points, the first realization of every question. */
 pspec_status ps_draw_points(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
 

@@ -45,8 +45,8 @@ static void label_panel(const ps_scene_result *asked, const ps_picture *what, si
     }
 }
 
-static void label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
-                        ps_text *out) {
+void ps_label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                    ps_text *out) {
     const size_t fastest = find_fastest(asked, what);
     const bool is_chunk = what->panel == asked->num_entries;
     for (size_t i = 0; i < asked->num_entries; i++) {
@@ -111,9 +111,17 @@ static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t 
     }
     if (num_columns == MOST_COLUMNS) {
         set->lines[index].error = set->numbers[index] + 2 * num;
-        set->lines[index].lower = set->numbers[index] + 3 * num;
+        set->lines[index].anisotropy = set->numbers[index] + 3 * num;
     }
     return PSPEC_OK;
+}
+
+size_t ps_question_step(const ps_scene_result *asked, size_t entry) {
+    size_t step = 1;
+    for (size_t i = entry + 1; i < asked->num_entries; i++) {
+        step *= asked->entries[i].num_values;
+    }
+    return step;
 }
 
 /* Worst-case error of the questions that differ from `first` in the number of points only. */
@@ -121,10 +129,7 @@ static pspec_status take_errors(const ps_artist *artist, line_set *set, size_t i
                                 size_t points, const ps_line_kind *kind) {
     const ps_scene_result *const asked = artist->result->asked;
     const size_t num = asked->entries[points].num_values;
-    size_t step = 1;
-    for (size_t i = points + 1; i < asked->num_entries; i++) {
-        step *= asked->entries[i].num_values;
-    }
+    const size_t step = ps_question_step(asked, points);
     PS_TRY(begin_line(set, index, num, 2, artist->error));
     double *const x = set->numbers[index];
     for (size_t i = 0; i < num; i++) {
@@ -139,7 +144,7 @@ static pspec_status take_errors(const ps_artist *artist, line_set *set, size_t i
 static void label_line(const ps_artist *artist, const ps_picture *what, size_t question,
                        const ps_series *line, ps_text *out) {
     if (what->num_panels > 1 || what->form == PS_PICTURE_ERRORS) {
-        label_curve(artist->result->asked, what, question, out);
+        ps_label_curve(artist->result->asked, what, question, out);
     } else {
         ps_run_label(artist->result, question, out);
     }

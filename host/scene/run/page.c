@@ -130,10 +130,7 @@ static void print_plots(const ps_run_result *result, ps_text *out) {
     print_remarks(result, out);
 }
 
-static void print_row(const ps_run_result *result, size_t number, ps_text *out) {
-    const ps_table *const table = result->summary;
-    const ps_run_question *const question = &result->questions[number];
-    ps_text_append(out, "<tr>");
+static void print_cells(const ps_table *table, size_t number, ps_text *out) {
     for (size_t column = 0; column < ps_table_num_columns(table); column++) {
         const ps_cell cell = ps_table_cell(table, number, column);
         const bool is_verdict = strcmp(ps_table_column_name(table, column), "verdict") == 0;
@@ -145,14 +142,19 @@ static void print_row(const ps_run_result *result, size_t number, ps_text *out) 
         print_cell(cell, out);
         ps_text_append(out, "</td>");
     }
+}
+
+static void print_row(const ps_run_result *result, size_t number, ps_text *out) {
+    const ps_run_question *const question = &result->questions[number];
+    ps_text_append(out, "<tr>");
+    print_cells(result->summary, number, out);
     ps_text_append(out, "<td>");
     print_seconds(question->seconds, out);
     ps_text_append(out, "</td><td class=\"text\">%s</td></tr>\n",
                    question->is_cached ? "cache" : "computed");
 }
 
-static void print_summary(const ps_run_result *result, ps_text *out) {
-    const ps_table *const table = result->summary;
+static void print_names(const ps_table *table, ps_text *out) {
     ps_text_append(out, "<div class=\"scroll\"><table><tr>");
     for (size_t column = 0; column < ps_table_num_columns(table); column++) {
         const bool is_text = ps_table_cell(table, 0, column).kind == PS_CELL_TEXT;
@@ -160,9 +162,25 @@ static void print_summary(const ps_run_result *result, ps_text *out) {
         print_name(ps_table_column_name(table, column), out);
         ps_text_append(out, "</th>");
     }
+}
+
+static void print_summary(const ps_run_result *result, ps_text *out) {
+    print_names(result->summary, out);
     ps_text_append(out, "<th>time</th><th class=\"text\">from</th></tr>\n");
     for (size_t q = 0; q < result->num; q++) {
         print_row(result, q, out);
+    }
+    ps_text_append(out, "</table></div>\n");
+}
+
+/* All of them. */
+static void print_rows(const ps_table *table, ps_text *out) {
+    print_names(table, out);
+    ps_text_append(out, "</tr>\n");
+    for (size_t row = 0; row < ps_table_num_rows(table); row++) {
+        ps_text_append(out, "<tr>");
+        print_cells(table, row, out);
+        ps_text_append(out, "</tr>\n");
     }
     ps_text_append(out, "</table></div>\n");
 }
@@ -219,6 +237,9 @@ static void print_result(const ps_run_result *result, ps_text *out) {
     }
     ps_text_append(out, "</p>\n");
     print_plots(result, out);
+    if (asked->kind->has_few_rows) {
+        print_rows(result->table, out);
+    }
     print_summary(result, out);
     print_plan(result, out);
 }

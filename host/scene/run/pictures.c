@@ -217,10 +217,23 @@ static pspec_status list_errors(ps_pictures *out, const ps_scene_result *asked, 
     return PSPEC_OK;
 }
 
+/* What has panels of its own, and labels that tell its curves apart, gets no others. */
+static pspec_status list_charts(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
+    layout how = find_layout(asked, find_points(asked), false);
+    const ps_picture one = {.form = PS_PICTURE_CHART};
+    how.panel = asked->num_entries;
+    how.chunk = 0;
+    for (size_t g = 0; asked->kind->chart != NULL && g < count_values(asked, how.group); g++) {
+        PS_TRY(add_group(out, asked, one, &how, g, error));
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status list_lines(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
     const ps_line_kind *const kinds = asked->kind->lines;
     const layout how = find_layout(asked, asked->num_entries, false);
     PS_TRY(list_errors(out, asked, error));
+    PS_TRY(list_charts(out, asked, error));
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
         for (size_t k = 0; kinds[k].suffix != NULL; k++) {
             const ps_picture one = {.form = PS_PICTURE_COLUMNS, .lines = &kinds[k]};

@@ -13,6 +13,7 @@ typedef enum ps_picture_form {
     PS_PICTURE_IMAGE,   /* of one question, with the averaged periodogram */
     PS_PICTURE_COLUMNS, /* lines of one kind */
     PS_PICTURE_ERRORS,  /* worst-case errors against numbers of points */
+    PS_PICTURE_CHART,   /* rows of all questions, as the kind draws them */
     PS_PICTURE_POINTS   /* points of questions, side by side */
 } ps_picture_form;
 
@@ -27,8 +28,8 @@ typedef struct ps_picture {
     /* Entries of the result: of that value, of the numbers of points along a line, and of the value
      * that a panel has for itself. num_entries: none. */
     size_t group, points, panel;
-    /* Questions, a curve each, those of a panel together; panel i ends before ends[i]. One panel: a
-     * frame without others. */
+    /* Questions, a curve each, or the first of a curve against numbers of points, those of a panel
+     * together; panel i ends before ends[i]. One panel: a frame without others. */
     size_t num_curves, num_panels;
     size_t *curves, *ends;
 } ps_picture;

@@ -176,7 +176,11 @@ results:
   - {result: variance, name: one, samplers: poisson-disk, points: 16, realizations: 3, max-frequency: 4, integrand: 'box:sides=0.3', shifts: 2, seed: 7}
 END
 "$program" run --cache 0 scene.yaml -o made >out 2>err </dev/null || complain "scene: $(<err)"
-# a question for each integrand; the number of points stands once, where the command has it
+# one question for all integrands of a sampler and N; the number of points stands once, where the command has it
+[[ $(grep -c '^# command: ' made/two.csv) == 4 ]] || complain "scene: $(grep '^# command' made/two.csv)"
+[[ $(grep -v '^#' made/two.summary.csv | head -n 2) == $'sampler,points,realizations,shifts,most_power,most_power_is\nwhite,8,3,1,1,a bound' ]] ||
+    complain "summary: $(<made/two.summary.csv)"
+[[ $(grep -c '<td class="text">gaussian</td>' made/index.html) == 4 ]] || complain 'a page without rows'
 grep -v '^#' made/two.csv >rows
 [[ $(head -n 1 rows) == sampler,integrand,$columns && $(wc -l <rows) == 9 ]] || complain "scene: $(<rows)"
 runs 0 --sampler white --sampler jittered -n 8,16 -m 3 -k 4 --integrand disk --integrand gaussian
@@ -198,5 +202,20 @@ if command -v gnuplot >/dev/null; then
     grep -q jittered lines.svg || complain 'a picture without a name of a sampler'
     runs 0 --sampler jittered -n 8 -m 1 "${few[@]}" --integrand disk --plot lines.png
     [[ -s lines.png ]] || complain 'no picture of one set'
+    # that of a scene is that of the command, but for its title: a panel for each integrand, whose key has every sampler once
+    runs 0 --sampler white --sampler jittered -n 8,16 -m 3 -k 4 --integrand disk --integrand gaussian --plot lines.svg
+    cmp -s <(sed 's/variance, M = 3, 3 trials/two/' lines.svg) made/two.svg || complain 'a scene has another picture'
+    for text in 'jittered: slope' 'white: slope' 'white noise: slope'; do
+        [[ $(grep -c "<tspan[^>]*>$text -[0-9.]*<" lines.svg) == 2 ]] || complain "$text: $(grep '<text>' lines.svg)"
+    done
+    for text in disk gaussian 'variance, M = 3, 3 trials'; do
+        [[ $(grep -c ">$text<" lines.svg) == 1 ]] || complain "no $text: $(grep '<text>' lines.svg)"
+    done
+    # nothing but zeros is no picture, and costs no numbers; beside other integrands it is an empty panel
+    runs 0 --sampler white -n 8 -m 3 -k 4 --integrand constant --plot none.svg
+    [[ $(table | wc -l) == 2 && ! -e none.svg ]] || complain 'a picture of nothing'
+    says 'was not drawn'
+    runs 0 --sampler white -n 8 -m 3 -k 4 --integrand constant --integrand disk --plot some.svg
+    [[ -s some.svg ]] || complain 'no picture beside a constant'
 fi
 finish

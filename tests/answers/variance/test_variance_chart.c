@@ -1,0 +1,198 @@
+/* The picture of variances: which rows become which series, of several tables
+ * and of one. */
+#include "answers/variance/variance_table.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char *const names[] = {"sampler", "integrand", "points",         "predicted", "lower",
+                                    "upper",   "measured",  "measured_error", "white"};
+enum { NUM_NAMES = sizeof names / sizeof names[0] };
+
+/* Columns from name number `first` on: 0 has samplers, 1 integrands, 2 neither. */
+static ps_table *make_table(size_t first) {
+    ps_table *table = NULL;
+    ps_error error = {0};
+    assert_int_equal(ps_table_create(&table, "variance", names + first, NUM_NAMES - first, &error),
+                     PSPEC_OK);
+    return table;
+}
+
+/* Numbers that tell all quantities apart: of N and p the prediction is p, and so on. */
+static void add_row(ps_table *table, size_t first, const char *sampler, const char *integrand,
+                    double points, double predicted) {
+    const ps_cell cells[NUM_NAMES] = {
+        PS_TEXT(sampler),           PS_TEXT(integrand),          PS_NUMBER(points),
+        PS_NUMBER(predicted),       PS_NUMBER(0.9 * predicted),  PS_NUMBER(1.1 * predicted),
+        PS_NUMBER(1.5 * predicted), PS_NUMBER(0.25 * predicted), PS_NUMBER(1 / points)};
+    ps_error error = {0};
+    assert_int_equal(ps_table_add_row(table, cells + first, &error), PSPEC_OK);
+}
+
+/* A curve of two places in a panel: N = 16 and 64, and these predictions. */
+static void assert_curve(const ps_series *line, size_t kind, const char *label, double first,
+                         double second) {
+    const double predicted[] = {first, second};
+    const double points[] = {16, 64};
+    const ps_series *const marks = line + 1;
+    assert_string_equal(line->label, label);
+    assert_null(marks->label);
+    assert_int_equal(line->look, PS_LOOK_CURVE);
+    assert_int_equal(marks->look, PS_LOOK_MARKS);
+    assert_int_equal(line->kind, kind);
+    assert_int_equal(marks->kind, kind);
+    assert_int_equal(line->num, 2);
+    assert_int_equal(marks->num, 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(line->x[i] == points[i]);
+        assert_true(line->y[i] == predicted[i]);
+        assert_true(line->low[i] == 0.9 * predicted[i]);
+        assert_true(line->high[i] == 1.1 * predicted[i]);
+        assert_true(marks->x[i] == points[i]);
+        assert_true(marks->y[i] == 1.5 * predicted[i]);
+        assert_true(marks->error[i] == 0.25 * predicted[i]);
+    }
+}
+
+static void assert_white(const ps_series *line, size_t num) {
+    assert_int_equal(line->look, PS_LOOK_REFERENCE);
+    assert_string_equal(line->label, num > 1 ? "white noise: slope -1.000" : "white noise");
+    assert_int_equal(line->num, num);
+    for (size_t i = 0; i < num; i++) {
+        assert_true(line->y[i] == 1 / line->x[i]);
+    }
+}
+
+typedef pspec_status look_at(const ps_figure *figure);
+
+static pspec_status take(void *payload, const ps_figure *figure, ps_error *error) {
+    look_at *const look = *(look_at **)payload;
+    const pspec_status status = look(figure);
+    return status == PSPEC_OK ? status : ps_fail(error, status, "not taken");
+}
+
+static pspec_status draw(const ps_chart_part *parts, size_t num, look_at *look, ps_error *error) {
+    const ps_chart chart = {
+        .title = "title", .num_parts = num, .parts = parts, .take = take, .payload = &look};
+    return ps_variance_chart(&chart, error);
+}
+
+/* ---- a table for each question, as scenes have them ------------------------------------------ */
+
+static pspec_status look_at_two_panels(const ps_figure *figure) {
+    assert_int_equal(figure->form, PS_FIGURE_FRAME);
+    assert_string_equal(figure->title, "title");
+    assert_true(figure->is_log_x && figure->is_log_y);
+    assert_int_equal(figure->num_panels, 2);
+    assert_string_equal(figure->panels[0].title, "disk");
+    assert_string_equal(figure->panels[1].title, "gaussian");
+    assert_int_equal(figure->panels[0].num_series, 5);
+    assert_curve(&figure->panels[0].series[0], 0, "jittered: slope -2.000", 1, 1. / 16);
+    assert_curve(&figure->panels[0].series[2], 1, "fpo: slope -1.000", 4, 1);
+    assert_white(&figure->panels[0].series[4], 2);
+    assert_int_equal(figure->panels[1].num_series, 5);
+    assert_curve(&figure->panels[1].series[0], 0, "jittered: slope -0.500", 2, 1);
+    assert_curve(&figure->panels[1].series[2], 1, "fpo: slope -1.500", 8, 1);
+    assert_white(&figure->panels[1].series[4], 2);
+    return PSPEC_OK;
+}
+
+static void tables_of_several_questions(void **state) {
+    (void)state;
+    static const double points[] = {16, 64, 16, 64};
+    static const double disk[] = {1, 1. / 16, 4, 1};
+    static const double gaussian[] = {2, 1, 8, 1};
+    ps_chart_part parts[4];
+    ps_error error = {0};
+    for (size_t i = 0; i < 4; i++) {
+        ps_table *const table = make_table(1);
+        add_row(table, 1, "", "disk", points[i], disk[i]);
+        add_row(table, 1, "", "gaussian", points[i], gaussian[i]);
+        parts[i] = (ps_chart_part){table, i < 2 ? "jittered" : "fpo"};
+    }
+    assert_int_equal(draw(parts, 4, look_at_two_panels, &error), PSPEC_OK);
+    for (size_t i = 0; i < 4; i++) {
+        ps_table_destroy((ps_table *)parts[i].table);
+    }
+}
+
+/* ---- one table, as the command has it -------------------------------------------------------- */
+
+static void the_table_of_a_command(void **state) {
+    (void)state;
+    ps_error error = {0};
+    ps_table *const table = make_table(0);
+    add_row(table, 0, "jittered", "disk", 16, 1);
+    add_row(table, 0, "jittered", "gaussian", 16, 2);
+    add_row(table, 0, "jittered", "disk", 64, 1. / 16);
+    add_row(table, 0, "jittered", "gaussian", 64, 1);
+    add_row(table, 0, "fpo", "disk", 16, 4);
+    add_row(table, 0, "fpo", "gaussian", 16, 8);
+    add_row(table, 0, "fpo", "disk", 64, 1);
+    add_row(table, 0, "fpo", "gaussian", 64, 1);
+    assert_int_equal(draw(&(ps_chart_part){table, ""}, 1, look_at_two_panels, &error), PSPEC_OK);
+    ps_table_destroy(table);
+}
+
+/* ---- what is missing ------------------------------------------------------------------------- */
+
+/* The second sampler has the first integrand alone. */
+static pspec_status look_at_a_gap(const ps_figure *figure) {
+    assert_int_equal(figure->num_panels, 2);
+    assert_int_equal(figure->panels[0].num_series, 5);
+    assert_int_equal(figure->panels[1].num_series, 3);
+    assert_int_equal(figure->panels[0].series[2].kind, 1);
+    assert_string_equal(figure->panels[1].series[0].label, "a, jittered");
+    assert_white(&figure->panels[1].series[2], 1);
+    return PSPEC_OK;
+}
+
+static void a_sampler_without_an_integrand(void **state) {
+    (void)state;
+    ps_error error = {0};
+    ps_table *const table = make_table(0);
+    add_row(table, 0, "jittered", "disk", 16, 1);
+    add_row(table, 0, "jittered", "gaussian", 16, 2);
+    add_row(table, 0, "fpo", "disk", 16, 4);
+    assert_int_equal(draw(&(ps_chart_part){table, "a"}, 1, look_at_a_gap, &error), PSPEC_OK);
+    ps_table_destroy(table);
+}
+
+/* Nothing was measured, and the integrand stands in the header. */
+static pspec_status look_at_one(const ps_figure *figure) {
+    assert_int_equal(figure->num_panels, 1);
+    assert_string_equal(figure->panels[0].title, "disk");
+    assert_int_equal(figure->panels[0].num_series, 3);
+    assert_string_equal(figure->panels[0].series[0].label, "");
+    assert_true(isnan(figure->panels[0].series[1].y[0]));
+    return PSPEC_ERROR_IO; /* which becomes that of the chart */
+}
+
+static void one_sampler_and_integrand(void **state) {
+    (void)state;
+    static const char *const few[] = {"points", "predicted", "white"};
+    const ps_cell cells[] = {PS_INTEGER(16), PS_NUMBER(1), PS_NUMBER(2)};
+    ps_table *table = NULL;
+    ps_error error = {0};
+    assert_int_equal(ps_table_create(&table, "variance", few, 3, &error), PSPEC_OK);
+    assert_int_equal(ps_table_add_meta(table, "integrand", PS_TEXT("disk"), &error), PSPEC_OK);
+    assert_int_equal(ps_table_add_row(table, cells, &error), PSPEC_OK);
+    assert_int_equal(draw(&(ps_chart_part){table, ""}, 1, look_at_one, &error), PSPEC_ERROR_IO);
+    assert_string_equal(error.message, "not taken");
+    ps_table_destroy(table);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_of_several_questions),
+        cmocka_unit_test(the_table_of_a_command),
+        cmocka_unit_test(a_sampler_without_an_integrand),
+        cmocka_unit_test(one_sampler_and_integrand),
+    };
+    return cmocka_run_group_tests_name("variance_chart", tests, NULL, NULL);
+}

@@ -1,0 +1,213 @@
+/* Frames: how their series look, where their axes end, panels of them. */
+#include "plots/plot.h"
+#include "plots/plot_script.h"
+#include "test_folder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static bool has_gnuplot(void) {
+    return system("gnuplot --version >/dev/null 2>&1") == 0;
+}
+
+static bool script_contains(const ps_figure *plot, const char *what) {
+    char *script = NULL;
+    size_t length = 0;
+    ps_error error = {0};
+    FILE *const stream = open_memstream(&script, &length);
+    assert_non_null(stream);
+    assert_int_equal(ps_figure_write_script(plot, "svg", stream, &error), PSPEC_OK);
+    assert_int_equal(fclose(stream), 0);
+    const bool contains = strstr(script, what) != NULL;
+    free(script);
+    return contains;
+}
+
+/* A panel of a curve on its band, marks with bars, and a reference, in this order. */
+enum { NUM_LOOKS = 3, NUM_COUNTS = 4 };
+static const double counts[] = {16, 64, 256, 1024};
+static const double variances[] = {1e-2, 1e-3, 1e-4, 1e-5};
+static const double lows[] = {0, 9e-4, 9e-5, 9e-6};
+static const double highs[] = {1.5e-2, 1.1e-3, 1.1e-4, 1.1e-5};
+static const double errors[] = {(double)NAN, 1e-4, 2e-4, 0};
+
+static void make_looks(ps_series series[NUM_LOOKS]) {
+    const ps_series common = {.kind = 1, .num = NUM_COUNTS, .x = counts, .y = variances};
+    series[0] = series[1] = series[2] = common;
+    series[0].look = PS_LOOK_CURVE;
+    series[0].label = "jittered";
+    series[0].low = lows;
+    series[0].high = highs;
+    series[1].look = PS_LOOK_MARKS;
+    series[1].error = errors;
+    series[2].look = PS_LOOK_REFERENCE;
+    series[2].label = "white";
+}
+
+/* Columns 1 and 2 are the place, 3 the error, 5 and 6 the band. Neither goes below the end of a
+ * logarithmic axis, which has no 0: a hundredth of the smallest number. Only what has a label is in
+ * the key. */
+static void looks_of_a_frame(void **state) {
+    (void)state;
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panel = {"none", NUM_LOOKS, series};
+    ps_figure plot = {.form = PS_FIGURE_FRAME,
+                      .title = "variance",
+                      .is_log_x = true,
+                      .is_log_y = true,
+                      .num_panels = 1,
+                      .panels = &panel};
+    assert_true(script_contains(&plot, "\n 64 0.001 NaN NaN 0.0009 0.0011\n"));
+    assert_true(script_contains(&plot, "\n 64 0.001 0.0001 NaN NaN NaN\n"));
+    assert_true(script_contains(&plot, "\n 64 0.001\n"));
+    assert_true(script_contains(&plot, "plot $data0_0 using 1:($5 > 1e-07 ? $5 : 1e-07):6 with "
+                                       "filledcurves "));
+    assert_true(script_contains(&plot, ", $data0_0 using 1:2 with lines linewidth 1.6 linecolor "
+                                       "rgb '#D55E00' dashtype 1 title \"jittered\", "));
+    assert_true(script_contains(&plot, ", $data0_1 using 1:($3 > 0 ? $2 : NaN):($2-$3 > 1e-07 ? "
+                                       "$2-$3 : 1e-07):($2+$3) with yerrorbars "));
+    assert_true(script_contains(&plot, ", $data0_1 using 1:2 with points pointtype 7 pointsize 0.6 "
+                                       "linecolor rgb '#D55E00' notitle, "));
+    assert_true(script_contains(&plot, ", $data0_2 using 1:2 with lines linewidth 1 linecolor rgb "
+                                       "'#808080' dashtype 2 title \"white\"\n"));
+    assert_true(script_contains(&plot, "set yrange [1e-07:*]\n")); /* of the band at 16 */
+    assert_false(script_contains(&plot, "set title"));
+    plot.is_log_y = false;
+    assert_true(script_contains(&plot, "using 1:($5):6 with filledcurves "));
+    assert_true(script_contains(&plot, ":($2-$3):($2+$3) with yerrorbars "));
+    assert_false(script_contains(&plot, "set yrange"));
+}
+
+/* Neither numbers that rounding left nor a band that goes down to them spoil an axis, and a band
+ * that stays near leaves it to gnuplot. */
+static void ends_of_a_logarithmic_axis(void **state) {
+    (void)state;
+    const double rounding[] = {1e-2, 1e-3, 1e-4, 1e-30};
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panel = {"none", 1, series};
+    ps_figure plot = {
+        .form = PS_FIGURE_FRAME, .title = "", .is_log_y = true, .num_panels = 1, .panels = &panel};
+    series[0].low = variances;
+    assert_false(script_contains(&plot, "set yrange"));
+    series[0].low = lows;
+    assert_true(script_contains(&plot, "set yrange [1e-07:*]\n"));
+    series[0].low = series[0].high = NULL;
+    series[0].y = rounding;
+    assert_true(script_contains(&plot, "set yrange [1e-06:*]\n"));
+    series[0].y = variances;
+    assert_false(script_contains(&plot, "set yrange"));
+}
+
+/* A place that is alone has no line. */
+static void single_places_of_a_frame(void **state) {
+    (void)state;
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panel = {"none", NUM_LOOKS, series};
+    const ps_figure plot = {
+        .form = PS_FIGURE_FRAME, .title = "", .num_panels = 1, .panels = &panel};
+    for (size_t i = 0; i < NUM_LOOKS; i++) {
+        series[i].num = 1;
+    }
+    assert_false(script_contains(&plot, "with lines"));
+    assert_true(script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 "));
+    assert_true(script_contains(&plot, "$data0_2 using 1:2 with points pointtype 1 "));
+}
+
+/* Panels with axes and a key of their own, also one in which there is nothing to see. */
+static void draws_frames(void **state) {
+    static const double nothing[NUM_COUNTS] = {0};
+    static const char *const names[] = {"frames.svg", "frames.png", "frames.pdf"};
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_series empty = {
+        .look = PS_LOOK_CURVE, .label = "a", .num = NUM_COUNTS, .x = counts, .y = nothing};
+    const ps_panel panels[] = {{"the_first's", NUM_LOOKS, series},
+                               {"nothing", 1, &empty},
+                               {"3", 2, series},
+                               {"4", NUM_LOOKS, series},
+                               {"5", 1, series}};
+    ps_figure plot = {.form = PS_FIGURE_FRAME,
+                      .title = "it's \"a_b\"",
+                      .x_label = "x",
+                      .y_label = "y",
+                      .is_log_x = true,
+                      .is_log_y = true,
+                      .panels = panels};
+    for (plot.num_panels = 1; plot.num_panels <= 5; plot.num_panels++) {
+        const char *const name = names[plot.num_panels % 3];
+        char path[TEST_PATH_BYTES];
+        ps_error said = {0};
+        if (has_gnuplot() &&
+            ps_figure_write(test_path(*state, name, path), &plot, &said) != PSPEC_OK) {
+            fail_msg("%zu: %s", plot.num_panels, said.message);
+        }
+    }
+    plot.num_panels = 4; /* two rows of two */
+    assert_true(script_contains(&plot, "set terminal svg enhanced size 1440,1320 "));
+    assert_true(script_contains(&plot, "set title \"the\\137first\\047s\" noenhanced"));
+    assert_true(script_contains(&plot, "plot $data3_0 using "));
+    assert_false(script_contains(&plot, "$data1_0 using"));
+    plot.num_panels = 1;
+    assert_true(script_contains(&plot, "set terminal svg enhanced size 1000,700 "));
+}
+
+/* All that a picture shows is in what it is known by. */
+static void keys_of_looks(void **state) {
+    (void)state;
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panel = {"none", NUM_LOOKS, series};
+    const ps_figure plot = {
+        .form = PS_FIGURE_FRAME, .title = "", .num_panels = 1, .panels = &panel};
+    ps_text first = {0};
+    ps_figure_add_key(&first, &plot);
+    for (int change = 0; change < 4; change++) {
+        ps_text other = {0};
+        make_looks(series);
+        series[0].low = change == 0 ? highs : lows;
+        series[0].high = change == 1 ? lows : highs;
+        series[1].error = change == 2 ? lows : errors;
+        series[2].look = change == 3 ? PS_LOOK_LINE : PS_LOOK_REFERENCE;
+        ps_figure_add_key(&other, &plot);
+        assert_true(first.length != other.length ||
+                    memcmp(first.data, other.data, first.length) != 0);
+        ps_text_free(&other);
+    }
+    ps_text_free(&first);
+}
+
+/* What has no slope says none. */
+static void slopes(void **state) {
+    (void)state;
+    const double zero[NUM_COUNTS] = {0};
+    ps_series series = {.num = NUM_COUNTS, .x = counts, .y = variances};
+    ps_text label = {0};
+    ps_series_say_slope(&series, &label);
+    assert_string_equal(ps_text_string(&label), "slope -1.661"); /* 1 / log10 4 */
+    ps_text_free(&label);
+    ps_text_append(&label, "a");
+    series.num = 1;
+    ps_series_say_slope(&series, &label);
+    series = (ps_series){.num = NUM_COUNTS, .x = counts, .y = zero};
+    ps_series_say_slope(&series, &label);
+    assert_string_equal(ps_text_string(&label), "a");
+    ps_text_free(&label);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(draws_frames, test_folder_create, test_folder_remove),
+        cmocka_unit_test(looks_of_a_frame),
+        cmocka_unit_test(ends_of_a_logarithmic_axis),
+        cmocka_unit_test(single_places_of_a_frame),
+        cmocka_unit_test(keys_of_looks),
+        cmocka_unit_test(slopes),
+    };
+    return cmocka_run_group_tests_name("plot_frames", tests, NULL, NULL);
+}
