@@ -38,7 +38,7 @@ laws() {
     printf '%-40s %-13s %5s %10s  %-15s %s\n' "sampler, integrand" law N "its value" predicted measured
     law "pi/(12 N^2)" "$(evaluate pi/12)" 2 256,1024,4096 jittered gaussian:sigma=0.0625
     law "1.043 R/N^1.5" "$(evaluate 1.043/4)" 1.5 256,1024,4096 jittered disk:radius=0.25
-    law "280.4/N^2" 280.4 2 192,768,3072 healpix-jittered harmonic:degree=4
+    law "281.1/N^2" 281.134 2 192,768,3072 healpix-jittered harmonic:degree=4
     law "E/N" "$(evaluate 'pi/16 - (pi/16)^2')" 1 256,1024 white disk:radius=0.25
     law "3 pi^2/N" "$(evaluate '3*pi^2')" 1 192 white-sphere cap
 }

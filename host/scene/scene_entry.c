@@ -64,12 +64,14 @@ static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file,
 
 /* ---- values ------------------------------------------------------------------------------ */
 
-/* The sentence of an option without the name that the complaint has already. */
+/* The sentence of an option without the name that the complaint has already: `samplers` of a scene is
+ * `sampler` of a command. */
 static pspec_status complain_of_value(const ps_scene_file *file, int line, const char *key,
-                                      const ps_error *reason) {
+                                      ps_option_id option, const ps_error *reason) {
     const char *sentence = reason->message;
-    const size_t length = strlen(key);
-    if (strncmp(sentence, key, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) {
+    const size_t length = strlen(ps_options[option].name);
+    if (strncmp(sentence, ps_options[option].name, length) == 0 &&
+        strncmp(sentence + length, ": ", 2) == 0) {
         sentence += length + 2;
     }
     return ps_scene_complain(file, line, key, "%s", sentence);
@@ -86,7 +88,7 @@ static pspec_status check_value(const ps_scene_file *file, const ps_result_kind 
     for (size_t i = 0; i < value->num_texts; i++) {
         if (ps_option_apply(&scratch, id, ps_result_words(kind, id), value->texts[i], &reason) !=
             PSPEC_OK) {
-            return complain_of_value(file, value->line, key, &reason);
+            return complain_of_value(file, value->line, key, id, &reason);
         }
     }
     return PSPEC_OK;
@@ -157,7 +159,7 @@ static pspec_status parse_points(const ps_scene_file *file, const char *key,
         PS_TRY(ps_scene_take_text(file, item, key, &text));
         if (ps_counts_parse(out, text, key, option->minimum, option->maximum, &reason) !=
             PSPEC_OK) {
-            return complain_of_value(file, item->line, key, &reason);
+            return complain_of_value(file, item->line, key, PS_OPTION_POINTS, &reason);
         }
     }
     return out->num > 0 ? PSPEC_OK : ps_scene_complain(file, node->line, key, "an empty list");
