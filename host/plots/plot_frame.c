@@ -188,11 +188,12 @@ static void print_raised(const char *column, double bottom, FILE *stream) {
     }
 }
 
-/* data: its name. */
+/* data: its name. Around a single place the band is a box. */
 static void print_band(const char *data, const ps_series *series, double bottom, FILE *stream) {
-    fprintf(stream, "%s using 1:", data);
+    fprintf(stream, "%s using 1:%s", data, series->num > 1 ? "" : "2:($1*0.985):($1*1.015):");
     print_raised("$5", bottom, stream);
-    fputs(":6 with filledcurves fillstyle transparent solid 0.25 noborder ", stream);
+    fprintf(stream, ":6 with %s fillstyle transparent solid 0.25 noborder ",
+            series->num > 1 ? "filledcurves" : "boxxyerror");
     ps_script_print_colour(series->kind, stream);
     fputs(" notitle, ", stream);
 }

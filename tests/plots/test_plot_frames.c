@@ -103,7 +103,7 @@ static void ends_of_a_logarithmic_axis(void **state) {
     assert_false(script_contains(&plot, "set yrange"));
 }
 
-/* A place that is alone has no line. */
+/* A place that is alone has no line, and a box instead of a band. */
 static void single_places_of_a_frame(void **state) {
     (void)state;
     ps_series series[NUM_LOOKS];
@@ -116,6 +116,8 @@ static void single_places_of_a_frame(void **state) {
     }
     assert_false(script_contains(&plot, "with lines"));
     assert_true(script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 "));
+    assert_true(script_contains(&plot, "plot $data0_0 using 1:2:($1*0.985):($1*1.015):($5):6 with "
+                                       "boxxyerror fillstyle "));
     assert_true(script_contains(&plot, "$data0_2 using 1:2 with points pointtype 1 "));
 }
 

@@ -254,14 +254,16 @@ static void append_title(const ps_request *request, const ps_table *table, ps_te
         ps_text_append(out, ", M = %.0f", sets);
     }
     if (sets > 0 && shifts > 0) {
-        ps_text_append(out, ", %.0f trials", sets * shifts);
+        ps_text_append(out, ", %.0f trial%s", sets * shifts, sets * shifts > 1 ? "s" : "");
     }
 }
 
 pspec_status ps_variance_plot(const ps_request *request, const ps_table *table, ps_error *error) {
     ps_text title = {0};
     append_title(request, table, &title);
-    const ps_chart_part part = {table, request->num_samplers == 1 ? request->samplers[0] : ""};
+    const ps_chart_part part = {table, request->num_samplers == 0   ? "files"
+                                       : request->num_samplers == 1 ? request->samplers[0]
+                                                                    : ""};
     const ps_chart chart = {.title = ps_text_string(&title),
                             .axes = request->plot_axes,
                             .num_parts = 1,
