@@ -64,8 +64,8 @@ static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file,
 
 /* ---- values ------------------------------------------------------------------------------ */
 
-/* The sentence of an option without the name that the complaint has already: `samplers` of a scene is
- * `sampler` of a command. */
+/* The sentence of an option without the name that the complaint has already: `samplers` of a scene
+ * is `sampler` of a command. */
 static pspec_status complain_of_value(const ps_scene_file *file, int line, const char *key,
                                       ps_option_id option, const ps_error *reason) {
     const char *sentence = reason->message;

@@ -11,9 +11,9 @@
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,
                                ps_variance_job *const *jobs, size_t num, const ps_error *verdict,
                                ps_error *error) PS_MUST_CHECK;
-/* Variances against N, by the rows of such tables: a panel for each integrand, in which each sampler
- * has a colour. Predictions are lines on a band from lower to upper, measurements are marks with
- * bars of their errors, and white noise is a line of dashes. */
+/* Variances against N, by the rows of such tables: a panel for each integrand, in which each
+ * sampler has a colour. Predictions are lines on a band from lower to upper, measurements are marks
+ * with bars of their errors, and white noise is a line of dashes. */
 pspec_status ps_variance_chart(const ps_chart *chart, ps_error *error) PS_MUST_CHECK;
 /* Draws it into request->plot. */
 pspec_status ps_variance_plot(const ps_request *request, const ps_table *table,
