@@ -39,6 +39,7 @@ add_program_test(cli_truncation) # lobes, formats, what is refused
 add_program_test(cli_quadrature) # golden values, engines, files, what is refused
 add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is refused
 add_program_test(cli_variance_files) # halves, single sets, weights, streams, memory, saved results that are refused
+add_program_test(cli_variance_integrands) # integrands from files: numbers, scenes, what is refused
 add_program_test(cli_variance)  # columns, formats, the same bits beside other questions, scenes, what is refused
 add_program_test(cli_variance_cutoff)  # --tail, what does not matter, shells, the formula of the paper
 add_program_test(cli_weights)   # weights at the ends of the range of doubles, sums that are 0

@@ -89,12 +89,19 @@ static bool accept_shape(const char **at, ps_npy_header *out) {
     return true;
 }
 
+/* "<f8": byte order, kind, bytes. "<c16" is two floats of half the bytes. */
 static bool accept_type(const char **at, ps_npy_header *out) {
-    char type[4] = "";
+    char type[5] = "";
     static const char kinds[] = {
         [PS_ELEMENT_FLOAT] = 'f', [PS_ELEMENT_SIGNED] = 'i', [PS_ELEMENT_UNSIGNED] = 'u'};
-    if (!accept_text(at, type, sizeof type) || strlen(type) != 3 ||
-        memchr(kinds, type[1], sizeof kinds) == NULL) {
+    if (!accept_text(at, type, sizeof type)) {
+        return false;
+    }
+    out->is_complex = strcmp(type + 1, "c8") == 0 || strcmp(type + 1, "c16") == 0;
+    if (out->is_complex) {
+        memcpy(type + 1, type[2] == '8' ? "f4" : "f8", sizeof "f8");
+    }
+    if (strlen(type) != 3 || memchr(kinds, type[1], sizeof kinds) == NULL) {
         return false;
     }
     const bool is_float = type[1] == 'f';
@@ -122,12 +129,13 @@ static pspec_status parse_entry(const char **at, const char *name, ps_npy_header
     bool is_good = false;
     if (strcmp(key, "descr") == 0) {
         *found |= 1U;
-        if (!accept_type(at, out)) {
+        if (!accept_type(at, out) || (out->is_complex && !out->may_be_complex)) {
             char shown[PS_TOKEN_BYTES];
             return ps_fail(
                 error, PSPEC_ERROR_INPUT,
-                "%s: element type %s cannot be read; float16 to float64 and whole numbers can",
-                name, ps_token_show(shown, value, strcspn(value, ",}")));
+                "%s: element type %s cannot be read; float16 to float64%s and whole numbers can",
+                name, ps_token_show(shown, value, strcspn(value, ",}")),
+                out->may_be_complex ? ", complex" : "");
         }
         is_good = true;
     } else if (strcmp(key, "fortran_order") == 0) {
@@ -161,6 +169,14 @@ static pspec_status parse_dictionary(const char *text, const char *name, ps_npy_
 
 /* ---- reading ---- */
 
+pspec_status ps_npy_is_next(ps_input *input, bool *is_next, ps_error *error) {
+    const unsigned char *bytes = NULL;
+    size_t num = 0;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &num, error));
+    *is_next = num > 0 && bytes[0] == (unsigned char)magic[0];
+    return PSPEC_OK;
+}
+
 static pspec_status read_header_text(ps_input *input, char **text, ps_error *error) {
     unsigned char start[MAGIC_BYTES + 2];
     unsigned char length_bytes[4] = {0};
@@ -187,7 +203,8 @@ static pspec_status check_size(const ps_input *input, const ps_npy_header *heade
                                ps_error *error) {
     size_t needed = 0;
     uint64_t present = 0;
-    if (!ps_size_multiply(header->num_elements, header->type.num_bytes, &needed)) {
+    const size_t element_bytes = header->type.num_bytes * (header->is_complex ? 2U : 1U);
+    if (!ps_size_multiply(header->num_elements, element_bytes, &needed)) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its NPY header promises %zu elements",
                        input->name, header->num_elements);
     }
@@ -207,8 +224,9 @@ static pspec_status check_size(const ps_input *input, const ps_npy_header *heade
     return PSPEC_OK;
 }
 
-pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) {
-    *out = (ps_npy_header){0};
+static pspec_status read_header(ps_input *input, ps_npy_header *out, bool may_be_complex,
+                                ps_error *error) {
+    *out = (ps_npy_header){.may_be_complex = may_be_complex};
     char *text = NULL;
     pspec_status status = read_header_text(input, &text, error);
     if (status == PSPEC_OK) {
@@ -224,6 +242,14 @@ pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *e
         }
     }
     return check_size(input, out, error);
+}
+
+pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) {
+    return read_header(input, out, false, error);
+}
+
+pspec_status ps_npy_read_any_header(ps_input *input, ps_npy_header *out, ps_error *error) {
+    return read_header(input, out, true, error);
 }
 
 pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, double *out,

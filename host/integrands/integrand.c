@@ -8,11 +8,14 @@
 
 /* In the order of the help text. A new integrand is a file and a row here. */
 const ps_integrand_kind *const ps_integrand_kinds[] = {
-    &ps_integrand_ball,     &ps_integrand_box,      &ps_integrand_half_plane,
-    &ps_integrand_gaussian, &ps_integrand_wave,     &ps_integrand_constant,
-    &ps_integrand_cap,      &ps_integrand_harmonic, &ps_integrand_square,
-    &ps_integrand_lobe,     &ps_integrand_diffuse,  &ps_integrand_glossy,
-    &ps_integrand_phong,    &ps_integrand_zonal,    NULL};
+    &ps_integrand_ball,         &ps_integrand_box,
+    &ps_integrand_half_plane,   &ps_integrand_gaussian,
+    &ps_integrand_wave,         &ps_integrand_constant,
+    &ps_integrand_coefficients, &ps_integrand_cap,
+    &ps_integrand_harmonic,     &ps_integrand_square,
+    &ps_integrand_lobe,         &ps_integrand_diffuse,
+    &ps_integrand_glossy,       &ps_integrand_phong,
+    &ps_integrand_zonal,        NULL};
 
 /* ---- parsing ------------------------------------------------------------------------------- */
 
@@ -164,6 +167,10 @@ double ps_integrand_radial(const ps_integrand *integrand, double k) {
 
 double ps_integrand_whole_square(const ps_integrand *integrand) {
     return integrand->kind->whole_square(integrand);
+}
+
+double ps_integrand_steps(const ps_integrand *integrand) {
+    return integrand->kind->steps != NULL ? integrand->kind->steps(integrand) : 0;
 }
 
 const char *ps_integrand_note(const ps_integrand *integrand) {

@@ -63,6 +63,8 @@ typedef struct ps_integrand_kind {
      * over all of space, without images. NULL: not on the torus, or no function of |k|. */
     double (*radial)(const ps_integrand *, double k);
     double (*whole_square)(const ps_integrand *);
+    /* Steps of some 5 ns of the host for a value that is a sum. NULL: no sum. */
+    double (*steps)(const ps_integrand *);
     const char *(*note)(const ps_integrand *); /* what a result should say of it; may be NULL */
     const char *(*file)(const ps_integrand *); /* that was read; NULL: kinds without files */
 } ps_integrand_kind;
@@ -122,6 +124,8 @@ double ps_integrand_reach(const ps_integrand *integrand);
 bool ps_integrand_is_radial(const ps_integrand *integrand);
 double ps_integrand_radial(const ps_integrand *integrand, double k);
 double ps_integrand_whole_square(const ps_integrand *integrand);
+/* Steps of some 5 ns of the host for a value that is a sum; 0: no sum. */
+double ps_integrand_steps(const ps_integrand *integrand);
 const char *ps_integrand_note(const ps_integrand *integrand); /* or NULL */
 const char *ps_integrand_file(const ps_integrand *integrand); /* or NULL */
 

@@ -24,7 +24,8 @@ typedef struct number_list {
     ps_input *input;
     double *values;
     size_t num_values, capacity;
-    unsigned columns; /* of every row; 0: any number */
+    unsigned columns;          /* of every row; 0: any number */
+    const char *columns_shown; /* as a word, of tables */
     /* it is not read beyond these, since a file may have no end */
     uint64_t most_values;   /* 0: any number */
     uint64_t memory_limit;  /* of bytes, that somebody typed; 0: half of what is free */
@@ -227,15 +228,6 @@ static pspec_status parse_weights(number_list *list, const char *text, size_t li
     return PSPEC_OK;
 }
 
-/* The first byte tells: no text begins with it. Of what is compressed it has to be unpacked. */
-static pspec_status find_npy(ps_input *input, bool *is_npy, ps_error *error) {
-    const unsigned char *bytes = NULL;
-    size_t num = 0;
-    PS_TRY(ps_input_peek(input, 1, &bytes, &num, error));
-    *is_npy = num > 0 && bytes[0] == (unsigned char)ps_format_npy.magic[0];
-    return PSPEC_OK;
-}
-
 /* In blocks, so that a pipe that promises too much does not claim the memory for it. */
 static pspec_status read_npy_elements(number_list *list, const ps_npy_header *header,
                                       ps_error *error) {
@@ -275,13 +267,13 @@ pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **wei
                              size_t *num_weights, ps_error *error) {
     *weights = NULL;
     ps_input input = {0};
-    char why[64];
+    char why[96];
     snprintf(why, sizeof why, "weights, and a set has %llu points", (unsigned long long)num_wanted);
     number_list list = {.input = &input, .most_values = num_wanted, .why_values = why};
     pspec_status status = PSPEC_OK;
     bool is_npy = false;
     PS_TRY_OUT(status, ps_input_open_array(&input, path, "weights", error));
-    PS_TRY_OUT(status, find_npy(&input, &is_npy, error));
+    PS_TRY_OUT(status, ps_npy_is_next(&input, &is_npy, error));
     PS_TRY_OUT(status, is_npy ? read_npy(&list, error) : read_lines(&list, parse_weights, error));
     *weights = list.values;
     *num_weights = list.num_values;
@@ -316,54 +308,62 @@ pspec_status ps_write_weights(const char *path, const double *weights, size_t nu
     return ps_output_commit(&file, error);
 }
 
-/* ---- pairs ---- */
+/* ---- tables ---- */
 
-/* Three values of the list: two numbers, and the line that they stood in. */
-enum { PAIR_VALUES = 3 };
-
-static pspec_status parse_pair(number_list *list, const char *text, size_t line_number,
-                               ps_error *error) {
-    enum { COLUMNS = 2 };
-    for (int column = 0; column < COLUMNS; column++) {
+/* The values of the list are rows, each with the line that it stood in. */
+static pspec_status parse_row(number_list *list, const char *text, size_t line_number,
+                              ps_error *error) {
+    for (unsigned column = 0; column < list->columns; column++) {
         double value = 0;
         PS_TRY(read_token(list, &text, line_number, "a finite number", &value, error));
         PS_TRY(append(list, value, error));
         text = skip_blanks(text);
-        text = skip_blanks(text + (column == 0 && *text == ','));
+        text = skip_blanks(text + (column + 1 < list->columns && *text == ','));
     }
     if (*text != '\n') {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: more than two numbers; rows have two columns",
-                       list->input->name, line_number);
+                       "%s, line %zu: more than %s numbers; rows have %s columns",
+                       list->input->name, line_number, list->columns_shown, list->columns_shown);
     }
     return append(list, (double)line_number, error);
 }
 
-static pspec_status convert_pairs(const number_list *list, ps_pair **pairs, size_t *num_pairs,
-                                  ps_error *error) {
-    const size_t num = list->num_values / PAIR_VALUES;
-    PS_TRY(PS_NEW(pairs, num, "rows", error));
-    *num_pairs = num;
-    for (size_t i = 0; i < num; i++) {
-        const double *const row = list->values + PAIR_VALUES * i;
-        (*pairs)[i] = (ps_pair){row[0], row[1], (size_t)row[2]};
-    }
-    return PSPEC_OK;
-}
-
-pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs, ps_error *error) {
+pspec_status ps_read_rows(const char *path, unsigned columns, double **rows, size_t *num_rows,
+                          ps_error *error) {
     const uint64_t most_rows = 1 << 22; /* a table of a lobe has hundreds */
-    *pairs = NULL;
+    char columns_shown[32];
+    char why[96];
+    *rows = NULL;
+    snprintf(columns_shown, sizeof columns_shown, columns == 2 ? "two" : "%u", columns);
+    snprintf(why, sizeof why, "numbers, more than a table of %s columns may have", columns_shown);
     ps_input input = {0};
     number_list list = {.input = &input,
-                        .most_values = PAIR_VALUES * most_rows,
-                        .why_values = "numbers, more than a table of two columns may have"};
+                        .columns = columns,
+                        .columns_shown = columns_shown,
+                        .most_values = (columns + 1) * most_rows,
+                        .why_values = why};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&input, path, error));
-    PS_TRY_OUT(status, read_lines(&list, parse_pair, error));
-    status = convert_pairs(&list, pairs, num_pairs, error);
+    PS_TRY_OUT(status, read_lines(&list, parse_row, error));
+    *num_rows = list.num_values / (columns + 1);
+    *rows = list.values;
+    list.values = NULL;
 out:
     free(list.values);
     ps_input_close(&input);
+    return status;
+}
+
+pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs, ps_error *error) {
+    enum { COLUMNS = 2 };
+    double *rows = NULL;
+    *pairs = NULL;
+    PS_TRY(ps_read_rows(path, COLUMNS, &rows, num_pairs, error));
+    const pspec_status status = PS_NEW(pairs, *num_pairs, "rows", error);
+    for (size_t i = 0; status == PSPEC_OK && i < *num_pairs; i++) {
+        const double *const row = rows + i * (COLUMNS + 1);
+        (*pairs)[i] = (ps_pair){row[0], row[1], (size_t)row[2]};
+    }
+    free(rows);
     return status;
 }

@@ -170,6 +170,11 @@ pspec_status ps_write_weights(const char *path, const double *weights, size_t nu
 /* Whether the ending tells which of both it is: .npy, .txt, or none. */
 pspec_status ps_weights_check_name(const char *path, ps_error *error) PS_MUST_CHECK;
 
+/* Reads lines of so many finite numbers separated by blanks or a comma, '#' lines skipped: rows
+ * [num_rows][columns + 1], the last number of each its line; freed by the caller. */
+pspec_status ps_read_rows(const char *path, unsigned columns, double **rows, size_t *num_rows,
+                          ps_error *error) PS_MUST_CHECK;
+
 /* Two numbers of a line, and which line it was. */
 typedef struct ps_pair {
     double first, second;

@@ -12,7 +12,7 @@ const char *ps_input_of_weights(const char *words, const char *value) {
     return ps_weights_find(words, value) == PS_WEIGHTS_FILE ? value : NULL;
 }
 
-const char *ps_input_of_lobe(const char *words, const char *value) {
+const char *ps_input_of_named(const char *words, const char *value) {
     static const char key[] = "file=";
     const char *const found = strstr(value, key);
     (void)words;

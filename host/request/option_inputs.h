@@ -4,7 +4,7 @@
 
 #include "request/options.h"
 
-/* The value itself; that of --weights where it is a file; that of "zonal:file=PATH". */
-ps_option_input ps_input_all, ps_input_of_weights, ps_input_of_lobe;
+/* The value itself; that of --weights where it is a file; that of "NAME:file=PATH". */
+ps_option_input ps_input_all, ps_input_of_weights, ps_input_of_named;
 
 #endif

@@ -75,7 +75,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .set = ps_add_sampler},
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
                              .help = "what is integrated; the names are below",
-                             .set = ps_add_integrand},
+                             .set = ps_add_integrand, .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
         {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
          .help = "random shifts, on the sphere rotations, of every set that is "
@@ -107,7 +107,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     .set = ps_set_false_alarm_rate},
     [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
                         .help = "lobe of reflection; the names are below", TEXT(brdf),
-                        .input = ps_input_of_lobe},
+                        .input = ps_input_of_named},
     [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES, 0),
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",

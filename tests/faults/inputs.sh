@@ -62,6 +62,8 @@ make_inputs() {
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.jsonl
     "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
+    printf '0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n' >own.txt
+    "$program" power --engine host_direct --sampler white -n 8 -k 1 --coefficients own.npy -o own.csv
     for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
     cat >points.yaml <<'EOF'
 scene: 1

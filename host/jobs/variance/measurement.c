@@ -42,6 +42,15 @@ static size_t divide(size_t a, size_t b) { /* at least 1 */
     return a > b ? a / b : 1;
 }
 
+/* Values that are sums cost as much as so many others. */
+static size_t values_of_call(const measurement *self) {
+    double most = 1;
+    for (size_t i = 0; i < self->plan->num_integrands; i++) {
+        most = fmax(most, ps_integrand_steps(self->plan->integrands[i]));
+    }
+    return divide(CALL_VALUES, (size_t)most);
+}
+
 static void choose_calls(measurement *self, size_t trials_of_call) {
     self->trials_of_call = trials_of_call;
     self->num_calls = ps_divide_up((size_t)self->plan->num_shifts, trials_of_call);
@@ -51,9 +60,9 @@ static void choose_sizes(measurement *self) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t points = plan->most_points;
     const size_t num_shifts = (size_t)plan->num_shifts;
-    choose_calls(self, least(num_shifts, divide(CALL_VALUES, points)));
+    choose_calls(self, least(num_shifts, divide(values_of_call(self), points)));
     const size_t fit = least(divide(BATCH_POINTS, points), divide(BATCH_TRIALS, num_shifts));
-    const size_t quick = divide(CALL_VALUES, points * self->trials_of_call);
+    const size_t quick = divide(values_of_call(self), points * self->trials_of_call);
     const size_t most = self->num_calls > 1 ? 1 : least(least(fit, quick), MOST_BATCH);
     self->batch = plan->num_sets < most ? (size_t)plan->num_sets : most;
 }

@@ -169,13 +169,15 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
     /* of a processor: 12 ns of a disk, 13 of a Gaussian, 42 of one with images (16384 points,
      * double precision, AVX2, PoCL 3.1) */
     const double value_seconds = 2e-8;
+    const double step_seconds = 5e-9;
     const ps_power_question *const spectrum = &job->question->spectrum;
     const ps_sets_options sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip);
     const double num_sets = (double)job->trials.num_sets;
     const double points = spectrum->sampler != NULL ? (double)spectrum->sampler->num_points
                                                     : (double)job->files.most_points;
-    const double values =
-        num_sets * (double)job->trials.num_shifts * points * (double)job->question->num_integrands;
+    const double value_points = num_sets * (double)job->trials.num_shifts * points;
+    const double values = value_points * (double)job->question->num_integrands;
+    double seconds = values * value_seconds;
     char size[PS_SIZE_TEXT];
     if (values == 0) {
         return;
@@ -185,7 +187,10 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
     } else {
         add_reading(job, phases);
     }
-    ps_phases_add_seconds(phases, "trials", values * value_seconds);
+    for (size_t i = 0; i < job->question->num_integrands; i++) {
+        seconds += value_points * ps_integrand_steps(job->integrands[i]) * step_seconds;
+    }
+    ps_phases_add_seconds(phases, "trials", seconds);
     ps_phases_say(phases, "trials", "%.4g values of integrands, %s of memory", values,
                   ps_size_show(size, job->trial_bytes));
 }

@@ -1,0 +1,32 @@
+/* A real function of the torus that has finitely many Fourier coefficients, from a file. */
+#ifndef PS_INTEGRANDS_FILES_TORUS_SERIES_H
+#define PS_INTEGRANDS_FILES_TORUS_SERIES_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct ps_torus_series {
+    unsigned dimension;
+    double mean, energy; /* f_0; the sum of all other |f_k|^2 */
+    double reach;        /* the largest |k_i| */
+    double steps;        /* of a value: those of a term whose k is next to the one before are 1 */
+    size_t num;          /* of the half lattice: k and -k are one */
+    int32_t *k;          /* [num][dimension], ascending */
+    uint8_t *first;      /* [num], the first axis on which k is not that of the one before, .. */
+    uint8_t *is_next;    /* .. and is it the last, and larger by 1? */
+    double *re, *im;     /* [num] */
+    double *squares;     /* [num], |f_k|^2 */
+} ps_torus_series;
+
+pspec_status ps_torus_series_read(ps_torus_series **out, const char *path, unsigned dimension,
+                                  ps_error *error) PS_MUST_CHECK;
+void ps_torus_series_destroy(ps_torus_series *series); /* NULL is allowed */
+
+double ps_torus_series_value(const ps_torus_series *series, const double *x);
+/* sum of |f_k|^2 e^{2 pi i k.x}; nan: they are too many */
+double ps_torus_series_correlation(const ps_torus_series *series, const double *x);
+double ps_torus_series_power(const ps_torus_series *series, const int32_t *k); /* |f_k|^2 */
+
+#endif

@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# cli_variance_integrands.sh PROGRAM: pointspec variance of integrands from files: the same numbers as integrands that are
+# known otherwise, what scenes make of files, what is refused.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../harness/harness.sh" variance "$1"
+
+table() { grep -v '^#' out; }
+column() { # NAME of the only row
+    table | awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR == 2 { print $at }'
+}
+near() { # WHAT A B RELATIVE
+    awk -v a="$2" -v b="$3" -v r="$4" 'BEGIN { exit !(a - b <= r * b && b - a <= r * b && b > 0) }' ||
+        complain "$1: $2, not $3"
+}
+few=(--engine host_direct -k 4)
+
+# ---- coefficients of the torus ----
+
+# a wave is 1/2 at k and -k
+printf '# a wave\n2,-3,0.5,0\n-2 3 0.5 0\n' >wave.txt
+runs 0 --sampler jittered -n 16 -m 20 "${few[@]}" --integrand wave:k=2x-3
+wave=$(table | sed 1d | cut -d, -f1-3,9)
+measured=$(column measured)
+runs 0 --sampler jittered -n 16 -m 20 "${few[@]}" --integrand coefficients:file=wave.txt
+[[ $(table | sed 1d | cut -d, -f1-3,9) == "$wave" ]] || complain "a wave: $(table), not $wave"
+near 'a wave, measured' "$(column measured)" "$measured" 1e-9
+[[ $(column lower) == "$(column predicted)" && $(column upper) == "$(column predicted)" ]] ||
+    complain "beyond the file there is nothing: $(table)"
+# a wave that the cut-off leaves out is told
+runs 0 --sampler jittered -n 16 -m 20 --engine host_direct -k 2 --integrand coefficients:file=wave.txt
+[[ $(column lower) == 0 && $(column predicted) == 0.03125 ]] || complain "beyond the cut-off: $(table)"
+
+# what --coefficients writes: the density of a set; its text has the same numbers
+"$program" power --engine host_direct --sampler white -n 6 -k 2 --coefficients set.npy -o set.csv 2>err || complain "power: $(<err)"
+runs 0 --sampler sobol:scramble=none -n 32 "${few[@]}" --integrand coefficients:file=set.npy
+near 'pairs' "$(key pairwise_variance)" "$(column predicted)" 1e-9
+[[ $(key integral) == 6* ]] || complain "integral: $(key integral)"
+of_array=$(table)
+tail -c 400 set.npy | od -An -v -tf8 -w16 | awk '{ print int((NR - 1) / 5) - 2, (NR - 1) % 5 - 2, $1, $2 }' >set.txt
+runs 0 --sampler sobol:scramble=none -n 32 "${few[@]}" --integrand coefficients:file=set.txt
+near 'as text' "$(column predicted)" "$(cut -d, -f2 <<<"$(sed 1d <<<"$of_array")")" 1e-9
+
+# a tilted sum of waves in one and in three dimensions, with z-scores that are possible
+printf '0 1 0\n1 .25 .5\n-1 .25 -.5\n' >line.txt
+printf '1 0 2 .5 .5\n-1 0 -2 .5 -.5\n0 1 0 1 0\n0 -1 0 1 0\n' >space.txt
+runs 0 --sampler jittered -d 1 -n 16 -m 100 --shifts 4 --engine host_direct --integrand coefficients:file=line.txt
+awk -v z="$(column z_score)" 'BEGIN { exit !(z < 4 && z > -4 && z != 0) }' || complain "line: $(table)"
+runs 0 --sampler white -d 3 -n 27 -m 100 --shifts 4 --engine host_direct --integrand coefficients:file=space.txt
+awk -v z="$(column z_score)" 'BEGIN { exit !(z < 4 && z > -4 && z != 0) }' || complain "space: $(table)"
+near 'space' "$(column white)" 0.11111111111111 1e-12
+
+# ---- files are known as such ----
+
+cp wave.txt kept.txt
+refuses 'are the same file' --sampler white -n 8 --integrand coefficients:file=wave.txt -o wave.txt
+refuses 'are the same file' --sampler white -n 8 --integrand disk --integrand coefficients:file=./wave.txt -o ../${PWD##*/}/wave.txt
+cmp -s wave.txt kept.txt || complain 'an input was overwritten'
+mkdir folder
+cp wave.txt folder/own.txt
+cat >folder/scene.yaml <<'END'
+scene: 1
+results:
+  - {result: variance, name: own, samplers: white, points: 8, realizations: 3, max-frequency: 4, integrand: ['coefficients:file=own.txt', disk]}
+END
+run_scene() { # OUTPUT
+    "$program" run folder/scene.yaml -o "$1" >out 2>err </dev/null || complain "scene: $(<err)"
+}
+run_scene first
+run_scene second
+grep -q '^own,variance,1,1,' out || complain "not from the cache: $(<out)"
+cmp -s <(grep -v '^#' first/own.csv) <(grep -v '^#' second/own.csv) || complain 'the cache has other numbers'
+printf '0,0,1,0\n' >folder/own.txt
+run_scene third
+! cmp -s <(grep -v '^#' first/own.csv) <(grep -v '^#' third/own.csv) || complain 'the scene has numbers of the old file'
+
+# ---- what is refused ----
+
+fails() { # PART ROWS
+    printf '%s\n' "${@:2}" >bad.txt
+    refuses "$1" --sampler white -n 8 --integrand coefficients:file=bad.txt
+}
+fails 'line 1: the coefficient at k = (1, 0) is that of no real function without its conjugate' 1,0,0.5,0.3
+fails 'lines 1 and 2: the coefficients at k = (1, 0) and k = (-1, 0) are those of no real function' 1,0,0.5,0.3 -1,0,0.5,0.3
+fails 'imaginary part 0.3' 0,0,0.5,0.3
+fails 'is given twice' 0,0,1,0 0,0,1,0
+fails 'not a finite number' 0,0,nan,0
+refuses 'needs its file' --sampler white -n 8 --integrand coefficients
+refuses 'standard input' --sampler white -n 8 --integrand coefficients:file=-
+refuses 'no regular file' --sampler white -n 8 --integrand coefficients:file=/dev/zero
+refuses 'coefficients have an axis for each of the 3 dimensions' --sampler white -d 3 -n 8 -k 2 --integrand coefficients:file=set.npy
+runs 1 --sampler white -n 8 --integrand coefficients:file=none.txt
+says none.txt
+finish
