@@ -65,8 +65,8 @@ struct ps_option {
     uint64_t minimum, maximum;
     char letter; /* 0: none */
     ps_option_source source;
-    /* NULL: no value of it names a file that is read. Else offset is of the field with the text, but
-     * of --integrand, which is a list */
+    /* NULL: no value of it names a file that is read. Else offset is of the field with the text,
+     * but of --integrand, which is a list */
     ps_option_input *input;
 };
 

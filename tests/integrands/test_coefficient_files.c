@@ -1,6 +1,6 @@
 /* A user's own integrands by their coefficients on the torus: values against the sum itself,
- * powers, integral, energy and sums over pairs against means over a lattice that is finer than they are,
- * arrays of every kind against text, and the sentences of what is refused. */
+ * powers, integral, energy and sums over pairs against means over a lattice that is finer than they
+ * are, arrays of every kind against text, and the sentences of what is refused. */
 #include "harness_integrands.h"
 
 #include "math/pi.h"
@@ -138,42 +138,24 @@ static void pairs_are_means(void **state) {
 
 /* ---- arrays -------------------------------------------------------------------------------- */
 
-static void write_array(const char *path, const char *type, const char *order, const char *shape,
-                        const void *data, size_t num_bytes) {
-    char text[118];
-    FILE *const stream = fopen(path, "wb");
-    assert_non_null(stream);
-    memset(text, ' ', sizeof text);
-    const int length = snprintf(text, sizeof text,
-                                "{'descr': '%s', 'fortran_order': %s, "
-                                "'shape': %s, }",
-                                type, order, shape);
-    text[length] = ' ';
-    text[sizeof text - 1] = '\n';
-    assert_int_equal(fwrite("\x93NUMPY\x01\x00\x76\x00", 1, 10, stream), 10);
-    assert_int_equal(fwrite(text, 1, sizeof text, stream), sizeof text);
-    assert_int_equal(fwrite(data, 1, num_bytes, stream), num_bytes);
-    assert_int_equal(fclose(stream), 0);
-}
-
 static void arrays_are_the_text(void **state) {
     double box[SIDE * SIDE][2];
     double turned[SIDE * SIDE][2];
     float single[SIDE * SIDE][2];
     (void)state;
     fill_box(box);
-    write_array("own.npy", "<c16", "False", "(7, 7)", box, sizeof box);
+    test_write_array("own.npy", "<c16", "False", "(7, 7)", box, sizeof box);
     known("coefficients:file=own.npy");
     for (int i = 0; i < SIDE * SIDE; i++) {
         memcpy(turned[i % SIDE * SIDE + i / SIDE], box[i], sizeof *box);
     }
-    write_array("fortran.npy", "<c16", "True", "(7, 7)", turned, sizeof turned);
+    test_write_array("fortran.npy", "<c16", "True", "(7, 7)", turned, sizeof turned);
     known("coefficients:file=fortran.npy");
     for (int i = 0; i < SIDE * SIDE; i++) {
         single[i][0] = (float)box[i][0];
         single[i][1] = (float)box[i][1];
     }
-    write_array("single.npy", "<c8", "False", "(7, 7)", single, sizeof single);
+    test_write_array("single.npy", "<c8", "False", "(7, 7)", single, sizeof single);
     ps_integrand *const of_single = test_integrand("coefficients:file=single.npy", plane);
     const double x[2] = {0.3, 0.7};
     test_near("single.npy", "a value", value_at(of_single, x), sum_at(x), 1e-8);
@@ -184,7 +166,7 @@ static void arrays_are_the_text(void **state) {
 static void real_arrays(void **state) {
     static const int16_t line[] = {3, 1, 1, 1, 3};
     (void)state;
-    write_array("line.npy", "<i2", "False", "(5,)", line, sizeof line);
+    test_write_array("line.npy", "<i2", "False", "(5,)", line, sizeof line);
     ps_integrand *const self =
         test_integrand("coefficients:file=line.npy", (ps_integrand_place){PS_SAMPLES_TORUS, 1});
     const double x = 0.5;
@@ -240,7 +222,7 @@ static void bad_texts(void **state) {
     refuses("coefficients:file=none.txt", PSPEC_ERROR_IO, "none.txt");
     refuses_rows("1,0,0.5,0.3\n",
                  "line 1: the coefficient at k = (1, 0) is that of no real function "
-                 "without its conjugate at k = (-1, 0)");
+                 "without its opposite at k = (-1, 0)");
     refuses_rows("1,0,0.5,0.3\n0 0 1 0\n-1,0,0.5,0.3\n", "lines 1 and 3: the coefficients at k");
     refuses_rows("0,0,1,0.5\n", "has the imaginary part 0.5");
     refuses_rows("0,0,1,0\n\n0,0,1,0\n",
@@ -257,22 +239,22 @@ static void bad_arrays(void **state) {
     double box[SIDE * SIDE][2];
     (void)state;
     fill_box(box);
-    write_array("bad.npy", "<c16", "False", "(7, 6)", box, sizeof *box * 42);
+    test_write_array("bad.npy", "<c16", "False", "(7, 6)", box, sizeof *box * 42);
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "shape (7, 6); frequencies -K..K");
-    write_array("bad.npy", "<c16", "False", "(49,)", box, sizeof box);
+    test_write_array("bad.npy", "<c16", "False", "(49,)", box, sizeof box);
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT,
             "shape (49,); coefficients have an axis");
-    write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box - 16);
+    test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box - 16);
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "bad.npy");
-    write_array("bad.npy", "<c16", "False", "(0, 7)", box, 0);
+    test_write_array("bad.npy", "<c16", "False", "(0, 7)", box, 0);
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "has no entries");
-    write_array("bad.npy", ">c32", "False", "(7, 7)", box, sizeof box);
+    test_write_array("bad.npy", ">c32", "False", "(7, 7)", box, sizeof box);
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "cannot be read");
     box[8][1] = NAN;
-    write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box);
+    test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box);
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "the entry at (1, 1) is nan");
     box[8][1] = 0.25;
-    write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box);
+    test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box);
     refuses(
         "coefficients:file=bad.npy", PSPEC_ERROR_INPUT,
         "bad.npy: the coefficients at k = (2, 2) and k = (-2, -2) are those of no real function");

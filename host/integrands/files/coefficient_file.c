@@ -109,6 +109,11 @@ static void show_place(ps_text *text, const ps_coefficient_list *list, const ps_
 }
 
 static void show_key(ps_text *text, const ps_coefficient_list *list, const ps_coefficient *one) {
+    if (list->on_sphere) {
+        ps_text_append(text, "l = %d, m = %d", (int)one->key[0],
+                       (int)(one->is_opposite ? -one->key[1] : one->key[1]));
+        return;
+    }
     ps_text_append(text, "k = (");
     for (unsigned i = 0; i < list->num_keys; i++) {
         ps_text_append(text, "%s%d", i > 0 ? ", " : "",
@@ -167,7 +172,7 @@ static pspec_status fail_alone(const ps_coefficient_list *list, const ps_coeffic
     show_place(&text, list, one, NULL);
     ps_text_append(&text, "the coefficient at ");
     show_key(&text, list, one);
-    ps_text_append(&text, " is that of no real function without its conjugate at ");
+    ps_text_append(&text, " is that of no real function without its opposite at ");
     show_key(&text, list, &other);
     ps_text_append(&text, ", which is not in the file");
     return fail_text(&text, error);
@@ -209,7 +214,8 @@ static pspec_status merge_one(const ps_coefficient_list *list, size_t *next, dou
         out->re = (one->re + one[1].re) / 2;
         out->im = (one->im + one[1].im) / 2;
     }
-    if (!is_pair && !one->is_its_own && !(size_of(one->re, one->im) <= rounding)) {
+    if (!is_pair && !one->is_its_own && !list->is_half &&
+        !(size_of(one->re, one->im) <= rounding)) {
         return fail_alone(list, one, error);
     }
     if (one->is_its_own) {

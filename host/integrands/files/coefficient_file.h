@@ -1,5 +1,6 @@
 /* Files of coefficients of real functions: an NPY array, or lines of text. Whatever they are of, a
- * coefficient and its opposite, that of -k, are conjugates. What is not in a file is 0. */
+ * coefficient and its opposite, that of -k or -m, are conjugates up to a sign. What is not in a
+ * file is 0. */
 #ifndef PS_INTEGRANDS_FILES_COEFFICIENT_FILE_H
 #define PS_INTEGRANDS_FILES_COEFFICIENT_FILE_H
 
@@ -24,7 +25,7 @@ void ps_coefficient_file_free(ps_coefficient_file *file);
 
 /* A coefficient, or what its opposite says that it is. */
 typedef struct ps_coefficient {
-    int32_t key[PS_MAX_DIMENSION]; /* k of the one that stands for both; then zeros */
+    int32_t key[PS_MAX_DIMENSION]; /* k, or l and m, of the one that stands for both; then zeros */
     bool is_opposite;              /* it was said of the other one */
     bool is_its_own;               /* opposite, and so a real number */
     double re, im;
@@ -32,8 +33,10 @@ typedef struct ps_coefficient {
 } ps_coefficient;
 
 typedef struct ps_coefficient_list {
-    const char *path;  /* for messages */
-    unsigned num_keys; /* the dimension */
+    const char *path;  /* for messages, */
+    unsigned num_keys; /* and what keys are: "k = (1, -2)" where this is a dimension, */
+    bool on_sphere;    /* or "l = 2, m = 1" */
+    bool is_half;      /* one of both is given, and says what the other is */
     size_t num;
     ps_coefficient *all;
 } ps_coefficient_list;

@@ -49,6 +49,22 @@ runs 0 --sampler white -d 3 -n 27 -m 100 --shifts 4 --engine host_direct --integ
 awk -v z="$(column z_score)" 'BEGIN { exit !(z < 4 && z > -4 && z != 0) }' || complain "space: $(table)"
 near 'space' "$(column white)" 0.11111111111111 1e-12
 
+# ---- coefficients of the sphere ----
+
+printf '# Y_40\n4,0,1,0\n' >harmonic.txt
+runs 0 --sampler healpix-jittered -n 48 -m 20 --integrand harmonic:degree=4
+harmonic=$(table | sed 1d | cut -d, -f1-3,9)
+measured=$(column measured)
+runs 0 --sampler healpix-jittered -n 48 -m 20 --integrand coefficients:file=harmonic.txt
+[[ $(table | sed 1d | cut -d, -f1-3,9) == "$harmonic" ]] || complain "a harmonic: $(table), not $harmonic"
+near 'a harmonic, measured' "$(column measured)" "$measured" 1e-9
+"$program" angular --engine host_direct --sampler white-sphere -n 6 -l 6 --coefficients clm.npy -o clm.csv 2>err || complain "angular: $(<err)"
+runs 0 --sampler fibonacci -n 32 -l 8 --engine host_direct --integrand coefficients:file=clm.npy
+near 'pairs of the sphere' "$(key pairwise_variance)" "$(column predicted)" 1e-9
+near 'integral of a density' "$(key integral)" 6 1e-12
+runs 0 --sampler white-hemisphere -n 16 -m 20 --integrand coefficients:file=harmonic.txt
+refuses 'on the hemisphere' --sampler white-hemisphere -n 16 --integrand coefficients:file=clm.npy
+
 # ---- files are known as such ----
 
 cp wave.txt kept.txt
@@ -79,7 +95,7 @@ fails() { # PART ROWS
     printf '%s\n' "${@:2}" >bad.txt
     refuses "$1" --sampler white -n 8 --integrand coefficients:file=bad.txt
 }
-fails 'line 1: the coefficient at k = (1, 0) is that of no real function without its conjugate' 1,0,0.5,0.3
+fails 'line 1: the coefficient at k = (1, 0) is that of no real function without its opposite' 1,0,0.5,0.3
 fails 'lines 1 and 2: the coefficients at k = (1, 0) and k = (-1, 0) are those of no real function' 1,0,0.5,0.3 -1,0,0.5,0.3
 fails 'imaginary part 0.3' 0,0,0.5,0.3
 fails 'is given twice' 0,0,1,0 0,0,1,0
