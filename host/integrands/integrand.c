@@ -7,15 +7,23 @@
 #include <string.h>
 
 /* In the order of the help text. A new integrand is a file and a row here. */
-const ps_integrand_kind *const ps_integrand_kinds[] = {
-    &ps_integrand_ball,         &ps_integrand_box,
-    &ps_integrand_half_plane,   &ps_integrand_gaussian,
-    &ps_integrand_wave,         &ps_integrand_constant,
-    &ps_integrand_coefficients, &ps_integrand_cap,
-    &ps_integrand_harmonic,     &ps_integrand_square,
-    &ps_integrand_lobe,         &ps_integrand_diffuse,
-    &ps_integrand_glossy,       &ps_integrand_phong,
-    &ps_integrand_zonal,        NULL};
+const ps_integrand_kind *const ps_integrand_kinds[] = {&ps_integrand_ball,
+                                                       &ps_integrand_box,
+                                                       &ps_integrand_half_plane,
+                                                       &ps_integrand_gaussian,
+                                                       &ps_integrand_wave,
+                                                       &ps_integrand_constant,
+                                                       &ps_integrand_coefficients,
+                                                       &ps_integrand_pixels,
+                                                       &ps_integrand_cap,
+                                                       &ps_integrand_harmonic,
+                                                       &ps_integrand_square,
+                                                       &ps_integrand_lobe,
+                                                       &ps_integrand_diffuse,
+                                                       &ps_integrand_glossy,
+                                                       &ps_integrand_phong,
+                                                       &ps_integrand_zonal,
+                                                       NULL};
 
 /* ---- parsing ------------------------------------------------------------------------------- */
 
@@ -135,7 +143,35 @@ double ps_integrand_factor(const ps_integrand *integrand) {
 
 pspec_status ps_integrand_powers(const ps_integrand *integrand, const int32_t *vectors, size_t num,
                                  double *powers, ps_error *error) {
-    return integrand->kind->powers(integrand, vectors, num, powers, error);
+    return integrand->kind->powers != NULL
+               ? integrand->kind->powers(integrand, vectors, num, powers, error)
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "integrand %s: its powers are those of its points", integrand->kind->name);
+}
+
+bool ps_integrand_has_points(const ps_integrand *integrand) {
+    return integrand->kind->points != NULL;
+}
+
+pspec_status ps_integrand_make_points(const ps_integrand *integrand, ps_integrand_points *out,
+                                      ps_error *error) {
+    *out = (ps_integrand_points){0};
+    const pspec_status status = integrand->kind->points(integrand, out, error);
+    if (status != PSPEC_OK) {
+        ps_integrand_points_free(out);
+    }
+    return status;
+}
+
+void ps_integrand_points_free(ps_integrand_points *points) {
+    free(points->points);
+    free(points->weights);
+    *points = (ps_integrand_points){0};
+}
+
+void ps_integrand_factors(const ps_integrand *integrand, const int32_t *vectors, size_t num,
+                          double *factors) {
+    integrand->kind->factors(integrand, vectors, num, factors);
 }
 
 pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degree, double *powers,

@@ -25,6 +25,13 @@ typedef struct ps_integrand_place {
     unsigned dimension; /* of the torus; 3 elsewhere */
 } ps_integrand_place;
 
+/* Weighted points of the torus. */
+typedef struct ps_integrand_points {
+    size_t num;
+    double *points;  /* [num][dimension] */
+    double *weights; /* [num] */
+} ps_integrand_points;
+
 /* What the integrands of one name have in common. Members may be NULL where it says so. */
 typedef struct ps_integrand_kind {
     const char *name;
@@ -43,9 +50,15 @@ typedef struct ps_integrand_kind {
     /* What all modes but the constant one hold: int F^2 - (int F)^2 on the torus, see
      * ps_integrand_energy. */
     double (*energy)(const ps_integrand *);
-    /* |f_k|^2 of num frequencies, [num][dimension], none of them 0. NULL: not on the torus. */
+    /* |f_k|^2 of num frequencies, [num][dimension], none of them 0. NULL: not on the torus, or by
+     * points. */
     pspec_status (*powers)(const ps_integrand *, const int32_t *vectors, size_t num, double *powers,
                            ps_error *);
+    /* Points that stand for it, where |f_k|^2 = factors[k] |sum_j w_j e^{-2 pi i k.x_j}|^2 is for
+     * an engine to sum, of which this room has none; zeroed before, freed by the caller, also after
+     * a failure. Both NULL: it has powers. */
+    pspec_status (*points)(const ps_integrand *, ps_integrand_points *out, ps_error *);
+    void (*factors)(const ps_integrand *, const int32_t *vectors, size_t num, double *factors);
     /* sum_m |F_lm|^2 for l = 0 .. max_degree. NULL: not on the sphere. */
     pspec_status (*degrees)(const ps_integrand *, size_t max_degree, double *powers, ps_error *);
     /* F at num points, [num][dimension] coordinates in [0,1) or unit vectors. */
@@ -100,9 +113,17 @@ double ps_integrand_integral(const ps_integrand *integrand);
 double ps_integrand_energy(const ps_integrand *integrand);
 /* The factor of E in N Var I: 1, 4 pi, pi. */
 double ps_integrand_factor(const ps_integrand *integrand);
-/* powers[num] */
+/* powers[num]; PSPEC_ERROR_INVALID_ARGUMENT where they are by points. */
 pspec_status ps_integrand_powers(const ps_integrand *integrand, const int32_t *vectors, size_t num,
                                  double *powers, ps_error *error) PS_MUST_CHECK;
+/* Is it by points, with factors of the powers of their sums? Then *out has them, freed by
+ * ps_integrand_points_free, and factors[num] are the member's. */
+bool ps_integrand_has_points(const ps_integrand *integrand);
+pspec_status ps_integrand_make_points(const ps_integrand *integrand, ps_integrand_points *out,
+                                      ps_error *error) PS_MUST_CHECK;
+void ps_integrand_points_free(ps_integrand_points *points);
+void ps_integrand_factors(const ps_integrand *integrand, const int32_t *vectors, size_t num,
+                          double *factors);
 /* powers[max_degree + 1]; odd degrees of the hemisphere are 0. */
 pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degree, double *powers,
                                   ps_error *error) PS_MUST_CHECK;

@@ -63,7 +63,7 @@ make_inputs() {
     "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
     printf '0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n' >own.txt
-    printf '2 1 1 .5\n0 0 1 0\n' >own_sphere.txt
+    printf '2 1 1 .5\n0 0 1 0\n' >lm.txt
     "$program" power --engine host_direct --sampler white -n 8 -k 1 --coefficients own.npy -o own.csv
     for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
     cat >points.yaml <<'EOF'

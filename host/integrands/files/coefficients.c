@@ -1,5 +1,5 @@
 /* A user's own integrand by its coefficients: docs/mathematics/integrands.md#coefficients, and
- * integrands_sphere.md#coefficients. */
+ * docs/mathematics/integrands_sphere.md#coefficients. */
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"
 #include "integrands/files/sphere_series.h"

@@ -30,9 +30,10 @@ typedef struct ps_power_beyond {
 
 /* weights [frequencies->num] of the powers, so that N Var is their sum: those of both k and -k on
  * the torus, of all orders of a degree. Over shells, of a box, the corners beyond its rings have
- * none. *held is what they have of the energy of the integrand. */
+ * none. *held is what they have of the energy of the integrand. The device, which may be NULL,
+ * is for integrands by points. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                                 bool over_shells, double *weights, double *held,
+                                 bool over_shells, ps_device *device, double *weights, double *held,
                                  ps_error *error) PS_MUST_CHECK;
 /* The largest |k_i|, of the ball of shells |k|, or degree that matters to any of them; infinite
  * where there is no such. At least that of the first frequency or even degree. */

@@ -12,6 +12,7 @@ static pspec_status weigh(void *payload, const ps_frequencies *frequencies, doub
     ps_variance_job *const job = payload;
     for (size_t i = 0; i < job->question->num_integrands; i++) {
         PS_TRY(ps_prediction_weigh(job->integrands[i], frequencies, job->question->over_shells,
+                                   ps_power_job_device(job->spectrum),
                                    weights + i * frequencies->num, &job->held[i], error));
     }
     return PSPEC_OK;

@@ -65,11 +65,43 @@ near 'integral of a density' "$(key integral)" 6 1e-12
 runs 0 --sampler white-hemisphere -n 16 -m 20 --integrand coefficients:file=harmonic.txt
 refuses 'on the hemisphere' --sampler white-hemisphere -n 16 --integrand coefficients:file=clm.npy
 
+# ---- pixels ----
+
+# bytes of an image of 5 x 11 and one of 4 x 8, of which the second is a box
+make_image() { # SHAPE BYTES...
+    local header="{'descr': '|u1', 'fortran_order': False, 'shape': $1, }"
+    printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "$header"
+    printf '%b' "$(printf '\\x%02x' "${@:2}")"
+}
+make_image '(5, 11)' {1..55} >slope.npy
+make_image '(4, 8)' 1 1 0 0 0 0 0 0 1 1 0 0 0 0 0 0 {0,0,0,0}{,,,} >box.npy
+runs 0 --sampler white -n 16 -m 20 --integrand box:sides=0.5x0.25
+box=$(column predicted)
+for engine in host_direct torus_direct torus_nufft; do
+    runs 0 --engine $engine --sampler white -n 16 -m 20 --integrand pixels:file=box.npy
+    near "a box by $engine" "$(column predicted)" "$box" 1e-5
+done
+near 'energy of the box' "$(column white)" 0.0068359375 1e-12
+runs 0 --sampler jittered -n 16 -m 200 --shifts 4 --integrand pixels:file=slope.npy
+awk -v z="$(column z_score)" 'BEGIN { exit !(z < 4 && z > -4 && z != 0) }' || complain "slope: $(table)"
+near 'integral of the slope' "$(key integral)" 28 1e-12
+# pairs are exact: they lie within the bracket
+runs 0 --sampler sobol:scramble=none -n 16 -k 40 --integrand pixels:file=slope.npy
+awk -v a="$(column lower)" -v x="$(key pairwise_variance)" -v b="$(column upper)" \
+    'BEGIN { exit !(a < x && x < b && b > 0) }' || complain "pairs of pixels: $(<out)"
+make_image '(3, 3)' 7 7 7 7 7 7 7 7 7 >flat.npy
+runs 0 --sampler white -n 8 -m 3 --integrand pixels:file=flat.npy
+[[ $(table | sed 1d) == 8,0,0,0,0,0,0,,0 ]] || complain "a flat image: $(table)"
+refuses 'are the same file' --sampler white -n 8 --integrand pixels:file=slope.npy -o slope.npy
+refuses 'is no NPY array' --sampler white -n 8 --integrand pixels:file=wave.txt
+refuses 'needs its file' --sampler white -n 8 --integrand pixels
+refuses 'pixels have an axis for each of the 3 dimensions' --sampler white -d 3 -n 8 --integrand pixels:file=slope.npy
+
 # ---- files are known as such ----
 
 cp wave.txt kept.txt
 refuses 'are the same file' --sampler white -n 8 --integrand coefficients:file=wave.txt -o wave.txt
-refuses 'are the same file' --sampler white -n 8 --integrand disk --integrand coefficients:file=./wave.txt -o ../${PWD##*/}/wave.txt
+refuses 'are the same file' --sampler white -n 8 --integrand disk --integrand coefficients:file=./wave.txt -o "../${PWD##*/}/wave.txt"
 cmp -s wave.txt kept.txt || complain 'an input was overwritten'
 mkdir folder
 cp wave.txt folder/own.txt

@@ -247,7 +247,7 @@ static double beyond(const char *text, unsigned dimension, bool over_shells, int
     assert_ok(ps_frequencies_enumerate(&set, error));
     double *const weights = calloc(set.num, sizeof *weights);
     assert_non_null(weights);
-    assert_ok(ps_prediction_weigh(f, &set, over_shells, weights, &held, error));
+    assert_ok(ps_prediction_weigh(f, &set, over_shells, NULL, weights, &held, error));
     const double rest = ps_integrand_energy(f) - held;
     free(weights);
     ps_frequencies_free(&set);
