@@ -145,6 +145,24 @@ static void truncation(void **state) {
 }
 
 /* The program's exit status 3 is a verdict here, with the same sentence. */
+static void compare_verdict(const char *kind, const pspec_option *options, size_t num,
+                            const char *file) {
+    pspec_context *const context = test_public_context();
+    char expected[2 * TEXT];
+    size_t num_bytes = 0;
+    assert_int_equal(test_ask_program(kind, options, num), EXIT_CHECK);
+    snprintf(expected, sizeof expected, "expected_%s", file);
+    assert_int_equal(rename(file, expected), 0);
+    pspec_table *const table = ask_library(context, kind, options, num);
+    test_assert_same_file(file, expected);
+    char *const said = test_read_whole("said", &num_bytes);
+    snprintf(expected, sizeof expected, "pointspec %s: %s\n", kind, pspec_table_verdict(table));
+    assert_string_equal(said, expected);
+    free(said);
+    pspec_table_destroy(table);
+    pspec_context_destroy(context);
+}
+
 static void check(void **state) {
     (void)state;
     pspec_context *const context = test_public_context();
@@ -159,19 +177,41 @@ static void check(void **state) {
     COMPARE("check", same, "same.csv");
     const pspec_option other[] = {
         {"against", "saved.json"}, {"sampler", "white"}, {"seed", "2"}, {"output", "other.csv"}};
-    assert_int_equal(test_ask_program("check", other, COUNT(other)), EXIT_CHECK);
-    assert_int_equal(rename("other.csv", "expected_other.csv"), 0);
+    compare_verdict("check", other, COUNT(other), "other.csv");
     pspec_table *const table = ask_library(context, "check", other, COUNT(other));
-    test_assert_same_file("other.csv", "expected_other.csv");
     assert_string_equal(pspec_table_find_entry(table, "verdict").text, "different");
-    char expected[2 * TEXT];
-    size_t num = 0;
-    char *const said = test_read_whole("said", &num);
-    snprintf(expected, sizeof expected, "pointspec check: %s\n", pspec_table_verdict(table));
-    assert_string_equal(said, expected);
-    free(said);
     pspec_table_destroy(table);
     pspec_context_destroy(context);
+}
+
+static void variance(void **state) {
+    (void)state;
+    const pspec_option many[] = {{"sampler", "jittered"},
+                                 {"sampler", "white"},
+                                 {"integrand", "disk:radius=0.25"},
+                                 {"integrand", "coefficients:file=own.txt"},
+                                 {"points", "16..64"},
+                                 {"realizations", "20"},
+                                 {"shifts", "2"},
+                                 {"max-frequency", "8"},
+                                 {"output", "variance.csv"}};
+    COMPARE("variance", many, "variance.csv");
+    const pspec_option of_files[] = {{"files", "sets.txt"},       {"files", "more.txt"},
+                                     {"weights", "weights.txt"},  {"integrand", "gaussian"},
+                                     {"output", "measured.json"}, {"max-frequency", "6"}};
+    COMPARE("variance", of_files, "measured.json");
+    const pspec_option round[] = {{"sampler", "fibonacci-hemisphere"},
+                                  {"points", "30"},
+                                  {"realizations", "3"},
+                                  {"integrand", "square"},
+
+                                  {"max-degree", "8"},
+                                  {"output", "round.npy"}};
+    COMPARE("variance", round, "round.npy", "round.json");
+    const pspec_option cut[] = {
+        {"sampler", "jittered"}, {"points", "16"}, {"realizations", "4"}, {"integrand", "disk"},
+        {"shifts", "0"},         {"tail", "1e-3"}, {"output", "cut.csv"}, {"max-frequency", "4"}};
+    compare_verdict("variance", cut, COUNT(cut), "cut.csv");
 }
 
 /* The limit of a context is POINTSPEC_MEMORY of the program. */
@@ -203,6 +243,13 @@ static void write_points(const char *path, uint64_t seed) {
     assert_int_equal(fclose(file), 0);
 }
 
+static void write_text(const char *path, const char *text) {
+    FILE *const file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
 static int make_folder(void **state) {
     (void)state;
     assert_non_null(mkdtemp(folder));
@@ -215,6 +262,7 @@ static int make_folder(void **state) {
         fprintf(file, "%d\n", 1 + j % 4);
     }
     fclose(file);
+    write_text("own.txt", "0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n");
     unsetenv("POINTSPEC_MEMORY");
     return setenv("POINTSPEC_CACHE_DIR", folder, 1);
 }
@@ -228,10 +276,15 @@ static int remove_folder(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(power),         cmocka_unit_test(angular),
-        cmocka_unit_test(pairs),         cmocka_unit_test(quadrature),
-        cmocka_unit_test(truncation),    cmocka_unit_test(check),
-        cmocka_unit_test(memory_limits), cmocka_unit_test(test_gsl_is_left_alone),
+        cmocka_unit_test(power),
+        cmocka_unit_test(angular),
+        cmocka_unit_test(pairs),
+        cmocka_unit_test(quadrature),
+        cmocka_unit_test(truncation),
+        cmocka_unit_test(check),
+        cmocka_unit_test(variance),
+        cmocka_unit_test(memory_limits),
+        cmocka_unit_test(test_gsl_is_left_alone),
     };
     test_watch_gsl();
     ps_device_close(test_open_device()); /* ends as skipped when there is none */

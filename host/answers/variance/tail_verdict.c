@@ -120,8 +120,9 @@ static pspec_status add_integrand(judging *self, size_t num, size_t integrand, p
     return PSPEC_OK;
 }
 
-/* "half of upper - lower of disk by white at N = 64 is 0.12 of predicted, above --tail 0.01; about
- * -k 1300 would do" */
+/* "half of upper - lower of disk by white at N = 64 is 0.12 of predicted, above tail 0.01; about
+ * max-frequency 1300 would do": options by their names, for it stands in files, too, which do not
+ * depend on how they were asked for */
 static void describe(const judging *self, ps_text *out) {
     const ps_request *const request = self->request;
     const ps_spectrum *const spectrum = spectrum_of(self, self->worst_job);
@@ -135,17 +136,13 @@ static void describe(const judging *self, ps_text *out) {
                    "%g",
                    request->integrands[self->worst_integrand],
                    sampler != NULL ? sampler : request->files[0], spectrum->mean_points,
-                   tail_of(prediction), ps_option_show(request, PS_OPTION_TAIL).text,
-                   request->tail);
+                   tail_of(prediction), ps_options[PS_OPTION_TAIL].name, request->tail);
     if (self->num_missed > 1) {
         ps_text_append(out, ", and %zu rows are above it", self->num_missed);
     }
     if (is_possible(self, self->cutoff)) {
-        ps_text_append(out, "; about %s %.0f would do%s",
-                       request->is_given[id] ? ps_option_show(request, id).text
-                       : on_torus            ? "-k"
-                                             : "-l",
-                       self->cutoff, self->num_missed > 1 ? " for all rows" : "");
+        ps_text_append(out, "; about %s %.0f would do%s", ps_options[id].name, self->cutoff,
+                       self->num_missed > 1 ? " for all rows" : "");
     } else {
         ps_text_append(out, "; no cut-off that can be computed would do");
     }

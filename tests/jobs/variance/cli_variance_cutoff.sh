@@ -24,18 +24,18 @@ misses() {
     shift
     runs 3 "$@" "${alone[@]}" --tail "$most"
     [[ $(table | wc -l) -ge 2 && $(wc -l <err) == 1 ]] || complain "--tail $most $*: $(table) $(<err)"
-    [[ $(<err) =~ ^'pointspec variance: half of upper - lower of '(.*)'; about '(-k|-l|--max-frequency)' '([0-9]+)' would do'( for all rows)?$ ]] ||
+    [[ $(<err) =~ ^'pointspec variance: half of upper - lower of '(.*)'; about '(max-frequency|max-degree)' '([0-9]+)' would do'( for all rows)?$ ]] ||
         complain "--tail $most $*: $(<err)"
     sentence=$(<err)
     [[ $(key tail_verdict) == "${sentence#pointspec variance: }" ]] || complain "verdict: $(key tail_verdict)"
-    cutoff=("${BASH_REMATCH[2]:-}" "${BASH_REMATCH[3]:-}")
+    cutoff=("--${BASH_REMATCH[2]:-}" "${BASH_REMATCH[3]:-}")
     runs 0 "$@" "${alone[@]}" --tail "$most" "${cutoff[@]}"
     is tail_verdict reached
     awk -v most="$most" -v tail="$(key tail_largest)" 'BEGIN { exit !(tail > 0 && tail <= most) }' ||
         complain "tail_largest $(key tail_largest) at ${cutoff[*]}"
 }
 misses 0.01 --sampler jittered --integrand disk -n 64 -m 20
-[[ $sentence == *'of disk by jittered at N = 64 is 0.02'*' of predicted, above --tail 0.01; about -k '* ]] || complain "$sentence"
+[[ $sentence == *'of disk by jittered at N = 64 is 0.02'*' of predicted, above tail 0.01; about max-frequency '* ]] || complain "$sentence"
 near 'cut-off' "${cutoff[1]}" 115 0.15 # half the bracket is 0.028 at 40 and falls as 1/K
 misses 0.02 --sampler poisson-disk --integrand disk -n 100 -m 20
 misses 0.5 --sampler sobol --integrand disk -n 64 -m 1
@@ -43,7 +43,7 @@ misses 0.02 --sampler latin-hypercube --integrand half-plane -n 64 -m 20
 misses 0.015 --sampler white --integrand box:sides=0.3x0.5x0.7 -d 3 -n 27 -m 2
 misses 0.002 --sampler jittered --integrand disk -d 1 -n 64 -m 20
 misses 0.01 --sampler healpix-jittered --integrand cap -n 48 -m 20
-[[ ${cutoff[0]} == -l ]] || complain "the sphere: ${cutoff[*]}"
+[[ ${cutoff[0]} == --max-degree ]] || complain "the sphere: ${cutoff[*]}"
 misses 0.05 --sampler fibonacci-hemisphere --integrand cap:angle=0.5 -n 64 -m 1
 # from far below the peak of a spectrum
 misses 0.05 --sampler poisson-disk --integrand disk -n 256 -m 20 -k 3
@@ -54,7 +54,7 @@ misses 0.025 --sampler jittered --sampler poisson-disk --integrand disk --integr
 [[ $sentence == *' rows are above it; '*' for all rows' ]] || complain "$sentence"
 # what ends, at its end
 runs 3 --sampler white --integrand wave:k=100x3 -n 16 -m 2 "${alone[@]}" --tail 0.01
-[[ $(<err) == *'; about -k 100 would do' ]] || complain "a wave: $(<err)"
+[[ $(<err) == *'; about max-frequency 100 would do' ]] || complain "a wave: $(<err)"
 runs 3 --sampler white --integrand disk -n 16 -m 2 "${alone[@]}" --tail 1e-9
 [[ $(<err) == *'; no cut-off that can be computed would do' ]] || complain "too small: $(<err)"
 runs 3 --sampler white-sphere --integrand cap -n 16 -m 2 "${alone[@]}" --tail 1e-9
@@ -85,7 +85,7 @@ results:
 END
 code=0
 "$program" run --cache 0 scene.yaml -o made >out 2>err </dev/null || code=$?
-[[ $code == 3 && -s made/short.csv && $(<err) == *'short: half of upper - lower of disk by jittered'*'above tail 0.01; about -k '* ]] ||
+[[ $code == 3 && -s made/short.csv && $(<err) == *'short: half of upper - lower of disk by jittered'*'above tail 0.01; about max-frequency '* ]] ||
     complain "scene: $code $(<err)"
 sed 's/tail: 0.01/tail: 0.5/' scene.yaml >reached.yaml
 "$program" run --cache 0 reached.yaml -o reached >out 2>err </dev/null || complain "scene: $(<err)"
