@@ -1,4 +1,4 @@
-#include "integrands/plain.h"
+#include "plain.h"
 
 #include <tgmath.h>
 

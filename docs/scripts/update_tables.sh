@@ -55,6 +55,19 @@ table_pairs_routes() {
 }
 # CPU time, and the clock beside it.
 table_bench_integrands() { bench integrands; }
+# Some N of each sampler, and the seconds of all.
+some_of_bench_variance() {
+    awk '/^#/ || $1 == "sampler" { print; next }
+         $2 ~ /^(16|64|256|4096|16384)$/
+         { num += $1 != last; last = names[num] = $1; a[num] += $7; b[num] += $11; c[num] += $17 }
+         END { for (i = 1; i <= num; i++)
+                   printf "%-16s all N: predicted in %.2f s, measured in %.2f s (%.1f times) and %.2f s (%.1f times)\n",
+                       names[i], a[i], b[i], b[i] / a[i], c[i], c[i] / a[i] }'
+}
+table_bench_variance() { bench variance | some_of_bench_variance; }
+table_bench_variance_dear() {
+    need bench/bench_variance && "$build/bench/bench_variance" disk:radius=0.25 64 bnot fpo | some_of_bench_variance
+}
 table_bench_weights() { bench weights; }
 bench_blue_noise() { # MODE
     need bench/bench_blue_noise && "$build/bench/bench_blue_noise" "$1"

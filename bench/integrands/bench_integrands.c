@@ -11,7 +11,7 @@
  */
 #include "bench.h"
 
-#include "integrands/plain.h"
+#include "plain.h"
 #include "trials/trials.h"
 
 #include <math.h>
