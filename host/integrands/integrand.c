@@ -127,6 +127,12 @@ void ps_integrand_destroy(ps_integrand *integrand) {
 
 /* ---- what is known ------------------------------------------------------------------------- */
 
+const char *ps_integrand_kernel(const ps_integrand *integrand, bool in_doubles) {
+    return integrand->needs_doubles && !in_doubles ? NULL
+           : integrand->kernel != NULL             ? integrand->kernel
+                                                   : integrand->kind->kernel;
+}
+
 double ps_integrand_integral(const ps_integrand *integrand) {
     return integrand->kind->integral(integrand);
 }

@@ -76,7 +76,8 @@ typedef struct ps_integrand_kind {
      * over all of space, without images. NULL: not on the torus, or no function of |k|. */
     double (*radial)(const ps_integrand *, double k);
     double (*whole_square)(const ps_integrand *);
-    /* Steps of some 5 ns of the host for a value that is a sum. NULL: no sum. */
+    /* Steps for a value that is a sum, of some 5 ns of the host each and less by a kernel. NULL: no
+     * sum. */
     double (*steps)(const ps_integrand *);
     const char *(*note)(const ps_integrand *); /* what a result should say of it; may be NULL */
     const char *(*file)(const ps_integrand *); /* that was read; NULL: kinds without files */
@@ -92,6 +93,12 @@ struct ps_integrand {
     /* What its values are made of: kernels/integrands/NAME.h says which is which. */
     double numbers[PS_INTEGRAND_NUMBERS];
     void *own; /* of the kind */
+
+    /* What else a kernel may need to know of one that is from a file */
+    const char *kernel;  /* instead of that of the kind; NULL: none */
+    const double *table; /* [num_table], a part of own, which NAME_has_table takes; NULL: none */
+    size_t num_table;
+    bool needs_doubles; /* there is no kernel in single precision */
 };
 
 /* All of them, ended by NULL. */
@@ -105,6 +112,9 @@ pspec_status ps_integrand_find(const ps_integrand_kind **kind, const char *text,
 pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,
                                 ps_error *error) PS_MUST_CHECK;
 void ps_integrand_destroy(ps_integrand *integrand); /* NULL is allowed */
+
+/* The name of its kernel, as the member of the kind; NULL: there is none in that precision. */
+const char *ps_integrand_kernel(const ps_integrand *integrand, bool in_doubles);
 
 /* int F over the torus, the sphere or the hemisphere. */
 double ps_integrand_integral(const ps_integrand *integrand);

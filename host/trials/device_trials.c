@@ -22,6 +22,7 @@ struct ps_device_trials {
     size_t axis_numbers, most_pieces, most_moves; /* of a batch */
     cl_kernel kernel;
     ps_buffer points, weights, pieces, moves, sums;
+    ps_buffer table; /* of the integrand; empty where it has none */
     values_piece *host_pieces;
     double *host_moves, *host_sums;
     int *host_exponents;  /* of the weights of each set */
@@ -31,16 +32,12 @@ struct ps_device_trials {
 
 /* ---- which kernel ---------------------------------------------------------------------------- */
 
-bool ps_device_trials_has(const ps_integrand *integrand) {
-    return integrand->kind->kernel != NULL;
-}
-
 static pspec_status create_kernel(ps_device_trials *self, ps_error *error) {
     const ps_integrand_place place = self->integrand->place;
     ps_text options = {0};
     ps_text_append(&options, "-DINTEGRAND=%s -DPRECISION=%zu -DLANES=%u -DDIMENSION=%u",
-                   self->integrand->kind->kernel, 8 * ps_real_bytes(self->options.precision),
-                   self->lanes, place.dimension);
+                   ps_integrand_kernel(self->integrand, self->options.precision == PS_DOUBLE),
+                   8 * ps_real_bytes(self->options.precision), self->lanes, place.dimension);
     ps_text_append(&options, " -DROTATE=%d -DFOLD=%d", place.where != PS_SAMPLES_TORUS,
                    place.where == PS_SAMPLES_HEMISPHERE);
     pspec_status status = ps_text_check(&options, error);
@@ -67,6 +64,19 @@ static bool find_sizes(ps_device_trials *self, size_t *num_sums) {
            ps_size_multiply(self->most_pieces, options->num_trials, num_sums) &&
            ps_size_multiply(*num_sums, 2 * sizeof(double), &trials) &&
            ps_size_multiply(self->axis_numbers, PS_MAX_DIMENSION * sizeof(double), &trials);
+}
+
+/* The table of the integrand, which stays there. */
+static pspec_status create_table(ps_device_trials *self, ps_error *error) {
+    const ps_integrand *const integrand = self->integrand;
+    if (integrand->num_table == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_buffer_create(self->device, &self->table,
+                            integrand->num_table * ps_real_bytes(self->options.precision),
+                            "an integrand", error));
+    return ps_reals_write(self->device, &self->table, self->options.precision, integrand->table,
+                          integrand->num_table, error);
 }
 
 static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
@@ -104,7 +114,8 @@ double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_opt
     const double trials = (double)options->num_trials;
     const double moves = batch * trials * (double)ps_trials_move_numbers(integrand);
     const double pair_bytes = real_bytes + (double)sizeof(double);
-    return points * (integrand->place.dimension + 1) * real_bytes +
+    return (double)integrand->num_table * real_bytes +
+           points * (integrand->place.dimension + 1) * real_bytes +
            2 * pieces * (double)sizeof(values_piece) + (moves + 2 * pieces * trials) * pair_bytes;
 }
 
@@ -122,6 +133,9 @@ pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand 
     if (status == PSPEC_OK) {
         status = create_buffers(self, error);
     }
+    if (status == PSPEC_OK) {
+        status = create_table(self, error);
+    }
     if (status != PSPEC_OK) {
         ps_device_trials_destroy(self);
         return status;
@@ -135,7 +149,7 @@ void ps_device_trials_destroy(ps_device_trials *trials) {
         return;
     }
     ps_buffer *const buffers[] = {&trials->points, &trials->weights, &trials->pieces,
-                                  &trials->moves, &trials->sums};
+                                  &trials->moves,  &trials->sums,    &trials->table};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
@@ -299,9 +313,10 @@ static pspec_status write_moves(ps_device_trials *self, size_t num_trials, const
  * and how work-groups are made. */
 #define VALUE_FLOPS 40.0
 
-#define LAUNCH_ARGUMENTS(self, sizes, numbers)                                                     \
+#define LAUNCH_ARGUMENTS(self, sizes, numbers, table)                                              \
     PS_STRUCT(sizes), PS_STRUCT(numbers), PS_BUFFER((self)->points), PS_BUFFER((self)->weights),   \
-        PS_BUFFER((self)->pieces), PS_BUFFER((self)->moves), PS_BUFFER((self)->sums)
+        PS_BUFFER((self)->pieces), PS_BUFFER((self)->moves), PS_BUFFER(*table),                    \
+        PS_BUFFER((self)->sums)
 
 static pspec_status launch(ps_device_trials *self, size_t num_pieces, ps_error *error) {
     const size_t num_trials = self->options.num_trials;
@@ -309,6 +324,8 @@ static pspec_status launch(ps_device_trials *self, size_t num_pieces, ps_error *
     const ps_range range = ps_range_heavy(self->device, num_trials, num_pieces, 1,
                                           VALUE_FLOPS * values, values * sizeof(float));
     const values_sizes sizes = {self->axis_numbers, num_trials};
+    /* any buffer does where nothing of it is read */
+    const ps_buffer *const table = self->integrand->num_table > 0 ? &self->table : &self->weights;
     values_singles singles;
     values_doubles doubles;
     for (size_t i = 0; i < PS_INTEGRAND_NUMBERS; i++) {
@@ -317,9 +334,9 @@ static pspec_status launch(ps_device_trials *self, size_t num_pieces, ps_error *
     }
     return self->options.precision == PS_SINGLE
                ? PS_LAUNCH(self->device, self->kernel, &range, error,
-                           LAUNCH_ARGUMENTS(self, sizes, singles))
+                           LAUNCH_ARGUMENTS(self, sizes, singles, table))
                : PS_LAUNCH(self->device, self->kernel, &range, error,
-                           LAUNCH_ARGUMENTS(self, sizes, doubles));
+                           LAUNCH_ARGUMENTS(self, sizes, doubles, table));
 }
 
 /* Adds the pieces of each set in their order. */

@@ -6,9 +6,7 @@
 
 typedef struct ps_device_trials ps_device_trials;
 
-/* Whether there is a kernel for the integrand. */
-bool ps_device_trials_has(const ps_integrand *integrand);
-
+/* Of an integrand that has a kernel in this precision. */
 pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand *integrand,
                                      const ps_trials_options *options, ps_device *device,
                                      ps_error *error) PS_MUST_CHECK;

@@ -17,7 +17,7 @@ struct ps_trials {
 
 static bool is_for_device(const ps_integrand *integrand, ps_precision precision,
                           const ps_device *device) {
-    return device != NULL && ps_device_trials_has(integrand) &&
+    return device != NULL && ps_integrand_kernel(integrand, precision == PS_DOUBLE) != NULL &&
            (precision == PS_SINGLE ||
             (precision == PS_DOUBLE && ps_device_get_limits(device)->has_fp64));
 }

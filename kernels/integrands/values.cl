@@ -12,6 +12,7 @@
  *   weights  [capacity], 0 behind the points of a set
  *   pieces   [piece]
  *   moves    [set][trial][MOVE_NUMBERS]: tau in [0,1), or R row by row
+ *   table    of the integrand where NAME_has_table is 1; else anything
  *   sums     [piece][trial][high, low]
  *
  * INTEGRAND=ball takes ball_value of integrands/ball.h. A new integrand is an #include here. Where
@@ -34,8 +35,12 @@
 #include "integrands/harmonic.h"
 #include "integrands/lobe.h"
 #include "integrands/phong.h"
+#include "integrands/pixels.h"
+#include "integrands/sphere_series.h"
 #include "integrands/square.h"
+#include "integrands/torus_series.h"
 #include "integrands/wave.h"
+#include "integrands/zonal.h"
 
 #include "integrands/fold.h"
 #include "integrands/values.h"
@@ -62,6 +67,12 @@
 #define MOVE_NUMBERS (ROTATE ? 9 : DIMENSION)
 #define VALUE PS_JOIN(INTEGRAND, _value)
 #define FOLDS PS_JOIN(INTEGRAND, _folds) /* 0 where it is not defined */
+#define HAS_TABLE PS_JOIN(INTEGRAND, _has_table)
+#if HAS_TABLE
+#define VALUE_AT(x, numbers, table) VALUE(x, DIMENSION, numbers, table)
+#else
+#define VALUE_AT(x, numbers, table) ((void)(table), VALUE(x, DIMENSION, numbers))
+#endif
 
 #if PRECISION == 64
 typedef values_doubles integrand_numbers;
@@ -114,7 +125,8 @@ __kernel void integrand_values(const values_sizes sizes, const integrand_numbers
                                __global const real *restrict points,
                                __global const real *restrict weights,
                                __global const values_piece *restrict pieces,
-                               __global const real *restrict moves, __global real *restrict sums) {
+                               __global const real *restrict moves,
+                               __global const real *restrict table, __global real *restrict sums) {
     const size_t trial = get_global_id(0), piece = get_global_id(1);
     if (trial >= sizes.num_trials) {
         return;
@@ -131,8 +143,7 @@ __kernel void integrand_values(const values_sizes sizes, const integrand_numbers
             x[i] = load_global(points + i * sizes.capacity, own.first + v);
         }
         move_points(x, move);
-        pair_add(&high, &low,
-                 load_global(weights, own.first + v) * VALUE(x, DIMENSION, of.numbers));
+        pair_add(&high, &low, load_global(weights, own.first + v) * VALUE_AT(x, of.numbers, table));
     }
     store_sum(sums + 2 * (piece * sizes.num_trials + trial), high, low);
 }

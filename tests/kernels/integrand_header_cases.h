@@ -16,7 +16,11 @@
 #include "integrands/constant.h"
 #include "integrands/gaussian.h"
 #include "integrands/half_plane.h"
+#include "integrands/pixels.h"
+#include "integrands/sphere_series.h"
+#include "integrands/torus_series.h"
 #include "integrands/wave.h"
+#include "integrands/zonal.h"
 
 enum { MOST_DIMENSION = 6, POINTS = 300, NUMBERS = 16 };
 static uint64_t seed = 21;
@@ -183,6 +187,114 @@ static void gaussian_that_is_cut(void **state) {
     }
 }
 
+/* ---- tables of what is from files ------------------------------------------------------------ */
+
+static void pixels(void **state) {
+    enum { ROWS = 5, COLUMNS = 7 };
+    const real numbers[NUMBERS] = {ROWS, COLUMNS};
+    real image[ROWS * COLUMNS];
+    (void)state;
+    for (int i = 0; i < ROWS * COLUMNS; i++) {
+        image[i] = (real)i;
+    }
+    for (int j = 0; j < POINTS; j++) {
+        real x[2];
+        random_point(x, 2);
+        x[0] = j == 0 ? 1 - (real)(epsilon / 2) : x[0]; /* its product rounds to 5 */
+        const int row = (int)((long double)x[0] * ROWS);
+        const int column = (int)((long double)x[1] * COLUMNS);
+        const real found = pixels_value(x, 2, numbers, image);
+        const bool is_edge = fabsl(x[0] * ROWS - rintl(x[0] * ROWS)) < 8 * epsilon ||
+                             fabsl(x[1] * COLUMNS - rintl(x[1] * COLUMNS)) < 8 * epsilon;
+        assert_true(found == image[row * COLUMNS + column] || (is_edge && j > 0));
+    }
+}
+
+static void zonal(void **state) {
+    enum { NODES = 4 };
+    const real numbers[NUMBERS] = {NODES};
+    const real table[2 * NODES] = {(real)-0.5, 0, (real)0.25, 1, 1, 3, 2, (real)0.5};
+    const real x[][3] = {{0, 0, (real)-0.5}, {0, 0, (real)-0.75}, {0, 0, (real)-0.25},
+                         {0, 0, 0},          {0, 0, (real)0.125}, {0, 0, (real)0.625},
+                         {0, 0, 1},          {0, 0, (real)1.0625}};
+    const real expected[] = {1, 0, 2, 3, (real)2.5, (real)1.25, (real)0.5, 0};
+    (void)state;
+    for (size_t j = 0; j < sizeof expected / sizeof expected[0]; j++) {
+        assert_true(zonal_value(x[j], 3, numbers, table) == expected[j]);
+    }
+}
+
+/* Runs of one, of three and of the most that there are. Every step of a run is off by some epsilon,
+ * and the first phase of k by |k| epsilon of a turn. */
+static void torus_series(void **state) {
+    enum { RUNS = 3 };
+    const int starts[RUNS][2] = {{0, 1}, {1, -1}, {2, -30}};
+    const int counts[RUNS] = {1, 3, TORUS_SERIES_RUN};
+    const real numbers[NUMBERS] = {(real)0.75};
+    real table[3 * (RUNS + 1) + 2 * (4 + TORUS_SERIES_RUN)] = {0};
+    size_t at = 0;
+    (void)state;
+    for (int r = 0; r < RUNS; r++) {
+        table[at++] = (real)starts[r][0];
+        table[at++] = (real)starts[r][1];
+        table[at++] = (real)counts[r];
+        for (int i = 0; i < 2 * counts[r]; i++) {
+            table[at++] = (real)test_uniform(&seed) - (real)0.5;
+        }
+    }
+    for (int j = 0; j < POINTS; j++) {
+        real x[2];
+        long double sum = 0;
+        const real *own = table;
+        random_point(x, 2);
+        for (int r = 0; r < RUNS; r++) {
+            own += 3;
+            for (int i = 0; i < counts[r]; i++, own += 2) {
+                const long double turns =
+                    starts[r][0] * (long double)x[0] + (starts[r][1] + i) * (long double)x[1];
+                sum += own[0] * cosl(2 * pi * turns) - own[1] * sinl(2 * pi * turns);
+            }
+        }
+        assert_true(fabsl(torus_series_value(x, 2, numbers, table) - (numbers[0] + 2 * sum)) <
+                    2 * TORUS_SERIES_RUN * (TORUS_SERIES_RUN + 64) * epsilon);
+    }
+}
+
+/* Degree 2: Y_00, Y_10, Y_20, Y_11, Y_21, Y_22 in closed form. */
+static void sphere_series(void **state) {
+    const real numbers[NUMBERS] = {2};
+    const long double f[6][2] = {{1, 0}, {0.5L, 0}, {-0.25L, 0}, {0.3L, -0.2L}, {1, 2}, {-1, 0.7L}};
+    const long double a[6] = {1, sqrtl(3), sqrtl(15) / 2, -sqrtl(1.5L), sqrtl(5), -sqrtl(1.25L)};
+    const long double b[6] = {0, 0, 1 / sqrtl(3), 0, 0, 0};
+    real table[6 * SPHERE_SERIES_NUMBERS];
+    (void)state;
+    for (size_t i = 0; i < 6; i++) {
+        real *const own = table + SPHERE_SERIES_NUMBERS * i;
+        own[0] = (real)a[i];
+        own[1] = (real)b[i];
+        own[2] = (real)f[i][0];
+        own[3] = (real)f[i][1];
+    }
+    for (int j = 0; j < POINTS; j++) {
+        const long double z = j < 2 ? 1 - 2 * j : 2 * test_uniform(&seed) - 1;
+        const long double azimuth = 2 * pi * test_uniform(&seed), s = sqrtl(1 - z * z);
+        const real x[3] = {(real)(s * cosl(azimuth)), (real)(s * sinl(azimuth)), (real)z};
+        const long double q[6] = {sqrtl(1 / (4 * pi)),
+                                  sqrtl(3 / (4 * pi)) * z,
+                                  sqrtl(5 / (16 * pi)) * (3 * z * z - 1),
+                                  -sqrtl(3 / (8 * pi)) * s,
+                                  -sqrtl(15 / (8 * pi)) * s * z,
+                                  sqrtl(15 / (32 * pi)) * s * s};
+        const int orders[6] = {0, 0, 0, 1, 1, 2};
+        long double sum = 0;
+        for (size_t i = 0; i < 6; i++) {
+            const long double turn = orders[i] * azimuth;
+            sum += (orders[i] > 0 ? 2 : 1) * q[i] * (f[i][0] * cosl(turn) - f[i][1] * sinl(turn));
+        }
+        assert_true(fabsl(sphere_series_value(x, 3, numbers, table) - sum) < 64 * epsilon);
+    }
+}
+
 static void nearest_whole_numbers(void **state) {
     const real halves[] = {0, (real)0.5, (real)-0.5, (real)1.5, (real)-1, (real)0.499, 4000001};
     (void)state;
@@ -200,7 +312,10 @@ int main(void) {
         cmocka_unit_test(wave),
         cmocka_unit_test(gaussian),
         cmocka_unit_test(gaussian_that_is_cut),
-
+        cmocka_unit_test(pixels),
+        cmocka_unit_test(zonal),
+        cmocka_unit_test(torus_series),
+        cmocka_unit_test(sphere_series),
         cmocka_unit_test(nearest_whole_numbers),
     };
     return cmocka_run_group_tests_name("integrand_headers", tests, NULL, NULL);

@@ -75,7 +75,7 @@ static void launch(cl_kernel kernel, size_t group, unsigned precision, size_t la
     const ps_argument numbers = precision == 64 ? PS_STRUCT(doubles) : PS_STRUCT(singles);
     TEST_LAUNCH(device, kernel, group, TRIALS, PIECES, 1, PS_STRUCT(sizes), numbers,
                 PS_BUFFER(at.buffer), PS_BUFFER(with.buffer), PS_BUFFER(parts.buffer),
-                PS_BUFFER(moved.buffer), PS_BUFFER(sums.buffer));
+                PS_BUFFER(moved.buffer), PS_BUFFER(with.buffer), PS_BUFFER(sums.buffer));
     double *found = test_reals_read(&sums, precision);
     check_sums(found, lanes, points, weights, moves);
     free(found);

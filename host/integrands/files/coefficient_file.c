@@ -8,6 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool ps_fit_single(const double *numbers, size_t num) {
+    const double most = 1e30; /* with room for as many as there may be */
+    for (size_t i = 0; i < num; i++) {
+        if (!(fabs(numbers[i]) <= most)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* ---- reading ------------------------------------------------------------------------------- */
 
 pspec_status ps_integrand_copy_path(const ps_integrand *integrand, const char *text, char **path,

@@ -10,6 +10,9 @@
 /* Sizes above that are refused: squares of sums of them are numbers. */
 #define PS_LARGEST_COEFFICIENT 1e100
 
+/* Are sums of products of these numbers numbers in single precision? */
+bool ps_fit_single(const double *numbers, size_t num);
+
 /* What was read: array, or rows where there is none. */
 typedef struct ps_coefficient_file {
     bool is_array;

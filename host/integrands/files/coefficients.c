@@ -1,10 +1,13 @@
 /* A user's own integrand by its coefficients: docs/mathematics/integrands.md#coefficients, and
  * docs/mathematics/integrands_sphere.md#coefficients. */
+#define PRECISION 64
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"
 #include "integrands/files/sphere_series.h"
 #include "integrands/files/torus_series.h"
 #include "integrands/integrand_kind.h"
+#include "integrands/sphere_series.h"
+#include "integrands/torus_series.h"
 
 #include <stdlib.h>
 
@@ -23,15 +26,37 @@ static bool is_on_torus(const ps_integrand *self) {
     return self->place.where == PS_SAMPLES_TORUS;
 }
 
+static void give_torus(ps_integrand *self, const ps_torus_series *series) {
+    self->kernel = "torus_series";
+    self->table = series->table;
+    self->num_table = series->num_table;
+    self->numbers[TORUS_SERIES_MEAN] = series->mean;
+    self->needs_doubles = !ps_fit_single(series->table, series->num_table);
+}
+
+/* Its header says why in doubles alone. */
+static void give_sphere(ps_integrand *self, const ps_sphere_series *series) {
+    self->kernel = "sphere_series";
+    self->table = series->table;
+    self->num_table = series->num_table;
+    self->numbers[SPHERE_SERIES_DEGREE] = (double)series->max_degree;
+    self->needs_doubles = true;
+}
+
 static pspec_status create(ps_integrand *self, const char *const *values, ps_error *error) {
     coefficients *own = NULL;
     PS_TRY(PS_NEW(&own, 1, "coefficients", error));
     self->own = own;
     PS_TRY(ps_integrand_copy_path(self, values[0], &own->path, error));
-    return is_on_torus(self)
-               ? ps_torus_series_read(&own->torus, own->path, self->place.dimension, error)
-               : ps_sphere_series_read(&own->sphere, own->path, ps_integrand_is_on_hemisphere(self),
-                                       error);
+    if (is_on_torus(self)) {
+        PS_TRY(ps_torus_series_read(&own->torus, own->path, self->place.dimension, error));
+        give_torus(self, own->torus);
+    } else {
+        PS_TRY(ps_sphere_series_read(&own->sphere, own->path, ps_integrand_is_on_hemisphere(self),
+                                     error));
+        give_sphere(self, own->sphere);
+    }
+    return PSPEC_OK;
 }
 
 static void destroy(ps_integrand *self) {
@@ -49,7 +74,7 @@ static double integral(const ps_integrand *self) {
     if (is_on_torus(self)) {
         return own_of(self)->torus->mean;
     }
-    const double whole = sqrt(PS_FOUR_PI) * own_of(self)->sphere->f[0];
+    const double whole = sqrt(PS_FOUR_PI) * own_of(self)->sphere->table[2]; /* of l = m = 0 */
     return ps_integrand_is_on_hemisphere(self) ? whole / 2 : whole;
 }
 

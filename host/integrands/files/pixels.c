@@ -1,7 +1,9 @@
 /* A user's own integrand as an image, piecewise constant: docs/mathematics/integrands.md#pixels. */
+#define PRECISION 64
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"
 #include "integrands/integrand_kind.h"
+#include "integrands/pixels.h"
 #include "math/neumaier.h"
 
 #include <stdlib.h>
@@ -107,6 +109,17 @@ out:
     return status;
 }
 
+static void give_table(ps_integrand *self, const pixels *own) {
+    const size_t most_places = 1 << 24; /* that are numbers of single precision */
+    for (unsigned axis = 0; axis < own->image.rank; axis++) {
+        self->numbers[PIXELS_SIDES + axis] = (double)own->image.shape[axis];
+    }
+    self->table = own->image.data;
+    self->num_table = own->image.num;
+    self->needs_doubles =
+        own->image.num > most_places || !ps_fit_single(own->image.data, own->image.num);
+}
+
 static pspec_status create(ps_integrand *self, const char *const *values, ps_error *error) {
     pixels *own = NULL;
     PS_TRY(PS_NEW(&own, 1, "pixels", error));
@@ -115,6 +128,7 @@ static pspec_status create(ps_integrand *self, const char *const *values, ps_err
     PS_TRY(read_image(own, error));
     PS_TRY(check_image(self, own, error));
     find_moments(own);
+    give_table(self, own);
     return correlate_pixels(own, error);
 }
 
@@ -225,6 +239,7 @@ static const char *file(const ps_integrand *self) {
 
 const ps_integrand_kind ps_integrand_pixels = {
     .name = "pixels",
+    .kernel = "pixels",
     .summary = "an image, NPY with an axis for each dimension, the same all over a pixel",
     .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS),
     .least = 1,

@@ -1,7 +1,9 @@
+#define PRECISION 64
 #include "integrands/files/sphere_series.h"
 
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"
+#include "integrands/sphere_series.h"
 #include "math/neumaier.h"
 #include "math/pi.h"
 
@@ -95,18 +97,22 @@ static pspec_status check_even(const ps_coefficient_list *list, ps_error *error)
 
 /* ---- from the list to the series ----------------------------------------------------------- */
 
+static double *at_index(const ps_sphere_series *self, size_t l, size_t m) {
+    return self->table + SPHERE_SERIES_NUMBERS * index_of(self->max_degree, l, m);
+}
+
 /* docs/mathematics/sphere.md has the recurrence; that of l = m goes from order to order. */
 static void fill_factors(ps_sphere_series *self) {
     const size_t max_degree = self->max_degree;
     for (size_t m = 0; m <= max_degree; m++) {
         const double order = (double)m;
-        self->a[index_of(max_degree, m, m)] = m > 0 ? -sqrt((2 * order + 1) / (2 * order)) : 1;
+        at_index(self, m, m)[0] = m > 0 ? -sqrt((2 * order + 1) / (2 * order)) : 1;
         for (size_t l = m + 1; l <= max_degree; l++) {
             const double d = (double)l;
-            const size_t at = index_of(max_degree, l, m);
             const double below = (d - 1) * (d - 1);
-            self->a[at] = sqrt((4 * d * d - 1) / ((d - order) * (d + order)));
-            self->b[at] = l > m + 1 ? sqrt((below - order * order) / (4 * below - 1)) : 0;
+            double *const own = at_index(self, l, m);
+            own[0] = sqrt((4 * d * d - 1) / ((d - order) * (d + order)));
+            own[1] = l > m + 1 ? sqrt((below - order * order) / (4 * below - 1)) : 0;
         }
     }
 }
@@ -117,17 +123,15 @@ static pspec_status fill(ps_sphere_series *self, const ps_coefficient_list *list
         self->max_degree = l > self->max_degree ? l : self->max_degree;
     }
     const size_t num = (self->max_degree + 1) * (self->max_degree + 2) / 2;
-    PS_TRY(PS_NEW(&self->f, 2 * num, "coefficients", error));
-    PS_TRY(PS_NEW(&self->a, num, "coefficients", error));
-    PS_TRY(PS_NEW(&self->b, num, "coefficients", error));
+    self->num_table = SPHERE_SERIES_NUMBERS * num;
+    PS_TRY(PS_NEW(&self->table, self->num_table, "an integrand", error));
     PS_TRY(PS_NEW(&self->powers, self->max_degree + 1, "powers", error));
     fill_factors(self);
     for (size_t i = 0; i < list->num; i++) {
         const ps_coefficient *const one = &list->all[i];
-        double *const f =
-            self->f + 2 * index_of(self->max_degree, (size_t)one->key[0], (size_t)one->key[1]);
-        f[0] = one->re;
-        f[1] = one->im;
+        double *const own = at_index(self, (size_t)one->key[0], (size_t)one->key[1]);
+        own[2] = one->re;
+        own[3] = one->im;
         self->powers[one->key[0]] +=
             (one->is_its_own ? 1 : 2) * (one->re * one->re + one->im * one->im);
     }
@@ -164,9 +168,7 @@ out:
 
 void ps_sphere_series_destroy(ps_sphere_series *series) {
     if (series != NULL) {
-        free(series->f);
-        free(series->a);
-        free(series->b);
+        free(series->table);
         free(series->powers);
     }
     free(series);
@@ -176,19 +178,16 @@ void ps_sphere_series_destroy(ps_sphere_series *series) {
 
 /* sum_l F_lm q_l of one order; top is q_m, of which the others are made. */
 static void sum_order(const ps_sphere_series *self, size_t m, double z, double top, double sum[2]) {
-    const size_t begin = index_of(self->max_degree, m, m);
-    const size_t num = self->max_degree + 1 - m;
-    const double *const a = self->a + begin;
-    const double *const b = self->b + begin;
-    const double *const f = self->f + 2 * begin;
+    const double *own = at_index(self, m, m);
     double before = 0;
     double value = top;
-    sum[0] = f[0] * value;
-    sum[1] = f[1] * value;
-    for (size_t i = 1; i < num; i++) {
-        const double next = a[i] * (z * value - b[i] * before);
-        sum[0] += f[2 * i] * next;
-        sum[1] += f[2 * i + 1] * next;
+    sum[0] = own[2] * value;
+    sum[1] = own[3] * value;
+    for (size_t l = m + 1; l <= self->max_degree; l++) {
+        own += SPHERE_SERIES_NUMBERS;
+        const double next = own[0] * (z * value - own[1] * before);
+        sum[0] += own[2] * next;
+        sum[1] += own[3] * next;
         before = value;
         value = next;
     }
@@ -208,7 +207,7 @@ double ps_sphere_series_value(const ps_sphere_series *series, const double *u) {
         double sum[2];
         if (m > 0) {
             const double kept = cos_m;
-            top *= series->a[index_of(series->max_degree, m, m)] * sine;
+            top *= at_index(series, m, m)[0] * sine;
             cos_m = cos_m * c - sin_m * s;
             sin_m = kept * s + sin_m * c;
         }

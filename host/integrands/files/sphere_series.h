@@ -9,10 +9,10 @@
 
 typedef struct ps_sphere_series {
     size_t max_degree;
-    /* F_lm, m >= 0, real and imaginary, at index m (2L + 1 - m)/2 + l */
-    double *f;
-    /* at the same index, of Y_lm = a (z Y_l-1,m - b Y_l-2,m); of l = m, a is that of Y_m-1,m-1 */
-    double *a, *b;
+    /* At index m (2L + 1 - m)/2 + l, m >= 0: a, b, and F_lm, as kernels/integrands/sphere_series.h
+     * takes them */
+    size_t num_table;
+    double *table;  /* [num_table] */
     double *powers; /* [max_degree + 1], sum_m |F_lm|^2 over all orders */
 } ps_sphere_series;
 

@@ -1,7 +1,9 @@
+#define PRECISION 64
 #include "integrands/files/torus_series.h"
 
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"
+#include "integrands/torus_series.h"
 #include "math/neumaier.h"
 #include "math/pi.h"
 
@@ -106,7 +108,7 @@ static pspec_status take_array(ps_coefficient_list *list, const ps_npy_array *ar
 /* Where the phases of one k come from those of the one before. Every so often they are made anew,
  * so that rounding does not add up. */
 static void link_phases(ps_torus_series *self) {
-    enum { ANEW = 64, PHASE_STEPS = 4 }; /* 5 ns a term in its row, 20 a phase (EPYC) */
+    enum { PHASE_STEPS = 4 }; /* 5 ns a term in its row, 20 a phase (EPYC) */
     const unsigned last = self->dimension - 1;
     for (size_t i = 0; i < self->num; i++) {
         const int32_t *const k = self->k + i * self->dimension;
@@ -116,9 +118,36 @@ static void link_phases(ps_torus_series *self) {
             axis++;
         }
         self->first[i] = (uint8_t)axis;
-        self->is_next[i] = axis == last && k[last] == before[last] + 1 && i % ANEW != 0;
+        self->is_next[i] = axis == last && k[last] == before[last] + 1 && i % TORUS_SERIES_RUN != 0;
         self->steps += 1 + (self->is_next[i] != 0 ? 0 : PHASE_STEPS * (double)(last + 1 - axis));
     }
+}
+
+/* Runs, each with its k and how many there are, and one of none. */
+static pspec_status fill_table(ps_torus_series *self, ps_error *error) {
+    const unsigned dimension = self->dimension;
+    size_t num_runs = 1;
+    size_t at = 0;
+    for (size_t i = 0; i < self->num; i++) {
+        num_runs += self->is_next[i] == 0;
+    }
+    self->num_table = num_runs * (dimension + 1) + 2 * self->num;
+    PS_TRY(PS_NEW(&self->table, self->num_table, "an integrand", error));
+    for (size_t i = 0; i < self->num;) {
+        size_t end = i + 1;
+        while (end < self->num && self->is_next[end] != 0) {
+            end++;
+        }
+        for (unsigned axis = 0; axis < dimension; axis++) {
+            self->table[at++] = self->k[i * dimension + axis];
+        }
+        self->table[at++] = (double)(end - i);
+        for (; i < end; i++) {
+            self->table[at++] = self->re[i];
+            self->table[at++] = self->im[i];
+        }
+    }
+    return PSPEC_OK;
 }
 
 static pspec_status fill(ps_torus_series *self, const ps_coefficient_list *list, ps_error *error) {
@@ -148,7 +177,7 @@ static pspec_status fill(ps_torus_series *self, const ps_coefficient_list *list,
     }
     self->energy = ps_neumaier_value(&energy);
     link_phases(self);
-    return PSPEC_OK;
+    return fill_table(self, error);
 }
 
 static pspec_status read_list(ps_coefficient_list *list, const ps_coefficient_file *file,
@@ -186,6 +215,7 @@ void ps_torus_series_destroy(ps_torus_series *series) {
         free(series->re);
         free(series->im);
         free(series->squares);
+        free(series->table);
     }
     free(series);
 }

@@ -18,6 +18,8 @@ typedef struct ps_torus_series {
     uint8_t *is_next;    /* .. and is it the last, and larger by 1? */
     double *re, *im;     /* [num] */
     double *squares;     /* [num], |f_k|^2 */
+    size_t num_table;
+    double *table; /* [num_table], as kernels/integrands/torus_series.h takes it */
 } ps_torus_series;
 
 pspec_status ps_torus_series_read(ps_torus_series **out, const char *path, unsigned dimension,

@@ -4,9 +4,11 @@
 #include "integrands/diffuse.h"
 #include "integrands/glossy.h"
 #include "integrands/phong.h"
+#include "integrands/zonal.h"
 
 #include "base/memory.h"
 #include "integrands/brdf_kind.h"
+#include "integrands/files/coefficient_file.h"
 #include "integrands/integrand_kind.h"
 
 #include <stdlib.h>
@@ -15,7 +17,8 @@
 /* What self->own points to. */
 typedef struct shading {
     ps_brdf *brdf;
-    char *path; /* of a table; NULL: none */
+    char *path;    /* of a table; NULL: none */
+    double *table; /* as kernels/integrands/zonal.h takes it */
 } shading;
 
 static const ps_brdf *lobe_of(const ps_integrand *self) {
@@ -42,6 +45,7 @@ static void destroy(ps_integrand *self) {
     if (own != NULL) {
         ps_brdf_destroy(own->brdf);
         free(own->path);
+        free(own->table);
     }
     free(own);
 }
@@ -190,16 +194,30 @@ const ps_integrand_kind ps_integrand_phong = {
 
 /* ---- tables -------------------------------------------------------------------------------- */
 
+/* The densities, so that nothing is left to divide by. */
+static pspec_status give_table(ps_integrand *self, shading *own, ps_error *error) {
+    const size_t num = own->brdf->num_nodes;
+    PS_TRY(PS_NEW(&own->table, 2 * num, "a lobe", error));
+    for (size_t i = 0; i < num; i++) {
+        own->table[i] = own->brdf->nodes[i];
+        own->table[num + i] = ps_brdf_density(own->brdf, own->brdf->nodes[i]);
+    }
+    self->table = own->table;
+    self->num_table = 2 * num;
+    self->numbers[ZONAL_NODES] = (double)num;
+    self->needs_doubles = !ps_fit_single(own->table, 2 * num);
+    return PSPEC_OK;
+}
+
 static pspec_status create_zonal(ps_integrand *self, const char *const *values, ps_error *error) {
     const size_t num_bytes = strlen(values[0]) + 1;
     PS_TRY(make(self, &ps_brdf_zonal, values, error));
     shading *const own = self->own;
     PS_TRY(PS_NEW(&own->path, num_bytes, "a path", error));
     memcpy(own->path, values[0], num_bytes);
-    return PSPEC_OK;
+    return give_table(self, own, error);
 }
 
-/* A table is looked up on the host alone: there is no header of kernels for it. */
 static void give_zonal(const ps_integrand *self, const double *points, size_t num, double *out) {
     for (size_t i = 0; i < num; i++) {
         out[i] = ps_brdf_density(lobe_of(self), points[3 * i + 2]);
@@ -212,6 +230,7 @@ static const char *file(const ps_integrand *self) {
 
 const ps_integrand_kind ps_integrand_zonal = {
     .name = "zonal",
+    .kernel = "zonal",
     .summary = PS_ZONAL_SUMMARY "; divided by its integral",
     .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_FILE_PARAMETER, PS_UNIT_PARAMETER},
