@@ -8,7 +8,7 @@
 
 typedef struct work {
     ps_integrand_points points;
-    ps_device *device;
+    const ps_point_way *way;
     const ps_engine *engine;
     void *state;
     uint32_t *slots;
@@ -27,21 +27,31 @@ static double scale_weights(ps_integrand_points *points) {
     return largest;
 }
 
+static ps_problem make_problem(const work *self, const ps_frequencies *frequencies) {
+    return (ps_problem){.frequencies = frequencies,
+                        .num_points = self->points.num,
+                        .num_realizations = 1,
+                        .has_weights = true,
+                        .tolerance = 1e-9};
+}
+
+static pspec_status make_plan(const work *self, const ps_problem *problem, ps_plan *plan,
+                              ps_error *error) {
+    ps_device *const device = self->way->device;
+    const ps_plan_constraints constraints = {.precision = -1,
+                                             .memory_limit = self->way->memory_limit};
+    return ps_plan_make(plan, problem, device != NULL ? ps_device_get_limits(device) : NULL,
+                        &constraints, error);
+}
+
 static pspec_status start(work *self, const ps_frequencies *frequencies, ps_error *error) {
-    const ps_problem problem = {.frequencies = frequencies,
-                                .num_points = self->points.num,
-                                .num_realizations = 1,
-                                .has_weights = true,
-                                .tolerance = 1e-9};
-    const ps_plan_constraints constraints = {.precision = -1};
+    const ps_problem problem = make_problem(self, frequencies);
     ps_plan plan;
-    PS_TRY(ps_plan_make(&plan, &problem,
-                        self->device != NULL ? ps_device_get_limits(self->device) : NULL,
-                        &constraints, error));
+    PS_TRY(make_plan(self, &problem, &plan, error));
     PS_TRY(ps_plan_require(&plan, &problem, error));
     self->engine = plan.chosen->engine;
-    PS_TRY(self->engine->create(&self->state, &problem, plan.chosen->precision, 1, self->device,
-                                error));
+    PS_TRY(self->engine->create(&self->state, &problem, plan.chosen->precision, 1,
+                                self->way->device, error));
     PS_TRY(PS_NEW(&self->slots, frequencies->num, "slots", error));
     ps_engine_slots(self->engine, self->state, frequencies->num, self->slots);
     return PSPEC_OK;
@@ -53,8 +63,8 @@ static pspec_status read_rows(work *self, const ps_rows *rows, double *powers, s
     const size_t bytes = is_single ? sizeof(float) : sizeof(double);
     if (rows->host == NULL) {
         PS_TRY(ps_allocate(&self->row, rows->stride, bytes, "a row of powers", error));
-        PS_TRY(
-            ps_buffer_read(self->device, &rows->device, 0, self->row, rows->stride * bytes, error));
+        PS_TRY(ps_buffer_read(self->way->device, &rows->device, 0, self->row, rows->stride * bytes,
+                              error));
     }
     const void *const from = rows->host != NULL ? (const void *)rows->host : self->row;
     for (size_t i = 0; i < num; i++) {
@@ -64,12 +74,22 @@ static pspec_status read_rows(work *self, const ps_rows *rows, double *powers, s
     return PSPEC_OK;
 }
 
+static bool should_stop(void *payload) {
+    const work *const self = payload;
+    ps_error ignored = {0};
+    return ps_watch_tell(self->way->watch, "image", 0, 0, NULL, &ignored) != PSPEC_OK;
+}
+
 static pspec_status run(work *self, const ps_frequencies *frequencies, double *powers,
                         ps_error *error) {
     const double scale = 1;
     const pspec_pattern pattern = {frequencies->dimension, self->points.num, self->points.points,
                                    self->points.weights};
-    const ps_batch batch = {.num_patterns = 1, .patterns = &pattern, .scales = &scale};
+    const ps_batch batch = {.num_patterns = 1,
+                            .patterns = &pattern,
+                            .scales = &scale,
+                            .should_stop = should_stop,
+                            .payload = self};
     ps_rows rows = {0};
     PS_TRY(start(self, frequencies, error));
     PS_TRY(self->engine->run(self->state, &batch, &rows, error));
@@ -89,8 +109,8 @@ static pspec_status multiply(const ps_integrand *integrand, const ps_frequencies
 }
 
 pspec_status ps_point_powers(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                             ps_device *device, double *powers, ps_error *error) {
-    work self = {.device = device};
+                             const ps_point_way *way, double *powers, ps_error *error) {
+    work self = {.way = way};
     pspec_status status = PSPEC_OK;
     double scale = 0;
     PS_TRY_OUT(status, ps_integrand_make_points(integrand, &self.points, error));
@@ -105,6 +125,19 @@ out:
     }
     free(self.slots);
     free(self.row);
+    ps_integrand_points_free(&self.points);
+    return status;
+}
+
+pspec_status ps_point_powers_seconds(double *seconds, const ps_integrand *integrand,
+                                     const ps_frequencies *frequencies, const ps_point_way *way,
+                                     ps_error *error) {
+    work self = {.way = way};
+    ps_plan plan;
+    PS_TRY(ps_integrand_make_points(integrand, &self.points, error));
+    const ps_problem problem = make_problem(&self, frequencies);
+    const pspec_status status = make_plan(&self, &problem, &plan, error);
+    *seconds = status == PSPEC_OK && plan.chosen != NULL ? plan.chosen->seconds : 0;
     ps_integrand_points_free(&self.points);
     return status;
 }

@@ -1,7 +1,6 @@
 #include "jobs/variance/prediction.h"
 
 #include "base/memory.h"
-#include "jobs/variance/point_powers.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,14 +26,14 @@ static bool is_in_ball(const ps_frequencies *frequencies, size_t i) {
 
 /* What is held is counted as it is weighed. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                                 bool over_shells, ps_device *device, double *weights, double *held,
-                                 ps_error *error) {
+                                 bool over_shells, const ps_point_way *way, double *weights,
+                                 double *held, ps_error *error) {
     const double factor = ps_integrand_factor(integrand);
     const bool is_on_torus = integrand->place.where == PS_SAMPLES_TORUS;
     long double sum = 0;
     PS_TRY(!is_on_torus ? weigh_degrees(integrand, frequencies, weights, error)
            : ps_integrand_has_points(integrand)
-               ? ps_point_powers(integrand, frequencies, device, weights, error)
+               ? ps_point_powers(integrand, frequencies, way, weights, error)
                : ps_integrand_powers(integrand, frequencies->vectors, frequencies->num, weights,
                                      error));
     for (size_t i = 0; i < frequencies->num; i++) {

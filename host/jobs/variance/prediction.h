@@ -6,6 +6,7 @@
 
 #include "frequencies/frequencies.h"
 #include "integrands/integrand.h"
+#include "jobs/variance/point_powers.h"
 #include "spectra/accumulate.h"
 #include "spectra/spectrum.h"
 
@@ -30,11 +31,11 @@ typedef struct ps_power_beyond {
 
 /* weights [frequencies->num] of the powers, so that N Var is their sum: those of both k and -k on
  * the torus, of all orders of a degree. Over shells, of a box, the corners beyond its rings have
- * none. *held is what they have of the energy of the integrand. The device, which may be NULL,
- * is for integrands by points. */
+ * none. *held is what they have of the energy of the integrand. The way is for
+ * integrands by points. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                                 bool over_shells, ps_device *device, double *weights, double *held,
-                                 ps_error *error) PS_MUST_CHECK;
+                                 bool over_shells, const ps_point_way *way, double *weights,
+                                 double *held, ps_error *error) PS_MUST_CHECK;
 /* The largest |k_i|, of the ball of shells |k|, or degree that matters to any of them; infinite
  * where there is no such. At least that of the first frequency or even degree. */
 double ps_prediction_reach(const ps_integrand *const *integrands, size_t num, bool over_shells);

@@ -7,13 +7,19 @@
 #include <math.h>
 #include <stdlib.h>
 
+static ps_point_way way_of(const ps_variance_job *job) {
+    const ps_power_question *const spectrum = &job->question->spectrum;
+    return (ps_point_way){ps_power_job_device(job->spectrum),
+                          spectrum->limits.constraints.memory_limit, &spectrum->watch};
+}
+
 static pspec_status weigh(void *payload, const ps_frequencies *frequencies, double *weights,
                           ps_error *error) {
     ps_variance_job *const job = payload;
+    const ps_point_way way = way_of(job);
     for (size_t i = 0; i < job->question->num_integrands; i++) {
         PS_TRY(ps_prediction_weigh(job->integrands[i], frequencies, job->question->over_shells,
-                                   ps_power_job_device(job->spectrum),
-                                   weights + i * frequencies->num, &job->held[i], error));
+                                   &way, weights + i * frequencies->num, &job->held[i], error));
     }
     return PSPEC_OK;
 }
@@ -110,6 +116,20 @@ static void find_useful(ps_variance_job *job) {
     }
 }
 
+static pspec_status time_images(ps_variance_job *job, ps_error *error) {
+    const ps_point_way way = way_of(job);
+    for (size_t i = 0; i < job->question->num_integrands; i++) {
+        double seconds = 0;
+        if (ps_integrand_has_points(job->integrands[i])) {
+            PS_TRY(ps_point_powers_seconds(&seconds, job->integrands[i],
+                                           ps_power_job_problem(job->spectrum)->frequencies, &way,
+                                           error));
+        }
+        job->image_seconds += seconds;
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status prepare(ps_variance_job *job, ps_error *error) {
     job->spectrum_question = job->question->spectrum;
     job->spectrum_question.num_weighted = job->question->num_integrands;
@@ -119,6 +139,7 @@ static pspec_status prepare(ps_variance_job *job, ps_error *error) {
     PS_TRY(parse_integrands(job, error));
     find_useful(job);
     PS_TRY(ps_power_job_create(&job->spectrum, &job->spectrum_question, error));
+    PS_TRY(time_images(job, error));
     return ps_variance_trials_prepare(job, error);
 }
 

@@ -18,6 +18,7 @@ struct ps_variance_job {
     ps_variance_sets files;    /* {0} of a sampler */
     ps_variance_trials trials; /* num_shifts 0: none */
     double trial_bytes;
+    double image_seconds; /* of the powers of integrands that are points; 0: there are none */
 };
 
 /* What is measured, once the spectrum is planned, and does it fit into the memory? */

@@ -189,6 +189,8 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
     const double values = value_points * (double)job->question->num_integrands;
     double seconds = values * value_seconds;
     char size[PS_SIZE_TEXT];
+    ps_phases_add_seconds(phases, "images", job->image_seconds);
+    ps_phases_say(phases, "images", "their powers, from pixels");
     if (values == 0) {
         return;
     }

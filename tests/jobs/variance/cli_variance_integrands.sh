@@ -85,6 +85,16 @@ near 'energy of the box' "$(column white)" 0.0068359375 1e-12
 runs 0 --sampler jittered -n 16 -m 200 --shifts 4 --integrand pixels:file=slope.npy
 awk -v z="$(column z_score)" 'BEGIN { exit !(z < 4 && z > -4 && z != 0) }' || complain "slope: $(table)"
 near 'integral of the slope' "$(key integral)" 28 1e-12
+"$program" plan variance --engine host_direct --sampler white -n 16 --integrand pixels:file=slope.npy >out 2>err || complain "plan: $(<err)"
+grep -q '^# phase: images; .* their powers, from pixels$' out || complain "phases: $(<out)"
+{
+    make_image '(1000, 1000)' 1
+    head -c 999999 /dev/zero
+} >large.npy
+runs 0 --engine host_direct --sampler white -n 8 -k 1 --shifts 0 --memory 400M --integrand pixels:file=large.npy
+! "$program" variance --engine host_direct --sampler white -n 8 -k 1 --shifts 0 --memory 1M --integrand pixels:file=large.npy >out 2>err ||
+    complain "a large image: $(<out)"
+grep -q 'needs .* of memory, above the limit of 1.05e+06' err || complain "a large image: $(<err)"
 # pairs are exact: they lie within the bracket
 runs 0 --sampler sobol:scramble=none -n 16 -k 40 --integrand pixels:file=slope.npy
 awk -v a="$(column lower)" -v x="$(key pairwise_variance)" -v b="$(column upper)" \
