@@ -71,6 +71,27 @@ static inline bool test_write_file(const char *path, const void *bytes, size_t n
     return fclose(stream) == 0 && is_written;
 }
 
+/* Writes an NPY array: type as "<f8", order "True" for Fortran's, shape as "(7, 7)". */
+static inline bool test_write_array(const char *path, const char *type, const char *order,
+                                    const char *shape, const void *data, size_t num_bytes) {
+    char text[118];
+    FILE *const stream = fopen(path, "wb");
+    if (stream == NULL) {
+        return false;
+    }
+    memset(text, ' ', sizeof text);
+    const int length = snprintf(text, sizeof text,
+                                "{'descr': '%s', 'fortran_order': %s, "
+                                "'shape': %s, }",
+                                type, order, shape);
+    text[length] = ' ';
+    text[sizeof text - 1] = '\n';
+    const bool is_written = fwrite("\x93NUMPY\x01\x00\x76\x00", 1, 10, stream) == 10 &&
+                            fwrite(text, 1, sizeof text, stream) == sizeof text &&
+                            fwrite(data, 1, num_bytes, stream) == num_bytes;
+    return fclose(stream) == 0 && is_written;
+}
+
 /* The whole file with a NUL after it; NULL when it cannot be read. The caller frees it. */
 static inline char *test_read_file(const char *path, size_t *num_bytes) {
     enum { STEP = 1 << 16 };

@@ -23,24 +23,6 @@ static void write_text(const char *path, const char *text) {
     assert_true(test_write_file(path, text, strlen(text)));
 }
 
-void test_write_array(const char *path, const char *type, const char *order, const char *shape,
-                      const void *data, size_t num_bytes) {
-    char text[118];
-    FILE *const stream = fopen(path, "wb");
-    assert_non_null(stream);
-    memset(text, ' ', sizeof text);
-    const int length = snprintf(text, sizeof text,
-                                "{'descr': '%s', 'fortran_order': %s, "
-                                "'shape': %s, }",
-                                type, order, shape);
-    text[length] = ' ';
-    text[sizeof text - 1] = '\n';
-    assert_int_equal(fwrite("\x93NUMPY\x01\x00\x76\x00", 1, 10, stream), 10);
-    assert_int_equal(fwrite(text, 1, sizeof text, stream), sizeof text);
-    assert_int_equal(fwrite(data, 1, num_bytes, stream), num_bytes);
-    assert_int_equal(fclose(stream), 0);
-}
-
 int test_enter_lobes(void **state) {
     if (test_folder_create(state) != 0 || chdir(((test_folder *)*state)->path) != 0) {
         return -1;

@@ -3,6 +3,7 @@
 #define TESTS_HARNESS_INTEGRANDS_H
 
 #include "harness.h"
+#include "test_folder.h"
 
 #include "integrands/integrand.h"
 
@@ -14,10 +15,6 @@ ps_integrand *test_integrand(const char *text, ps_integrand_place place);
 
 /* Fails with the integrand's text where a value is not within the tolerance of the exact one. */
 void test_near(const char *text, const char *what, double value, double exact, double tolerance);
-
-/* Writes an NPY array: type as "<f8", order "True" for Fortran's, shape as "(7, 7)". */
-void test_write_array(const char *path, const char *type, const char *order, const char *shape,
-                      const void *data, size_t num_bytes);
 
 /* Setup and teardown: a folder with the tables lobe.txt, which jumps at z = -1/2 and goes below the
  * horizon, and above.txt, which does not. */

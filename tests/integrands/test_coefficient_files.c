@@ -144,18 +144,18 @@ static void arrays_are_the_text(void **state) {
     float single[SIDE * SIDE][2];
     (void)state;
     fill_box(box);
-    test_write_array("own.npy", "<c16", "False", "(7, 7)", box, sizeof box);
+    assert_true(test_write_array("own.npy", "<c16", "False", "(7, 7)", box, sizeof box));
     known("coefficients:file=own.npy");
     for (int i = 0; i < SIDE * SIDE; i++) {
         memcpy(turned[i % SIDE * SIDE + i / SIDE], box[i], sizeof *box);
     }
-    test_write_array("fortran.npy", "<c16", "True", "(7, 7)", turned, sizeof turned);
+    assert_true(test_write_array("fortran.npy", "<c16", "True", "(7, 7)", turned, sizeof turned));
     known("coefficients:file=fortran.npy");
     for (int i = 0; i < SIDE * SIDE; i++) {
         single[i][0] = (float)box[i][0];
         single[i][1] = (float)box[i][1];
     }
-    test_write_array("single.npy", "<c8", "False", "(7, 7)", single, sizeof single);
+    assert_true(test_write_array("single.npy", "<c8", "False", "(7, 7)", single, sizeof single));
     ps_integrand *const of_single = test_integrand("coefficients:file=single.npy", plane);
     const double x[2] = {0.3, 0.7};
     test_near("single.npy", "a value", value_at(of_single, x), sum_at(x), 1e-8);
@@ -166,7 +166,7 @@ static void arrays_are_the_text(void **state) {
 static void real_arrays(void **state) {
     static const int16_t line[] = {3, 1, 1, 1, 3};
     (void)state;
-    test_write_array("line.npy", "<i2", "False", "(5,)", line, sizeof line);
+    assert_true(test_write_array("line.npy", "<i2", "False", "(5,)", line, sizeof line));
     ps_integrand *const self =
         test_integrand("coefficients:file=line.npy", (ps_integrand_place){PS_SAMPLES_TORUS, 1});
     const double x = 0.5;
@@ -239,22 +239,22 @@ static void bad_arrays(void **state) {
     double box[SIDE * SIDE][2];
     (void)state;
     fill_box(box);
-    test_write_array("bad.npy", "<c16", "False", "(7, 6)", box, sizeof *box * 42);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(7, 6)", box, sizeof *box * 42));
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "shape (7, 6); frequencies -K..K");
-    test_write_array("bad.npy", "<c16", "False", "(49,)", box, sizeof box);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(49,)", box, sizeof box));
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT,
             "shape (49,); coefficients have an axis");
-    test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box - 16);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box - 16));
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "bad.npy");
-    test_write_array("bad.npy", "<c16", "False", "(0, 7)", box, 0);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(0, 7)", box, 0));
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "has no entries");
-    test_write_array("bad.npy", ">c32", "False", "(7, 7)", box, sizeof box);
+    assert_true(test_write_array("bad.npy", ">c32", "False", "(7, 7)", box, sizeof box));
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "cannot be read");
     box[8][1] = NAN;
-    test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box));
     refuses("coefficients:file=bad.npy", PSPEC_ERROR_INPUT, "the entry at (1, 1) is nan");
     box[8][1] = 0.25;
-    test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(7, 7)", box, sizeof box));
     refuses(
         "coefficients:file=bad.npy", PSPEC_ERROR_INPUT,
         "bad.npy: the coefficients at k = (2, 2) and k = (-2, -2) are those of no real function");

@@ -23,7 +23,7 @@ static ps_integrand *make_image(void) {
     for (int i = 0; i < NUM; i++) {
         image[i] = pixel(i);
     }
-    test_write_array("image.npy", "<f8", "False", "(5, 7)", image, sizeof image);
+    assert_true(test_write_array("image.npy", "<f8", "False", "(5, 7)", image, sizeof image));
     return test_integrand("pixels:file=image.npy", plane);
 }
 
@@ -88,7 +88,7 @@ static void powers(void **state) {
 static void aliases(void **state) {
     static const double image[] = {3, 1, 4, 1, 5};
     (void)state;
-    test_write_array("line.npy", "<f8", "False", "(5,)", image, sizeof image);
+    assert_true(test_write_array("line.npy", "<f8", "False", "(5,)", image, sizeof image));
     ps_integrand *const self =
         test_integrand("pixels:file=line.npy", (ps_integrand_place){PS_SAMPLES_TORUS, 1});
     double sum = 0;
@@ -105,7 +105,7 @@ static void aliases(void **state) {
 static void a_box(void **state) {
     uint8_t image[8] = {1, 1, 0, 0, 0, 0, 0, 0};
     (void)state;
-    test_write_array("box.npy", "|u1", "False", "(2, 4)", image, sizeof image);
+    assert_true(test_write_array("box.npy", "|u1", "False", "(2, 4)", image, sizeof image));
     ps_integrand *const self = test_integrand("pixels:file=box.npy", plane);
     ps_integrand *const box = test_integrand("box:sides=0.5,centre=0.25", plane);
     for (int32_t i = 1; i < 100; i++) {
@@ -183,14 +183,14 @@ static void refused(void **state) {
     const char text[] = "1 2\n3 4\n";
     (void)state;
     refuses("pixels", PSPEC_ERROR_INVALID_ARGUMENT, "integrand pixels needs its file");
-    test_write_array("bad.npy", "<f8", "False", "(2, 2)", image, sizeof image);
+    assert_true(test_write_array("bad.npy", "<f8", "False", "(2, 2)", image, sizeof image));
     refuses("pixels:file=bad.npy", PSPEC_ERROR_INPUT, "the entry at (1, 0) is nan");
     image[2] = -2e100;
-    test_write_array("bad.npy", "<f8", "False", "(2, 2)", image, sizeof image);
+    assert_true(test_write_array("bad.npy", "<f8", "False", "(2, 2)", image, sizeof image));
     refuses("pixels:file=bad.npy", PSPEC_ERROR_INPUT, "the pixel at (1, 0) is -2e+100");
-    test_write_array("bad.npy", "<f8", "False", "(4,)", image, sizeof image);
+    assert_true(test_write_array("bad.npy", "<f8", "False", "(4,)", image, sizeof image));
     refuses("pixels:file=bad.npy", PSPEC_ERROR_INPUT, "pixels have an axis for each of the 2");
-    test_write_array("bad.npy", "<c16", "False", "(1, 2)", image, sizeof image);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(1, 2)", image, sizeof image));
     refuses("pixels:file=bad.npy", PSPEC_ERROR_INPUT, "cannot be read");
     assert_true(test_write_file("bad.txt", text, strlen(text)));
     refuses("pixels:file=bad.txt", PSPEC_ERROR_INPUT, "is no NPY array");

@@ -107,7 +107,7 @@ static void orders(void **state) {
     c[1][0] = one;
     c[4][0] = -1 / (2 * n);
     c[4][1] = -1 / n;
-    test_write_array("own.npy", "<c16", "False", "(6,)", c, sizeof c);
+    assert_true(test_write_array("own.npy", "<c16", "False", "(6,)", c, sizeof c));
     is_polynomial("coefficients:file=own.npy");
 }
 
@@ -163,9 +163,9 @@ static void refused(void **state) {
     refuses_rows("2 -1 1 1\n", TEST_SPHERE, "without its opposite at l = 2, m = 1");
     refuses_rows("2 1 1 1\n2 1 1 1\n", TEST_SPHERE, "given twice");
     refuses_rows("2 0 1 0\n3 1 1 0\n", TEST_HEMISPHERE, "l = 3, m = 1 is not 0: on the hemisphere");
-    test_write_array("bad.npy", "<c16", "False", "(7,)", c, sizeof c);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(7,)", c, sizeof c));
     refuses("bad.npy", TEST_SPHERE, "shape (7,); coefficients up to degree L");
-    test_write_array("bad.npy", "<c16", "False", "(6,)", c, 6 * sizeof *c);
+    assert_true(test_write_array("bad.npy", "<c16", "False", "(6,)", c, 6 * sizeof *c));
     refuses("bad.npy", TEST_SPHERE, "l = 0, m = 0 has the imaginary part -1");
 }
 

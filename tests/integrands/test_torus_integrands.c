@@ -90,7 +90,7 @@ static double sum_of_box(const ps_integrand *integrand, const test_set *set, int
             double re = 0;
             double im = 0;
             if (k0 == 0 && k1 == 0) {
-                continue;
+                continue; /* tests/jobs/variance/test_variance_files.c has it */
             }
             for (size_t j = 0; j < set->num_points; j++) {
                 const double *const x = set->points + 2 * j;
