@@ -15,7 +15,7 @@ forbid() { # WHY FOLDERS PATTERN [FILE ALLOWED]...: an extended regular expressi
     fi
 }
 
-forbid "a kind of result is asked through its interface (answers/kind.h), not by its name:" host '[!=]= &ps_result_'
+forbid "a kind of answer is asked through its interface (answers/kind.h), not by its name:" host '[!=]= &ps_kind_'
 forbid "estimators are made by the runner (jobs/runner.c), which plans again where it must:" host \
     'ps_estimator_create\(' host/jobs/estimator.c host/jobs/estimator.h host/jobs/runner.c \
     host/verify/stress_device.c

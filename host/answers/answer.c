@@ -59,7 +59,7 @@ size_t ps_answer_num_entries(const ps_answer *answer) {
     return num;
 }
 
-pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
+pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;
     *out = (ps_answer){0};

@@ -1,6 +1,6 @@
-/* The interface of every kind of result, and the table that names them all.
+/* The interface of every kind of answer, and the table that names them all.
  *
- * A kind of result is what can be asked for: a command of the same name prints one, a scene has
+ * A kind of answer is what can be asked for: a command of the same name prints one, a scene has
  * several, and both go the same way: check -> compute -> tabulate, with pictures and other files
  * made of what was computed, or of the table. A kind says which options belong to its question,
  * what planning it comes to, and what its tables mean to who draws, sums up or compares them. A new
@@ -76,12 +76,12 @@ typedef struct ps_line_kind {
     bool is_log_x, is_log_y;
 } ps_line_kind;
 
-typedef struct ps_result_kind {
+typedef struct ps_kind {
     const char *name;
 
     /* The question. */
     /* Its bit in the table of options: which belong to the question, the same on every device */
-    ps_takers taker;
+    ps_verb_set bit;
     const char *weights; /* words of --weights; NULL: equal|column|FILE */
     ps_domain samples;   /* which samplers it takes */
     const char *counted; /* what its work counts: "realizations" */
@@ -127,23 +127,23 @@ typedef struct ps_result_kind {
     /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
      * infinite where one has what the other lacks. */
     double (*compare)(const ps_table *a, const ps_table *b);
-} ps_result_kind;
+} ps_kind;
 
-/* ps_result_power, .. */
-#define PS_DECLARE_KIND(name) extern const ps_result_kind ps_result_##name;
+/* ps_kind_power, .. */
+#define PS_DECLARE_KIND(name) extern const ps_kind ps_kind_##name;
 #define PS_DECLARE_NOTHING(name)
-PS_TAKERS(PS_DECLARE_KIND, PS_DECLARE_NOTHING)
+PS_VERBS(PS_DECLARE_KIND, PS_DECLARE_NOTHING)
 
 /* All of them; ended by NULL. */
-extern const ps_result_kind *const ps_result_kinds[];
+extern const ps_kind *const ps_kinds[];
 
 /* Points of a sampler, as a result of a scene. None of these: the command sample writes point
  * files, not a table. */
-extern const ps_result_kind ps_result_points;
+extern const ps_kind ps_kind_points;
 
 /* Does the option belong to the question? */
-static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {
-    return (ps_options[id].questions & kind->taker) != 0;
+static inline bool ps_kind_asks(const ps_kind *kind, ps_option_id id) {
+    return (ps_options[id].questions & kind->bit) != 0;
 }
 
 /* Doubles of the array; 0: none. */
@@ -151,7 +151,7 @@ size_t ps_answer_num_entries(const ps_answer *answer);
 
 /* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an
  * error. A check that found differences is no error: the answer has the verdict. */
-pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
+pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);
 
@@ -159,11 +159,10 @@ void ps_answer_free(ps_answer *answer);
  * work, then it is computed, and the files are written that the request names: table (an output
  * NULL is none), others, picture. *out is freed by ps_answer_free, also after an error; differences
  * that a check found are its verdict, and no error. */
-pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,
-                               const ps_request *request, const ps_answer_hooks *hooks,
-                               ps_error *error) PS_MUST_CHECK;
+pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_request *request,
+                               const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
 /* The values that the kind admits for the option, "one|two|FILE"; NULL for a flag. */
-const char *ps_result_words(const ps_result_kind *kind, ps_option_id id);
+const char *ps_kind_words(const ps_kind *kind, ps_option_id id);
 
 #endif

@@ -1,11 +1,11 @@
-/* What a command that prints a kind of result does, and a public function that answers one: refuse
+/* What a command that prints a kind of answer does, and a public function that answers one: refuse
  * early, compute, write. */
 #include "answers/kind.h"
 #include "answers/output_check.h"
 #include "answers/picture.h"
 #include "request/options.h"
 
-const char *ps_result_words(const ps_result_kind *kind, ps_option_id id) {
+const char *ps_kind_words(const ps_kind *kind, ps_option_id id) {
     if (id == PS_OPTION_FORMAT && kind->has_verdict) {
         return "csv|json|jsonl|text"; /* verdicts are no numbers */
     }
@@ -15,9 +15,8 @@ const char *ps_result_words(const ps_result_kind *kind, ps_option_id id) {
 
 /* ---- before ------------------------------------------------------------------------------ */
 
-static pspec_status check(ps_table_format *format, const ps_result_kind *kind,
-                          const ps_request *request, const ps_answer_hooks *hooks,
-                          ps_error *error) {
+static pspec_status check(ps_table_format *format, const ps_kind *kind, const ps_request *request,
+                          const ps_answer_hooks *hooks, ps_error *error) {
     if (kind->check_arguments != NULL) {
         PS_TRY(kind->check_arguments(request, error));
     }
@@ -33,7 +32,7 @@ static pspec_status check(ps_table_format *format, const ps_result_kind *kind,
 
 /* ---- after ------------------------------------------------------------------------------- */
 
-static pspec_status write_files(ps_answer *out, const ps_result_kind *kind, const void *computed,
+static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void *computed,
                                 const ps_request *request, ps_table_format format,
                                 const ps_answer_hooks *hooks, ps_error *error) {
     if (kind->write_others != NULL) {
@@ -49,9 +48,8 @@ static pspec_status write_files(ps_answer *out, const ps_result_kind *kind, cons
                                    kind->draw(computed, request, error), error);
 }
 
-pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,
-                               const ps_request *request, const ps_answer_hooks *hooks,
-                               ps_error *error) {
+pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_request *request,
+                               const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;
     ps_table_format format = PS_FORMAT_CSV;
     *out = (ps_answer){0};

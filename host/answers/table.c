@@ -1,5 +1,5 @@
 #include "answers/kind.h"
 
-#define KIND(name) &ps_result_##name,
+#define KIND(name) &ps_kind_##name,
 #define NOTHING(name)
-const ps_result_kind *const ps_result_kinds[] = {PS_TAKERS(KIND, NOTHING) NULL};
+const ps_kind *const ps_kinds[] = {PS_VERBS(KIND, NOTHING) NULL};

@@ -1,22 +1,22 @@
-/* The public library: answers of every kind of result. */
+/* The public library: answers of every kind of answer. */
 #include "api/public_words.h"
 #include "request/options.h"
 
-const char *pspec_result_kind(size_t i) {
+const char *pspec_answer_kind(size_t i) {
     size_t num = 0;
-    while (ps_result_kinds[num] != NULL) {
+    while (ps_kinds[num] != NULL) {
         num++;
     }
-    return i < num ? ps_result_kinds[i]->name : NULL;
+    return i < num ? ps_kinds[i]->name : NULL;
 }
 
 /* ---- options ----------------------------------------------------------------------------- */
 
-static pspec_status fill_options(ps_table *table, const ps_task *task, ps_error *error) {
+static pspec_status fill_options(ps_table *table, const ps_verb *verb, ps_error *error) {
     for (int i = 0; i < PS_NUM_OPTIONS; i++) {
         const ps_option_id id = (ps_option_id)i;
-        if (ps_public_takes(task, id)) {
-            const char *const words = ps_task_words(task, id);
+        if (ps_public_takes(verb, id)) {
+            const char *const words = ps_verb_words(verb, id);
             const ps_cell cells[] = {PS_TEXT(ps_options[id].name),
                                      words != NULL ? PS_TEXT(words) : PS_MISSING,
                                      PS_TEXT(ps_options[id].help)};
@@ -29,15 +29,15 @@ static pspec_status fill_options(ps_table *table, const ps_task *task, ps_error 
 pspec_status pspec_options_table(pspec_table **out, pspec_context *context, const char *command) {
     static const char *const columns[] = {"option", "values", "help"};
     ps_table *table = NULL;
-    const ps_task *task = NULL;
+    const ps_verb *verb = NULL;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_task(&task, command, false, error));
+    PS_TRY(ps_public_find_verb(&verb, command, false, error));
     PS_TRY(ps_table_create(&table, "options", columns, sizeof columns / sizeof columns[0], error));
-    const pspec_status status = fill_options(table, task, error);
+    const pspec_status status = fill_options(table, verb, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(table);
         return status;
@@ -47,7 +47,7 @@ pspec_status pspec_options_table(pspec_table **out, pspec_context *context, cons
 
 /* ---- answers ----------------------------------------------------------------------------- */
 
-static pspec_status answer(pspec_table **out, pspec_context *context, const ps_result_kind *kind,
+static pspec_status answer(pspec_table **out, pspec_context *context, const ps_kind *kind,
                            const ps_request *request) {
     ps_answer made = {0};
     ps_error *const error = &context->error;
@@ -67,16 +67,16 @@ static pspec_status answer(pspec_table **out, pspec_context *context, const ps_r
 
 pspec_status pspec_answer(pspec_table **out, pspec_context *context, const char *kind,
                           const pspec_option *options, size_t num_options) {
-    const ps_task *task = NULL;
+    const ps_verb *verb = NULL;
     ps_public_words words;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     *out = NULL;
-    PS_TRY(ps_public_find_task(&task, kind, true, &context->error));
-    pspec_status status = ps_public_words_make(&words, context, "", task, options, num_options);
+    PS_TRY(ps_public_find_verb(&verb, kind, true, &context->error));
+    pspec_status status = ps_public_words_make(&words, context, "", verb, options, num_options);
     if (status == PSPEC_OK) {
-        status = answer(out, context, task->kind, &words.request);
+        status = answer(out, context, verb->kind, &words.request);
     }
     ps_public_words_free(&words);
     return status;

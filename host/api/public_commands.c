@@ -27,7 +27,7 @@ pspec_status pspec_run(pspec_table **out, pspec_context *context, const pspec_op
     ps_error *const error = &context->error;
     *out = NULL;
     pspec_status status =
-        ps_public_words_make(&words, context, "", &ps_task_run, options, num_options);
+        ps_public_words_make(&words, context, "", &ps_verb_run, options, num_options);
     if (status == PSPEC_OK) {
         const ps_answer_hooks hooks = ps_public_hooks(context);
         status = ps_run_produce(&made, &words.request, &hooks, error);
@@ -38,7 +38,7 @@ pspec_status pspec_run(pspec_table **out, pspec_context *context, const pspec_op
 
 pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const char *command,
                               const pspec_option *options, size_t num_options) {
-    const ps_task *task = NULL;
+    const ps_verb *verb = NULL;
     ps_public_words words;
     ps_answer made = {0};
     if (out == NULL || context == NULL) {
@@ -46,12 +46,12 @@ pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const c
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_task(&task, command, false, error));
+    PS_TRY(ps_public_find_verb(&verb, command, false, error));
     pspec_status status =
-        ps_public_words_make(&words, context, "plan ", task, options, num_options);
+        ps_public_words_make(&words, context, "plan ", verb, options, num_options);
     if (status == PSPEC_OK) {
         const ps_answer_hooks hooks = ps_public_hooks(context);
-        status = ps_task_plan(&made.table, task, &words.request, &hooks, error);
+        status = ps_verb_plan(&made.table, verb, &words.request, &hooks, error);
     }
     ps_public_words_free(&words);
     return give(out, &made, status, error);
@@ -60,7 +60,7 @@ pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const c
 /* ---- the machine ------------------------------------------------------------------------- */
 
 pspec_status pspec_devices(pspec_table **out, pspec_context *context) {
-    static const ps_task task = {.name = "devices", .taker = PS_TAKER_BIT(devices)};
+    static const ps_verb verb = {.name = "devices", .bit = PS_VERB_BIT(devices)};
     ps_public_words words;
     ps_text why_none = {0};
     ps_answer made = {0};
@@ -69,7 +69,7 @@ pspec_status pspec_devices(pspec_table **out, pspec_context *context) {
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    pspec_status status = ps_public_words_make(&words, context, "", &task, NULL, 0);
+    pspec_status status = ps_public_words_make(&words, context, "", &verb, NULL, 0);
     if (status == PSPEC_OK) {
         status = ps_devices_tabulate(&made.table, &why_none, &words.request, error);
     }

@@ -12,10 +12,10 @@ bool ps_command_takes(const ps_command *command, ps_option_id id) {
 
 const char *ps_command_words(const ps_command *command, ps_option_id id) {
     if (command->result != NULL) {
-        return ps_result_words(command->result, id);
+        return ps_kind_words(command->result, id);
     }
-    if (command->task != NULL) {
-        return ps_task_words(command->task, id);
+    if (command->verb != NULL) {
+        return ps_verb_words(command->verb, id);
     }
     if (id == PS_OPTION_FORMAT && command->formats != NULL) {
         return command->formats;

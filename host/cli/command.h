@@ -5,7 +5,7 @@
 #include "answers/kind.h"
 #include "base/watch.h"
 #include "cli/signals.h"
-#include "commands/task.h"
+#include "commands/verb.h"
 
 #include <stdio.h>
 
@@ -21,14 +21,14 @@ enum {
 
 typedef struct ps_command {
     const char *name;
-    const char *summary;          /* one line */
-    const char *usage;            /* after "pointspec ", for example "power [options] [FILE...]" */
-    const char *description;      /* a paragraph for --help */
-    const ps_result_kind *result; /* what it prints, with the options of that question; or NULL */
-    const ps_task *task;          /* what else it does that the library can do, too; or NULL */
-    ps_takers takes;              /* whose options: the command's bit in their table */
-    const char *examples[2];      /* complete command lines, run by the tests */
-    /* Words of --format, the default first, and of --weights, where neither result nor task says
+    const char *summary;     /* one line */
+    const char *usage;       /* after "pointspec ", for example "power [options] [FILE...]" */
+    const char *description; /* a paragraph for --help */
+    const ps_kind *result;   /* what it prints, with the options of that question; or NULL */
+    const ps_verb *verb;     /* what else it does that the library can do, too; or NULL */
+    ps_verb_set takes;       /* whose options: the command's bit in their table */
+    const char *examples[2]; /* complete command lines, run by the tests */
+    /* Words of --format, the default first, and of --weights, where neither result nor verb says
      * so; NULL: csv|json|npy|jsonl|text, equal|column|FILE. */
     const char *formats, *weights;
     bool makes_folder; /* which --output names: it has no default */
@@ -44,7 +44,7 @@ const ps_command *ps_command_find(const char *name, ps_error *error);
 
 /* ps_command_power, .. */
 #define PS_DECLARE_COMMAND(name) extern const ps_command ps_command_##name;
-PS_TAKERS(PS_DECLARE_COMMAND, PS_DECLARE_COMMAND)
+PS_VERBS(PS_DECLARE_COMMAND, PS_DECLARE_COMMAND)
 
 /* Every command takes --help, also when the table of options does not say so. */
 bool ps_command_takes(const ps_command *command, ps_option_id id);

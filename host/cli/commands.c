@@ -9,7 +9,7 @@
 /* In the order of --help. A new command is a file, a name in request/options.h, and the rows of
  * its options. */
 #define COMMAND(name) &ps_command_##name,
-const ps_command *const ps_commands[] = {PS_TAKERS(COMMAND, COMMAND) NULL};
+const ps_command *const ps_commands[] = {PS_VERBS(COMMAND, COMMAND) NULL};
 
 const ps_command *ps_command_find(const char *name, ps_error *error) {
     const ps_command *nearest = NULL;

@@ -115,7 +115,7 @@ static pspec_status parse(const ps_command *command, int num_words, char **words
 }
 
 static bool has_output(const ps_command *command, const ps_request *arguments) {
-    const bool makes_points = command->task != NULL && command->task->makes_points;
+    const bool makes_points = command->verb != NULL && command->verb->makes_points;
     return !command->makes_folder && !(makes_points && ps_request_only_draws(arguments));
 }
 

@@ -109,8 +109,7 @@ pspec_status ps_shown_verdict(const ps_answer *answer, ps_error *error) {
     return answer->verdict.status;
 }
 
-pspec_status ps_shown_answer(const ps_result_kind *kind, const ps_request *arguments,
-                             ps_error *error) {
+pspec_status ps_shown_answer(const ps_kind *kind, const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments, .counted = kind->counted, .speaker = "pointspec"};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
     ps_answer answer = {0};

@@ -49,7 +49,7 @@ static pspec_status compute(const char *device, bool *is_good, ps_error *error) 
     ps_request request;
     PS_TRY(ask(&request, error));
     request.limits.device = device;
-    const pspec_status status = ps_answer_make(&answer, &ps_result_power, &request, &nobody, error);
+    const pspec_status status = ps_answer_make(&answer, &ps_kind_power, &request, &nobody, error);
     *is_good = status == PSPEC_OK && is_right(answer.table);
     ps_answer_free(&answer);
     return status;

@@ -1,10 +1,10 @@
-/* Plans of tasks. */
-#include "commands/task.h"
+/* Plans of verbs. */
+#include "commands/verb.h"
 #include "store/host_figures.h"
 
 #include "pointspec_version.h"
 
-static pspec_status fill(ps_planner *planner, const ps_task *task, const ps_request *request,
+static pspec_status fill(ps_planner *planner, const ps_verb *verb, const ps_request *request,
                          const ps_answer_hooks *hooks, ps_error *error) {
     ps_figures host;
     ps_table *const table = planner->table;
@@ -14,19 +14,19 @@ static pspec_status fill(ps_planner *planner, const ps_task *task, const ps_requ
     PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error));
     PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
-    PS_TRY(task->kind != NULL ? task->kind->plan(planner, request, error)
-                              : task->plan(planner, request, hooks, error));
+    PS_TRY(verb->kind != NULL ? verb->kind->plan(planner, request, error)
+                              : verb->plan(planner, request, hooks, error));
     return ps_plan_table_end(planner, error);
 }
 
-pspec_status ps_task_plan(ps_table **out, const ps_task *task, const ps_request *request,
+pspec_status ps_verb_plan(ps_table **out, const ps_verb *verb, const ps_request *request,
                           const ps_answer_hooks *hooks, ps_error *error) {
     ps_planner planner = {.device = hooks->device,
-                          .lead = task == &ps_task_run ? ps_plan_table_lead("")
+                          .lead = verb == &ps_verb_run ? ps_plan_table_lead("")
                                                        : ps_lead_make(request, 0)};
     *out = NULL;
     PS_TRY(ps_plan_table_create(&planner.table, &planner.lead, error));
-    const pspec_status status = fill(&planner, task, request, hooks, error);
+    const pspec_status status = fill(&planner, verb, request, hooks, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(planner.table);
         return status;

@@ -87,7 +87,7 @@ pspec_status ps_set_range(const ps_said *said, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* A kind of result that takes fewer degrees says so itself. */
+/* A kind of answer that takes fewer degrees says so itself. */
 pspec_status ps_set_max_degree(const ps_said *said, ps_error *error) {
     if (said->text[0] == '-' || strcmp(said->text, "0") == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -25,10 +25,10 @@
 #define MOST_SHIFTS UINT64_C(1000000)
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
-/* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that
+/* Sets of verbs that many options have: kinds of spectra, those of them on the sphere, kinds that
  * look at point sets, all that read them from files, and kinds that have a lobe; commands that try
  * engines, and those whose output is a table. */
-#define BIT PS_TAKER_BIT
+#define BIT PS_VERB_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
 #define SETS (SPECTRA | BIT(quadrature) | BIT(check))

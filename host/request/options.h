@@ -6,10 +6,10 @@
 
 #include "request/request.h"
 
-/* Who takes options, in the order of --help: kinds of results (answers/kind.h), each of which a
+/* Who takes options, in the order of --help: kinds of answers (answers/kind.h), each of which a
  * command prints, and the other commands. A new one is a name here, and a bit in the rows of the
  * options that it takes. */
-#define PS_TAKERS(KIND, OTHER)                                                                     \
+#define PS_VERBS(KIND, OTHER)                                                                      \
     KIND(power)                                                                                    \
     KIND(angular)                                                                                  \
     KIND(pairs)                                                                                    \
@@ -26,12 +26,12 @@
     OTHER(devices)                                                                                 \
     OTHER(doctor)
 
-#define PS_TAKER_NUMBER(name) PS_TAKER_##name,
-typedef enum ps_taker { PS_TAKERS(PS_TAKER_NUMBER, PS_TAKER_NUMBER) PS_NUM_TAKERS } ps_taker;
+#define PS_VERB_NUMBER(name) PS_VERB_##name,
+typedef enum ps_verb_id { PS_VERBS(PS_VERB_NUMBER, PS_VERB_NUMBER) PS_NUM_VERBS } ps_verb_id;
 
-/* A set of takers. */
-typedef uint32_t ps_takers;
-#define PS_TAKER_BIT(name) (UINT32_C(1) << PS_TAKER_##name)
+/* A set of verbs. */
+typedef uint32_t ps_verb_set;
+#define PS_VERB_BIT(name) (UINT32_C(1) << PS_VERB_##name)
 
 typedef struct ps_option ps_option;
 
@@ -57,9 +57,10 @@ struct ps_option {
     const char *name;    /* without its dashes */
     const char *metavar; /* NULL: takes no value */
     const char *help;
-    /* The kinds of results to whose question it belongs: it is a key of scenes there, too */
-    ps_takers questions;
-    ps_takers commands; /* others that take it: how they compute, and what becomes of the results */
+    /* The kinds of answers to whose question it belongs: it is a key of scenes there, too */
+    ps_verb_set questions;
+    ps_verb_set
+        commands; /* others that take it: how they compute, and what becomes of the results */
     ps_option_setter *set;
     size_t offset; /* of the field of ps_request, for setters that serve several options */
     uint64_t minimum, maximum;

@@ -35,7 +35,7 @@ typedef struct ps_scene_entry {
 } ps_scene_entry;
 
 typedef struct ps_scene_result {
-    const ps_result_kind *kind;
+    const ps_kind *kind;
     const char *name, *title; /* name: letters, digits, - and _; unique in the scene */
     int line;
     size_t num_entries;

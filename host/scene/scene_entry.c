@@ -20,13 +20,13 @@ static pspec_status complain_of_stream(const ps_scene_file *file, const ps_scene
                              "a scene can be run again, standard input (-) cannot");
 }
 
-const char *ps_scene_find_path(const ps_result_kind *kind, int option, const char *text) {
+const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text) {
     if (option == PS_SCENE_FILES) {
         return text;
     }
     ps_option_input *const find =
         option >= 0 && option < PS_NUM_OPTIONS ? ps_options[option].input : NULL;
-    return find != NULL ? find(ps_result_words(kind, (ps_option_id)option), text) : NULL;
+    return find != NULL ? find(ps_kind_words(kind, (ps_option_id)option), text) : NULL;
 }
 
 /* The path, a part of *text, becomes relative to what the scene's folder is relative to. */
@@ -51,8 +51,8 @@ static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps
     return status;
 }
 
-static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file,
-                                  const ps_result_kind *kind, int option, ps_scene_value *value) {
+static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, const ps_kind *kind,
+                                  int option, ps_scene_value *value) {
     for (size_t i = 0; i < value->num_texts; i++) {
         const char *const path = ps_scene_find_path(kind, option, value->texts[i]);
         if (path != NULL) {
@@ -77,7 +77,7 @@ static pspec_status complain_of_value(const ps_scene_file *file, int line, const
     return ps_scene_complain(file, line, key, "%s", sentence);
 }
 
-static pspec_status check_value(const ps_scene_file *file, const ps_result_kind *kind, int option,
+static pspec_status check_value(const ps_scene_file *file, const ps_kind *kind, int option,
                                 const char *key, const ps_scene_value *value) {
     ps_request scratch = ps_request_default;
     ps_error reason = {0};
@@ -86,7 +86,7 @@ static pspec_status check_value(const ps_scene_file *file, const ps_result_kind 
     }
     const ps_option_id id = (ps_option_id)option;
     for (size_t i = 0; i < value->num_texts; i++) {
-        if (ps_option_apply(&scratch, id, ps_result_words(kind, id), value->texts[i], &reason) !=
+        if (ps_option_apply(&scratch, id, ps_kind_words(kind, id), value->texts[i], &reason) !=
             PSPEC_OK) {
             return complain_of_value(file, value->line, key, id, &reason);
         }
@@ -207,9 +207,9 @@ static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, cons
     return PSPEC_OK;
 }
 
-pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
-                                 const ps_result_kind *kind, int option, const char *key,
-                                 const ps_scene_node *value, ps_scene_entry *out) {
+pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file, const ps_kind *kind,
+                                 int option, const char *key, const ps_scene_node *value,
+                                 ps_scene_entry *out) {
     *out = (ps_scene_entry){.option = option, .line = value->line};
     PS_TRY(option == PS_OPTION_POINTS ? take_points(scene, file, key, value, out)
                                       : take_values(scene, file, key, value, out));

@@ -67,16 +67,16 @@ pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text
 pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
                                  ps_error *error) PS_MUST_CHECK;
 /* The values of an option, which word says: paths are made relative to the current folder. */
-pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
-                                 const ps_result_kind *kind, int option, const char *key,
-                                 const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
+pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file, const ps_kind *kind,
+                                 int option, const char *key, const ps_scene_node *value,
+                                 ps_scene_entry *out) PS_MUST_CHECK;
 
 /* The kinds that a scene may have results of; ended by NULL. */
-extern const ps_result_kind *const ps_scene_kinds[];
+extern const ps_kind *const ps_scene_kinds[];
 
 /* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
  * names none. */
-const char *ps_scene_find_path(const ps_result_kind *kind, int option, const char *text);
+const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text);
 
 /* What reads a scene. */
 typedef struct ps_scene_reader {

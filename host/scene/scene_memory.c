@@ -40,7 +40,7 @@ pspec_status ps_scene_limit_memory(ps_scene *scene, uint64_t bytes, ps_error *er
     snprintf(text, sizeof text, "%llu", (unsigned long long)bytes);
     for (size_t i = 0; i < scene->num_results; i++) {
         ps_scene_result *const result = &scene->results[i];
-        if (ps_result_asks(result->kind, PS_OPTION_MEMORY) && !has_limit(result)) {
+        if (ps_kind_asks(result->kind, PS_OPTION_MEMORY) && !has_limit(result)) {
             PS_TRY(add_limit(scene, result, text, error));
         }
     }

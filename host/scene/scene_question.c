@@ -38,7 +38,7 @@ static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *ent
     const ps_option_id id = (ps_option_id)entry->option;
     for (size_t i = 0; i < value->num_texts; i++) { /* several of an option that may be repeated */
         ps_option_append(&out->command, id, value->texts[i]);
-        PS_TRY(ps_option_apply(&out->request, id, ps_result_words(out->result->kind, id),
+        PS_TRY(ps_option_apply(&out->request, id, ps_kind_words(out->result->kind, id),
                                value->texts[i], error));
     }
     return PSPEC_OK;
@@ -67,14 +67,14 @@ pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_resul
 /* The word outlives the question. */
 static pspec_status use_word(ps_scene_question *question, ps_option_id id, const char *word,
                              ps_error *error) {
-    if (question->request.is_given[id] || !ps_result_asks(question->result->kind, id)) {
+    if (question->request.is_given[id] || !ps_kind_asks(question->result->kind, id)) {
         return PSPEC_OK;
     }
     ps_option_append(&question->command, id, word);
     PS_TRY(ps_text_check(&question->command, error));
     question->request.command_line = ps_text_string(&question->command);
-    return ps_option_apply(&question->request, id, ps_result_words(question->result->kind, id),
-                           word, error);
+    return ps_option_apply(&question->request, id, ps_kind_words(question->result->kind, id), word,
+                           error);
 }
 
 /* "(NAME ..)" */
@@ -87,7 +87,7 @@ static bool is_of_engine(const char *description, const char *name) {
 pspec_status ps_scene_question_use(ps_scene_question *question, const char *engine,
                                    const char *precision, ps_error *error) {
     size_t i = 0;
-    if (engine[0] == '\0' || !ps_result_asks(question->result->kind, PS_OPTION_ENGINE)) {
+    if (engine[0] == '\0' || !ps_kind_asks(question->result->kind, PS_OPTION_ENGINE)) {
         return PSPEC_OK; /* none, or the host */
     }
     while (ps_engines[i] != NULL && !is_of_engine(engine, ps_engines[i]->name)) {

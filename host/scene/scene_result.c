@@ -18,16 +18,16 @@ static const char *const own_keys[] = {"result", "name",  "title",    "plot",   
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 /* The option that a key of a result means; -1: none. */
-static int find_option(const ps_result_kind *kind, const char *key) {
+static int find_option(const ps_kind *kind, const char *key) {
     if (strcmp(key, "files") == 0) {
-        return ps_result_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
+        return ps_kind_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
     }
     const char *const name = strcmp(key, "samplers") == 0     ? "sampler"
                              : strcmp(key, "integrands") == 0 ? "integrand"
                                                               : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (strcmp(ps_options[id].name, name) == 0) {
-            return ps_result_asks(kind, (ps_option_id)id) ? id : -1;
+            return ps_kind_asks(kind, (ps_option_id)id) ? id : -1;
         }
     }
     return -1;
@@ -49,14 +49,14 @@ static ps_suggestion suggest(const char *typed, const ps_scene_nearest *best) {
                : (ps_suggestion){""};
 }
 
-static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_result_kind *kind,
-                                    int line, const char *key) {
+static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_kind *kind, int line,
+                                    const char *key) {
     ps_scene_nearest best = {NULL, 0};
     for (size_t i = 0; i < NUM_OWN_KEYS; i++) {
         ps_scene_consider(&best, key, own_keys[i]);
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        if (ps_result_asks(kind, (ps_option_id)id)) {
+        if (ps_kind_asks(kind, (ps_option_id)id)) {
             ps_scene_consider(&best, key, ps_options[id].name);
         }
     }
@@ -97,7 +97,7 @@ static pspec_status take_name(const ps_scene_reader *reader, const ps_scene_node
 }
 
 static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node *node,
-                              const ps_result_kind **out) {
+                              const ps_kind **out) {
     const char *text = NULL;
     ps_scene_nearest best = {NULL, 0};
     PS_TRY(ps_scene_take_text(reader->file, node, "result", &text));
@@ -109,7 +109,7 @@ static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node
         }
     }
     return ps_scene_complain(
-        reader->file, node->line, "result", "\"%s\" is no kind of result%s", text,
+        reader->file, node->line, "result", "\"%s\" is no kind of answer%s", text,
         ps_text_suggest(text, best.word, best.distance, "; did you mean ", "?").text);
 }
 
@@ -117,7 +117,7 @@ static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node
 static pspec_status take_arrays(const ps_scene_reader *reader, const ps_scene_node *node,
                                 ps_scene_result *out) {
     const char *text = NULL;
-    const ps_result_kind *const kind = out->kind;
+    const ps_kind *const kind = out->kind;
     PS_TRY(ps_scene_take_text(reader->file, node, "arrays", &text));
     out->wants_coefficients = kind->has_coefficients && strcmp(text, "coefficients") == 0;
     out->wants_arrays = out->wants_coefficients || (kind->has_arrays && strcmp(text, "true") == 0);

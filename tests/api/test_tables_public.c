@@ -75,17 +75,17 @@ static void options_are_listed(void **state) {
     (void)state;
     pspec_context *const context = pspec_context_create();
     size_t num = 0;
-    for (; pspec_result_kind(num) != NULL; num++) {
+    for (; pspec_answer_kind(num) != NULL; num++) {
         pspec_table *table = NULL;
-        assert_int_equal(pspec_options_table(&table, context, pspec_result_kind(num)), PSPEC_OK);
+        assert_int_equal(pspec_options_table(&table, context, pspec_answer_kind(num)), PSPEC_OK);
         const size_t rows = pspec_table_num_rows(table);
         assert_true(rows > 3);
         assert_string_equal(pspec_table_cell(table, rows - 1, 0).text,
-                            strcmp(pspec_result_kind(num), "check") == 0 ? "format" : "plot-range");
+                            strcmp(pspec_answer_kind(num), "check") == 0 ? "format" : "plot-range");
         pspec_table_destroy(table);
     }
     assert_true(num >= 6);
-    assert_null(pspec_result_kind(num + 1));
+    assert_null(pspec_answer_kind(num + 1));
     pspec_context_destroy(context);
 }
 
@@ -107,7 +107,7 @@ static void refuse(const char *kind, const pspec_option *options, size_t num, ps
 static void nonsense(void **state) {
     (void)state;
     const pspec_status bad = PSPEC_ERROR_INVALID_ARGUMENT;
-    refuse("powre", NULL, 0, bad, "there is no kind of result \"powre\"; did you mean power?");
+    refuse("powre", NULL, 0, bad, "there is no kind of answer \"powre\"; did you mean power?");
     refuse(NULL, NULL, 0, bad, "no name of a kind");
     refuse("power", NULL, 0, bad, "nothing to take a spectrum of");
     refuse("power", NULL, 2, bad, "2 options at the address NULL");

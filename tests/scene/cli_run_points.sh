@@ -86,7 +86,7 @@ refuses_scene 'arrays: true or false, not "coefficients"' '{result: sample, samp
 refuses_scene 'sample-1: arrays: an array holds sets of the same number of points' \
     '{result: sample, sampler: poisson-disk, realizations: 3, arrays: true}'
 refuses_scene 'sample-1: sampler bnot: 3 points asked for' '{result: sample, sampler: bnot, points: 3}'
-refuses_scene 'result: "sampl" is no kind of result; did you mean sample?' '{result: sampl}'
+refuses_scene 'result: "sampl" is no kind of answer; did you mean sample?' '{result: sampl}'
 printf 'scene: 1\nresults:\n  - {result: sample, sampler: white, points: 1e6, memory: 1e6}\n' >bad.yaml
 runs 1 bad.yaml
 says 'bad.yaml:3: sample-1: 2000000 points in 2 dimensions take 30.52M of memory, above the limit of 976.6K'

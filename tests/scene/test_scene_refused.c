@@ -90,7 +90,7 @@ static void keys_of_results(void **state) {
     static const refusal list[] = {
         {HEAD "  - points: 3\n", 3, "result: is missing: power, angular, pairs, quadrature, "},
         {HEAD "  - result: powr\n", 3,
-         "result: \"powr\" is no kind of result; did you mean power?"},
+         "result: \"powr\" is no kind of answer; did you mean power?"},
         {HEAD "  - result: [power]\n", 3, "result: one value is wanted here"},
         {POWER "    pints: 3\n", 4, "pints: unknown key; did you mean points?"},
         {POWER "    brdf: diffuse\n", 4, "brdf: not a key of this result"},

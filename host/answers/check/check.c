@@ -236,7 +236,7 @@ static pspec_status judge(const ps_request *request, const ps_check_results *res
     return status;
 }
 
-/* ---- the kind of result ---------------------------------------------------------------------- */
+/* ---- the kind of answer ---------------------------------------------------------------------- */
 
 static pspec_status compute_homogeneity(void **out, const ps_request *request,
                                         const ps_answer_hooks *hooks, ps_error *error) {
@@ -293,9 +293,9 @@ static const ps_line_kind lines[] = {
     {"-scores", "difference", "bin", "z_score", "ring", "in standard errors", false, false},
     {.suffix = NULL}};
 
-const ps_result_kind ps_result_check = {
+const ps_kind ps_kind_check = {
     .name = "check",
-    .taker = PS_TAKER_BIT(check),
+    .bit = PS_VERB_BIT(check),
     .samples = PS_DOMAIN_ANY,
     .counted = "realizations",
     .has_verdict = true,

@@ -6,7 +6,7 @@
 
 typedef struct ps_homogeneity ps_homogeneity;
 
-/* As the calls of ps_result_kind do. */
+/* As the calls of ps_kind do. */
 pspec_status ps_homogeneity_check(const ps_request *request, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_homogeneity_plan(ps_planner *planner, const ps_request *request,
                                  ps_error *error) PS_MUST_CHECK;

@@ -226,9 +226,9 @@ static double compare(const ps_table *a, const ps_table *b) {
 static const char *const summary[] = {"points",    "realizations", "domain",
                                       "dimension", "seed",         NULL};
 
-const ps_result_kind ps_result_points = {
+const ps_kind ps_kind_points = {
     .name = "sample",
-    .taker = PS_TAKER_BIT(sample),
+    .bit = PS_VERB_BIT(sample),
     .samples = PS_DOMAIN_ANY,
     .counted = "realizations",
     .is_of_host = true,

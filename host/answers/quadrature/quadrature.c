@@ -199,9 +199,9 @@ static const ps_line_kind lines[] = {
     {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C@_l^2", false, true},
     {"-e2", "share of the squared error", "degree", "e2", "degree l", "e@_l^2", false, true},
     {.suffix = NULL}};
-const ps_result_kind ps_result_quadrature = {
+const ps_kind ps_kind_quadrature = {
     .name = "quadrature",
-    .taker = PS_TAKER_BIT(quadrature),
+    .bit = PS_VERB_BIT(quadrature),
     .weights = "equal|column|optimal|FILE",
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",

@@ -92,9 +92,9 @@ static pspec_status write_others(const void *computed, const ps_request *request
 static const ps_line_kind axes = {
     NULL, "", "normalized_degree", "power", "normalized degree l N^{-1/2}", "power", true, true};
 
-const ps_result_kind ps_result_angular = {
+const ps_kind ps_kind_angular = {
     .name = "angular",
-    .taker = PS_TAKER_BIT(angular),
+    .bit = PS_VERB_BIT(angular),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
     .has_coefficients = true,

@@ -58,9 +58,9 @@ static const ps_line_kind lines[] = {
     {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C@_l^2", false, true},
     {.suffix = NULL}};
 
-const ps_result_kind ps_result_pairs = {
+const ps_kind ps_kind_pairs = {
     .name = "pairs",
-    .taker = PS_TAKER_BIT(pairs),
+    .bit = PS_VERB_BIT(pairs),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
     .check_question = check_question,

@@ -75,9 +75,9 @@ static const ps_line_kind axes = {NULL,
                                   false,
                                   false};
 
-const ps_result_kind ps_result_power = {
+const ps_kind ps_kind_power = {
     .name = "power",
-    .taker = PS_TAKER_BIT(power),
+    .bit = PS_VERB_BIT(power),
     .samples = PS_DOMAIN_TORUS,
     .counted = "realizations",
     .has_images = true,

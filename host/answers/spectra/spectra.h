@@ -1,4 +1,4 @@
-/* What kinds of results that are spectra of point sets share: power, angular and pairs, and the
+/* What kinds of answers that are spectra of point sets share: power, angular and pairs, and the
  * measured side of check. */
 #ifndef PS_ANSWERS_SPECTRA_SPECTRA_H
 #define PS_ANSWERS_SPECTRA_SPECTRA_H

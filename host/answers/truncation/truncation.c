@@ -288,7 +288,7 @@ static pspec_status draw(const void *computed, const ps_request *request, ps_err
     return status;
 }
 
-/* ---- the kind of result ---------------------------------------------------------------------- */
+/* ---- the kind of answer ---------------------------------------------------------------------- */
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
@@ -316,9 +316,9 @@ static const ps_line_kind lines[] = {
      "N", false, true},
     {.suffix = NULL}};
 
-const ps_result_kind ps_result_truncation = {
+const ps_kind ps_kind_truncation = {
     .name = "truncation",
-    .taker = PS_TAKER_BIT(truncation),
+    .bit = PS_VERB_BIT(truncation),
     .counted = "degrees",
     .is_of_host = true,
     .check_arguments = check_question,

@@ -134,9 +134,9 @@ static const char *const summary[] = {"points", "points_smallest", "points_large
                                       "shifts", "most_power",      "most_power_is",  NULL};
 static const ps_line_kind lines[] = {{.suffix = NULL}}; /* a question is a row for each integrand */
 
-const ps_result_kind ps_result_variance = {
+const ps_kind ps_kind_variance = {
     .name = "variance",
-    .taker = PS_TAKER_BIT(variance),
+    .bit = PS_VERB_BIT(variance),
     .samples = PS_DOMAIN_ANY,
     .counted = "realizations",
     .check_question = check_question,

@@ -13,8 +13,8 @@ const ps_command ps_command_angular = {
         "realizations. With --hemisphere a point stands for its direction and the opposite one: "
         "even degrees only. The default --tol of 1e-6 bounds the numerical error of the "
         "coefficients relative to white noise.",
-    .result = &ps_result_angular,
-    .takes = PS_TAKER_BIT(angular),
+    .result = &ps_kind_angular,
+    .takes = PS_VERB_BIT(angular),
     .examples = {"pointspec angular --sampler healpix-jittered:nside=8 -m 100 -l 64",
                  "pointspec sample --sampler fibonacci -n 256 | pointspec angular -l 32 -"},
 };

@@ -340,7 +340,7 @@ const ps_command ps_command_bench = {
         "and "
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
         "run takes about three minutes.",
-    .takes = PS_TAKER_BIT(bench),
+    .takes = PS_VERB_BIT(bench),
     .formats = "csv|json|jsonl",
     .examples =
         {"pointspec bench --case plane-many --quick -o bench.csv --plot bench.svg",

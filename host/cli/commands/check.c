@@ -20,8 +20,8 @@ const ps_command ps_command_check = {
         "have the law of their own translates (on the sphere: rotations), as prediction of "
         "variance from spectra wants it: the phases of S(k), or of c_lm, and of sums of their "
         "products must then be uniform.",
-    .result = &ps_result_check,
-    .takes = PS_TAKER_BIT(check),
+    .result = &ps_kind_check,
+    .takes = PS_VERB_BIT(check),
     .examples = {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
                  "--against saved.json --sampler jittered -m 16",
                  "pointspec check --homogeneous --sampler jittered -n 256 --homogenize"},

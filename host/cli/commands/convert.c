@@ -2,7 +2,7 @@
 #include "cli/command.h"
 #include "cli/shown.h"
 #include "commands/points.h"
-#include "commands/task.h"
+#include "commands/verb.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments,
@@ -24,8 +24,8 @@ const ps_command ps_command_convert = {
         "error. Files compressed by gzip are read as they are. --plot draws the first set; without "
         "-o "
         "and --format the picture is all that is made, and several files are drawn side by side.",
-    .task = &ps_task_convert,
-    .takes = PS_TAKER_BIT(convert),
+    .verb = &ps_verb_convert,
+    .takes = PS_VERB_BIT(convert),
     .examples = {"pointspec sample --sampler white -n 64 -m 3 | pointspec convert - -o sets.npy",
                  "pointspec sample --sampler halton -n 8 | pointspec convert --select-points 2.. "
                  "--format csv -"},

@@ -37,7 +37,7 @@ const ps_command ps_command_devices = {
         "The last columns say whether the planner has figures measured on "
         "the "
         "device, and its peaks per second: see pointspec bench --calibrate.",
-    .takes = PS_TAKER_BIT(devices),
+    .takes = PS_VERB_BIT(devices),
     .formats = "csv|json|jsonl|text",
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
     .run = run,

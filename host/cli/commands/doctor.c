@@ -43,7 +43,7 @@ const ps_command ps_command_doctor = {
         "what is known, the folders of caches, limits of memory, processors, gnuplot. Lines begin "
         "with ok, with note where something is missing that can be done without, or with WRONG. "
         "The exit status is 0 when the default device works, 3 when it does not.",
-    .takes = PS_TAKER_BIT(doctor),
+    .takes = PS_VERB_BIT(doctor),
     .examples = {"pointspec doctor", "pointspec doctor --device cpu"},
     .run = run,
 };

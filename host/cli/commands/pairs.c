@@ -15,8 +15,8 @@ const ps_command ps_command_pairs = {
         "the "
         "largest error of Q(l) in units of (sum |w|)^2; --floor P asks for sums down to P sum w^2 "
         "right to 10 %, which sums over pairs lose sooner than sums of squares do.",
-    .result = &ps_result_pairs,
-    .takes = PS_TAKER_BIT(pairs),
+    .result = &ps_kind_pairs,
+    .takes = PS_VERB_BIT(pairs),
     .examples = {"pointspec pairs --sampler fibonacci -n 256 -l 32",
                  "pointspec pairs --sampler white-hemisphere -n 64 -m 100 -l 16 --tol 1e-10"},
 };

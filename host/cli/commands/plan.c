@@ -3,19 +3,19 @@
 #include "cli/shown.h"
 
 /* Options of plan are those of everything that can be planned. */
-#define BIT(name) PS_TAKER_BIT(name) |
+#define BIT(name) PS_VERB_BIT(name) |
 #define NOTHING(name)
 enum {
     PLANNED =
-        PS_TAKER_BIT(run) | PS_TAKER_BIT(sample) | PS_TAKER_BIT(convert) | PS_TAKERS(BIT, NOTHING) 0
+        PS_VERB_BIT(run) | PS_VERB_BIT(sample) | PS_VERB_BIT(convert) | PS_VERBS(BIT, NOTHING) 0
 };
 
 /* Options of the other command only. */
-static pspec_status check_options(const ps_task *task, const ps_request *arguments,
+static pspec_status check_options(const ps_verb *verb, const ps_request *arguments,
                                   ps_error *error) {
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        if (arguments->is_given[id] && !ps_task_takes(task, (ps_option_id)id)) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not take --%s", task->name,
+        if (arguments->is_given[id] && !ps_verb_takes(verb, (ps_option_id)id)) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not take --%s", verb->name,
                            ps_options[id].name);
         }
     }
@@ -23,10 +23,10 @@ static pspec_status check_options(const ps_task *task, const ps_request *argumen
 }
 
 /* The first word names the command that is asked about; the rest is that command's. */
-static pspec_status take_command(ps_request *inner, const ps_task **task,
+static pspec_status take_command(ps_request *inner, const ps_verb **verb,
                                  const ps_request *arguments, ps_error *error) {
-    *task = arguments->num_files > 0 ? ps_task_find(arguments->files[0]) : NULL;
-    if (*task == NULL) {
+    *verb = arguments->num_files > 0 ? ps_verb_find(arguments->files[0]) : NULL;
+    if (*verb == NULL) {
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "name the command to plan first, as in: pointspec plan power --sampler white "
@@ -37,23 +37,23 @@ static pspec_status take_command(ps_request *inner, const ps_task **task,
     *inner = *arguments;
     inner->files++;
     inner->num_files--;
-    return check_options(*task, arguments, error);
+    return check_options(*verb, arguments, error);
 }
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_request inner;
     ps_table *table = NULL;
     ps_table_format format = PS_FORMAT_CSV;
-    const ps_task *task = NULL;
+    const ps_verb *verb = NULL;
     ps_shown shown = {.arguments = arguments, .speaker = "pointspec"};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
-    PS_TRY(take_command(&inner, &task, arguments, error));
+    PS_TRY(take_command(&inner, &verb, arguments, error));
     /* Where points are written -o and --format are about the points: the plan must not stand in
      * their place. */
-    const char *const path = task->makes_points ? "-" : arguments->output;
-    const bool is_of_points = task->makes_points && arguments->is_given[PS_OPTION_FORMAT];
+    const char *const path = verb->makes_points ? "-" : arguments->output;
+    const bool is_of_points = verb->makes_points && arguments->is_given[PS_OPTION_FORMAT];
     PS_TRY(ps_table_choose_format(&format, is_of_points ? NULL : arguments->format, path, error));
-    PS_TRY(ps_task_plan(&table, task, &inner, &hooks, error));
+    PS_TRY(ps_verb_plan(&table, verb, &inner, &hooks, error));
     const pspec_status status = ps_table_write(table, path, format, error);
     ps_table_destroy(table);
     return status;

@@ -12,8 +12,8 @@ const ps_command ps_command_power = {
         "Files hold points of [0,1)^d; several files, and several sets in a file, are "
         "realizations. "
         "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
-    .result = &ps_result_power,
-    .takes = PS_TAKER_BIT(power),
+    .result = &ps_kind_power,
+    .takes = PS_VERB_BIT(power),
     .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",
                  "pointspec sample --sampler halton -n 256 | pointspec power -k 32 -"},
 };

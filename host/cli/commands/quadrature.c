@@ -14,8 +14,8 @@ const ps_command ps_command_quadrature = {
         "has E by the kernel form, the root of the mean of E^2, and the rest of E^2 beyond degree "
         "L. Points of samplers of the hemisphere are morphed to the BRDF unless morph= says "
         "otherwise.",
-    .result = &ps_result_quadrature,
-    .takes = PS_TAKER_BIT(quadrature),
+    .result = &ps_kind_quadrature,
+    .takes = PS_VERB_BIT(quadrature),
     .examples = {"pointspec quadrature --sampler fibonacci-hemisphere -n 256 --brdf diffuse "
                  "--smoothness 1.5 --weights optimal",
                  "pointspec quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 "

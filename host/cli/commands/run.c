@@ -1,7 +1,7 @@
 /* pointspec run: a scene, its results into a folder. */
 #include "cli/command.h"
 #include "cli/shown.h"
-#include "commands/task.h"
+#include "commands/verb.h"
 #include "scene/run/run.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
@@ -34,8 +34,8 @@ const ps_command ps_command_run = {
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "
         "finds another spectrum than the saved one or sets that are not homogeneous, or a record "
         "is not repeated.",
-    .task = &ps_task_run,
-    .takes = PS_TAKER_BIT(run),
+    .verb = &ps_verb_run,
+    .takes = PS_VERB_BIT(run),
     .makes_folder = true,
     .examples = {"printf 'scene: 1\\nresults:\\n  - {result: power, samplers: [white, jittered], "
                  "points: 64..256, realizations: 16}\\n' >scene.yaml && pointspec run scene.yaml",

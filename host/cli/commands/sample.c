@@ -3,7 +3,7 @@
 #include "cli/shown.h"
 #include "commands/points.h"
 #include "commands/prefetch.h"
-#include "commands/task.h"
+#include "commands/verb.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments,
@@ -33,8 +33,8 @@ const ps_command ps_command_sample = {
         "take long to make, of blue noise, are kept on the disk, for this command and all others, "
         "up to --kept-sets; --prefetch only fills that store, on all processors, and goes on where "
         "it was stopped.",
-    .task = &ps_task_sample,
-    .takes = PS_TAKER_BIT(sample),
+    .verb = &ps_verb_sample,
+    .takes = PS_VERB_BIT(sample),
     .samples = PS_DOMAIN_ANY,
     .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
                  "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},

@@ -144,7 +144,7 @@ const ps_command ps_command_stress = {
         "some of the rows. A row passes when its error is at most its bound, the engine's own "
         "error formula. Exits with 3 when one fails: then the device or its driver computes "
         "wrongly.",
-    .takes = PS_TAKER_BIT(stress),
+    .takes = PS_VERB_BIT(stress),
     .formats = "csv|json|jsonl",
     .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
                  "pointspec stress --case frequencies-1e6 --format json"},

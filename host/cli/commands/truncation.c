@@ -12,8 +12,8 @@ const ps_command ps_command_truncation = {
         "the Sobolev space H^S: E(L)^2 = sum_{l>L} a_l b_l^2 for spherical harmonics. "
         "equivalent_points is the number of spherical Fibonacci points, morphed to the lobe and "
         "with equal weights, whose worst-case error is the same.",
-    .result = &ps_result_truncation,
-    .takes = PS_TAKER_BIT(truncation),
+    .result = &ps_kind_truncation,
+    .takes = PS_VERB_BIT(truncation),
     .examples =
         {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5",
          "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},

@@ -17,8 +17,8 @@ const ps_command ps_command_variance = {
         "white; lower and upper have nothing there, and the most power that there can be. z_score "
         "is measured minus predicted over both standard errors; white is the variance of as many "
         "independent points.",
-    .result = &ps_result_variance,
-    .takes = PS_TAKER_BIT(variance),
+    .result = &ps_kind_variance,
+    .takes = PS_VERB_BIT(variance),
     .examples = {"pointspec variance --sampler jittered --integrand disk:radius=0.25 -n 16..1024 "
                  "-m 100",
                  "pointspec variance --sampler healpix-jittered --integrand cap -n 48,192,768 -m "

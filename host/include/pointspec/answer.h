@@ -1,5 +1,5 @@
 /** @file
- * Answers of every kind of result, from files or samplers, as the program gives them. Included by
+ * Answers of every kind of answer, from files or samplers, as the program gives them. Included by
  * pointspec.h.
  */
 #ifndef POINTSPEC_ANSWER_H
@@ -33,17 +33,17 @@ typedef struct pspec_option {
     const char *value; /**< as a word of a command line; of flags "true", "false", or NULL: true */
 } pspec_option;
 
-/** The kinds of results, "power", "angular", ...: i from 0 on, NULL behind the last. Static
+/** The kinds of answers, "power", "angular", ...: i from 0 on, NULL behind the last. Static
  * storage. */
-PSPEC_EXPORT const char *pspec_result_kind(size_t i);
+PSPEC_EXPORT const char *pspec_answer_kind(size_t i);
 
 /** The options that a command takes here, as a table with the columns option, values (missing for
- * flags) and help. command: a kind of result, "sample", "convert" or "run".
+ * flags) and help. command: a kind of answer, "sample", "convert" or "run".
  * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest command where there is no such one. */
 PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *context,
                                               const char *command);
 
-/** Answers a question of a kind of result: power (P of the torus over rings), angular (P(l) of the
+/** Answers a question of a kind of answer: power (P of the torus over rings), angular (P(l) of the
  * sphere), pairs (Q(l) and C_l^2), quadrature (E^2 of rules and its parts by degree), truncation
  * (E(L) of products of harmonics), check (z-scores against a saved spectrum); the equations are at
  * the beginning of pointspec.h and of quadrature.h. Rows and columns of *out are those of the

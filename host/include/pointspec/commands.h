@@ -26,7 +26,7 @@ PSPEC_EXPORT pspec_status pspec_run(pspec_table **out, pspec_context *context,
 
 /** What a command would do, as pointspec plan: every engine with its seconds, bytes and error, the
  * one chosen and why the others were not; header entries say what is skipped and how long each
- * phase takes. command: a kind of result, "sample", "convert" or "run"; options: its own. Nothing
+ * phase takes. command: a kind of answer, "sample", "convert" or "run"; options: its own. Nothing
  * is computed, timed or written. */
 PSPEC_EXPORT pspec_status pspec_plan_table(pspec_table **out, pspec_context *context,
                                            const char *command, const pspec_option *options,

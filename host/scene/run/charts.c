@@ -39,13 +39,13 @@ static pspec_status take_parts(const ps_artist *artist, const ps_picture *what, 
     return PSPEC_OK;
 }
 
-typedef struct taker {
+typedef struct verb {
     const ps_artist *artist;
     const ps_picture *what;
-} taker;
+} verb;
 
 static pspec_status take_figure(void *payload, const ps_figure *figure, ps_error *error) {
-    const taker *const self = payload;
+    const verb *const self = payload;
     (void)error; /* it is the artist's */
     return ps_draw(self->artist, figure, self->what);
 }
@@ -56,7 +56,7 @@ pspec_status ps_draw_chart(const ps_artist *artist, const ps_picture *what) {
         what->points < asked->num_entries ? asked->entries[what->points].num_values : 1;
     chart_memory self = {.num_curves = what->num_curves};
     ps_text title = {0};
-    taker own = {artist, what};
+    verb own = {artist, what};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status,
                PS_NEW(&self.parts, what->num_curves * num_counts, "a picture", artist->error));
