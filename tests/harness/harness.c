@@ -98,6 +98,33 @@ static double read_power(const ps_rows *rows, const void *data, size_t i) {
                                         : ((const double *)data)[i];
 }
 
+void test_run_batch(const ps_engine *engine, void *state, const ps_frequencies *frequencies,
+                    ps_device *device, const ps_batch *batch, double *powers) {
+    ps_rows rows = {0};
+    assert_ok(engine->run(state, batch, &rows, error));
+    test_read_rows(engine, state, frequencies, device, &rows, powers);
+}
+
+void test_read_rows(const ps_engine *engine, const void *state, const ps_frequencies *frequencies,
+                    ps_device *device, const ps_rows *rows, double *powers) {
+    const size_t real_bytes = rows->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
+    const size_t bytes = rows->stride * rows->num_rows * real_bytes;
+    uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
+    void *data = NULL;
+    ps_engine_slots(engine, state, frequencies->num, slots);
+    if (rows->host == NULL) {
+        data = calloc(bytes, 1);
+        assert_ok(ps_buffer_read(device, &rows->device, 0, data, bytes, error));
+    }
+    for (size_t r = 0; r < rows->num_rows; r++) {
+        for (size_t i = 0; i < frequencies->num; i++) {
+            powers[r * frequencies->num + i] = read_power(rows, data, r * rows->stride + slots[i]);
+        }
+    }
+    free(data);
+    free(slots);
+}
+
 double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
                          ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
                          size_t batch) {
@@ -105,36 +132,18 @@ double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_
     const ps_frequencies *frequencies = problem->frequencies;
     double *powers = calloc(num_patterns * frequencies->num, sizeof(double));
     double *scales = calloc(num_patterns, sizeof(double));
-    uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
     for (size_t r = 0; r < num_patterns; r++) {
         scales[r] = 1;
     }
     assert_ok(engine->create(&state, problem, precision, batch, device, error));
-    ps_engine_slots(engine, state, frequencies->num, slots);
     for (size_t done = 0; done < num_patterns; done += batch) {
         const size_t count = num_patterns - done < batch ? num_patterns - done : batch;
         const ps_batch some = {
             .num_patterns = count, .patterns = patterns + done, .scales = scales + done};
-        ps_rows rows = {0};
-        assert_ok(engine->run(state, &some, &rows, error));
-        const size_t bytes =
-            rows.stride * count * (rows.precision == PS_SINGLE ? sizeof(float) : sizeof(double));
-        void *data = NULL;
-        if (rows.host == NULL) {
-            data = calloc(bytes, 1);
-            assert_ok(ps_buffer_read(device, &rows.device, 0, data, bytes, error));
-        }
-        for (size_t r = 0; r < count; r++) {
-            for (size_t i = 0; i < frequencies->num; i++) {
-                powers[(done + r) * frequencies->num + i] =
-                    read_power(&rows, data, r * rows.stride + slots[i]);
-            }
-        }
-        free(data);
+        test_run_batch(engine, state, frequencies, device, &some, powers + done * frequencies->num);
     }
     engine->destroy(state);
     free(scales);
-    free(slots);
     return powers;
 }
 

@@ -70,6 +70,12 @@ double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_
                          ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
                          size_t batch);
 
+/* One run of an engine that is there, into [pattern][frequency]; and rows that it gave. */
+void test_run_batch(const ps_engine *engine, void *state, const ps_frequencies *frequencies,
+                    ps_device *device, const ps_batch *batch, double *powers);
+void test_read_rows(const ps_engine *engine, const void *state, const ps_frequencies *frequencies,
+                    ps_device *device, const ps_rows *rows, double *powers);
+
 /* The expected error of an engine that is made for the problem, for a set of some mean power. */
 double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
                          ps_device *device, double mean_power);

@@ -150,31 +150,6 @@ static void white_mean(void **state) {
     free(points);
 }
 
-/* The same bits whatever the batch, and beside larger sets, for as many runs and slabs as there
- * are. */
-static void batches(void **state) {
-    (void)state;
-    enum { SETS = 5, LAST = 33 };
-    static const size_t sizes[SETS] = {700, 1, 64, 65, 401};
-    double *points = test_sphere_white_set(700 * SETS, &seed);
-    pspec_pattern patterns[SETS];
-    for (size_t r = 0; r < SETS; r++) {
-        patterns[r] = (pspec_pattern){3, sizes[r], points + 3 * 700 * r, NULL};
-    }
-    size_t i = 0;
-    for (const way *by = next_way(&i); by != NULL; by = next_way(&i)) {
-        double *one = run(by, LAST, patterns, SETS, 1);
-        double *two = run(by, LAST, patterns, SETS, 2);
-        double *all = run(by, LAST, patterns, SETS, SETS);
-        assert_memory_equal(one, two, SETS * LAST * sizeof(double));
-        assert_memory_equal(one, all, SETS * LAST * sizeof(double));
-        free(one);
-        free(two);
-        free(all);
-    }
-    free(points);
-}
-
 /* The bound of the bins holds for polynomials in between, at the ends of bins, and is no more than
  * 20 times what happens. */
 static void bound_of_bins(void **state) {
@@ -307,10 +282,10 @@ static void designs(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_forms), cmocka_unit_test(close_pairs),
-        cmocka_unit_test(rotations),    cmocka_unit_test(white_mean),
-        cmocka_unit_test(batches),      cmocka_unit_test(bound_of_bins),
-        cmocka_unit_test(chord_sums),   cmocka_unit_test(designs)};
+        cmocka_unit_test(closed_forms),  cmocka_unit_test(close_pairs),
+        cmocka_unit_test(rotations),     cmocka_unit_test(white_mean),
+        cmocka_unit_test(bound_of_bins), cmocka_unit_test(chord_sums),
+        cmocka_unit_test(designs)};
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("pairs", tests, NULL, NULL);
     ps_device_close(device);

@@ -176,35 +176,6 @@ static void even_degrees(void **state) {
     ps_frequencies_free(&even);
 }
 
-/* Patterns of several chunks and of less than a vector, in batches of any size: the same bits. */
-static void batches_change_no_bit(void **state) {
-    (void)state;
-    static const size_t sizes[] = {1, 700, 15, 512, 513, 0, 1100, 16, 37};
-    enum { SETS = sizeof sizes / sizeof sizes[0] };
-    pspec_pattern patterns[SETS];
-    uint64_t seed = 8;
-    for (size_t s = 0; s < SETS; s++) {
-        patterns[s] =
-            (pspec_pattern){3, sizes[s], test_sphere_white_set(sizes[s] + 1, &seed), NULL};
-    }
-    ps_frequencies degrees = test_degrees(90, false);
-    for (int precision = PS_SINGLE;
-         precision <= (ps_device_get_limits(device)->has_fp64 ? PS_DOUBLE : PS_SINGLE);
-         precision++) {
-        double *alone = run((ps_precision)precision, &degrees, patterns, SETS, 1);
-        for (size_t batch = 2; batch <= SETS; batch += 3) {
-            double *q = run((ps_precision)precision, &degrees, patterns, SETS, batch);
-            assert_memory_equal(q, alone, SETS * degrees.num * sizeof *q);
-            free(q);
-        }
-        free(alone);
-    }
-    for (size_t s = 0; s < SETS; s++) {
-        free((void *)patterns[s].points);
-    }
-    ps_frequencies_free(&degrees);
-}
-
 /* Slabs as large as a set, and of whole chunks, with sets of several slabs and of less beside each
  * other. */
 static void slabs_change_no_bit(void **state) {
@@ -314,8 +285,8 @@ int main(void) {
         cmocka_unit_test(one_point_single),      cmocka_unit_test(one_point_double),
         cmocka_unit_test(antipodal_pair),        cmocka_unit_test(rotations_change_nothing),
         cmocka_unit_test(white_noise),           cmocka_unit_test(even_degrees),
-        cmocka_unit_test(batches_change_no_bit), cmocka_unit_test(designs_have_no_power),
-        cmocka_unit_test(slabs_change_no_bit),   cmocka_unit_test(launches_are_short),
+        cmocka_unit_test(designs_have_no_power), cmocka_unit_test(slabs_change_no_bit),
+        cmocka_unit_test(launches_are_short),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("sphere_direct", tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* Realizations that torus_nufft does whole, each by one work-group, against direct sums in extended
- * precision: sets of every kind, numbers of points beside whole chunks and vectors, the same bits
- * whatever the batch and the work-groups.
+ * precision: sets of every kind. (tests/engines/test_engine_contract.c has what all engines
+ * promise.)
  */
 #include "harness_shapes.h"
 
@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static ps_device *device;
 
@@ -95,57 +94,6 @@ static void agrees_with_direct_sums(void **state) {
     }
 }
 
-/* The last chunk and the last vector of it are full, or not. */
-static void any_number_of_points(void **state) {
-    (void)state;
-    static const size_t numbers[] = {1, 2, 7, 8, 9, 15, 16, 17, 24, 25, 31, 32, 33};
-    for (size_t i = 0; i < NUM_CASES; i++) {
-        for (size_t j = 0; j < sizeof numbers / sizeof numbers[0] && can_run(&cases[i]); j++) {
-            check_shape(&cases[i], &test_shapes[TEST_SIGNED_WEIGHTS], numbers[j]);
-        }
-    }
-}
-
-enum { REALIZATIONS = 23 };
-
-static double *run_with(const whole_case *what, const ps_frequencies *grid,
-                        const pspec_pattern *patterns, size_t batch, size_t group_size) {
-    const ps_problem problem = problem_of(what, grid);
-    ps_device_set_group_size(device, group_size);
-    double *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, patterns,
-                                     REALIZATIONS, batch);
-    ps_device_set_group_size(device, 0);
-    return found;
-}
-
-/* Batches, among them more realizations than work-groups, and work-groups of several items. */
-static void same_bits(void **state) {
-    (void)state;
-    static const size_t ways[][2] = {{1, 0}, {2, 0}, {9, 0}, {REALIZATIONS, 32}, {5, 64}};
-    for (size_t i = 0; i < NUM_CASES; i++) {
-        if (!can_run(&cases[i])) {
-            continue;
-        }
-        ps_frequencies grid = test_make_grid(cases[i].dimension, cases[i].k);
-        pspec_pattern patterns[REALIZATIONS];
-        for (size_t r = 0; r < REALIZATIONS; r++) {
-            patterns[r] =
-                test_make_pattern(&test_shapes[r % TEST_SHAPES], cases[i].dimension, 40 + r, r);
-        }
-        double *expected = run_with(&cases[i], &grid, patterns, REALIZATIONS, 0);
-        for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++) {
-            double *found = run_with(&cases[i], &grid, patterns, ways[way][0], ways[way][1]);
-            assert_memory_equal(found, expected, REALIZATIONS * grid.num * sizeof(double));
-            free(found);
-        }
-        free(expected);
-        for (size_t r = 0; r < REALIZATIONS; r++) {
-            test_free_pattern(&patterns[r]);
-        }
-        ps_frequencies_free(&grid);
-    }
-}
-
 /* In one dimension the grid is the product of the lengths, both transforms keep less than they
  * have, and every frequency has a place of its own. */
 static void lengths_of_lines(void **state) {
@@ -179,9 +127,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lengths_of_lines),
         cmocka_unit_test(only_with_caches),
-        cmocka_unit_test(any_number_of_points),
         cmocka_unit_test(agrees_with_direct_sums),
-        cmocka_unit_test(same_bits),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("nufft_whole", tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* The engine torus_nufft: what must not change a bit of its results, and what its powers must obey.
+/* The engine torus_nufft: what its powers must obey, and work-groups that take different ways.
  * Tolerances are swept in test_tolerance_sweep.c, small powers are in test_nufft_floor.c.
  */
 #include "harness_shapes.h"
@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static ps_device *device;
 static const ps_precision precisions[] = {PS_SINGLE, PS_DOUBLE};
@@ -26,7 +25,7 @@ static double tolerance_of(ps_precision precision) {
 
 /* ---- bits -------------------------------------------------------------------------------- */
 
-enum { REALIZATIONS = 37 };
+enum { REALIZATIONS = 3 };
 
 typedef struct sample {
     ps_frequencies grid;
@@ -61,22 +60,6 @@ static void check_same(const sample *self, double *found, const double *expected
     free(found);
 }
 
-static void batches(void **state) {
-    (void)state;
-    static const size_t sizes[] = {1, 2, 3, 7, 16, 36, REALIZATIONS + 1};
-    for (unsigned dimension = 1; dimension <= 3; dimension++) {
-        sample all = make_sample(dimension, REALIZATIONS, 7, 50);
-        for (size_t p = 0; p < num_precisions(); p++) {
-            double *expected = run_sample(&all, precisions[p], REALIZATIONS);
-            for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-                check_same(&all, run_sample(&all, precisions[p], sizes[i]), expected);
-            }
-            free(expected);
-        }
-        free_sample(&all);
-    }
-}
-
 /* One work-item goes from point to point, the items of a group from cell to cell: few and many
  * points in a cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them
  * wrong, docs/engines/torus_nufft.md.) */
@@ -98,60 +81,6 @@ static void work_groups(void **state) {
             }
             free_sample(&some);
         }
-    }
-}
-
-/* Later growth of a job (room for more points than were planned) leaves what it has alone. */
-static void growth(void **state) {
-    (void)state;
-    for (unsigned dimension = 1; dimension <= 3; dimension++) {
-        sample some = make_sample(dimension, 5, 13, 60);
-        for (size_t p = 0; p < num_precisions(); p++) {
-            ps_problem problem = {.frequencies = &some.grid,
-                                  .num_points = 60,
-                                  .num_realizations = 5,
-                                  .planned_points = 60,
-                                  .tolerance = tolerance_of(precisions[p])};
-            double *expected = test_run_problem(&ps_torus_nufft, &problem, precisions[p], device,
-                                                some.patterns, some.num, 5);
-            problem.num_points = 20000;
-            check_same(&some,
-                       test_run_problem(&ps_torus_nufft, &problem, precisions[p], device,
-                                        some.patterns, some.num, 2),
-                       expected);
-            free(expected);
-        }
-        free_sample(&some);
-    }
-}
-
-/* Ones are no weights, twice the weights four times the power. */
-static void weights(void **state) {
-    (void)state;
-    enum { POINTS = 45 };
-    for (unsigned dimension = 1; dimension <= 3; dimension++) {
-        ps_frequencies grid = test_make_grid(dimension, reach[dimension]);
-        pspec_pattern plain = test_make_pattern(&test_shapes[TEST_WHITE], dimension, POINTS, 3);
-        double ones[POINTS], twos[POINTS];
-        for (size_t j = 0; j < POINTS; j++) {
-            ones[j] = 1;
-            twos[j] = 2;
-        }
-        pspec_pattern patterns[3] = {plain, plain, plain};
-        patterns[1].weights = ones;
-        patterns[2].weights = twos;
-        for (size_t p = 0; p < num_precisions(); p++) {
-            double *found =
-                test_run_engine_to(&ps_torus_nufft, precisions[p], tolerance_of(precisions[p]),
-                                   device, &grid, patterns, 3, 3);
-            for (size_t i = 0; i < grid.num; i++) {
-                assert_true(found[i] == found[grid.num + i]);
-                assert_true(4 * found[i] == found[2 * grid.num + i]);
-            }
-            free(found);
-        }
-        test_free_pattern(&plain);
-        ps_frequencies_free(&grid);
     }
 }
 
@@ -308,9 +237,6 @@ int main(void) {
         cmocka_unit_test(shifts),
         cmocka_unit_test(peaks),
         cmocka_unit_test(a_million_in_a_cell),
-        cmocka_unit_test(batches),
-        cmocka_unit_test(weights),
-        cmocka_unit_test(growth),
         cmocka_unit_test(work_groups),
     };
     device = test_open_device();

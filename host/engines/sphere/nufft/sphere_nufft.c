@@ -259,7 +259,9 @@ static void write_coefficients(const ps_sphere_state *self, const double *from, 
 static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *error) {
     ps_sphere_state *self = state;
-    const int exponent = largest_exponent(one->patterns);
+    const int of_batch = one->exponents != NULL ? one->exponents[0] : 0;
+    /* Rows beside them are those of a run, with the exponent of the batch. */
+    const int exponent = rows != NULL ? of_batch : largest_exponent(one->patterns);
     ps_batch scaled = *one;
     void *host = NULL;
     scaled.exponents = &exponent;

@@ -1,0 +1,372 @@
+/* The contract of host/engines/engine.h, for every engine in every precision and variant, by sets
+ * of every kind and number of points beside each other. What an engine alone promises is in the
+ * tests of its folder.
+ */
+#include "harness_contract.h"
+#include "harness_sphere.h"
+
+#include "engines/host/host_direct.h"
+#include "math/pi.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+
+/* Linked in the place of the driver's (tests/CMakeLists.txt): bytes of buffers that are there, and
+ * the most there were. */
+static double bytes_there, most_bytes;
+cl_mem __real_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code);
+cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code);
+cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code) {
+    bytes_there += (double)bytes;
+    most_bytes = fmax(most_bytes, bytes_there);
+    return __real_clCreateBuffer(context, flags, bytes, host, code);
+}
+cl_int __real_clReleaseMemObject(cl_mem memory);
+cl_int __wrap_clReleaseMemObject(cl_mem memory);
+cl_int __wrap_clReleaseMemObject(cl_mem memory) {
+    size_t bytes = 0;
+    clGetMemObjectInfo(memory, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
+    bytes_there -= (double)bytes;
+    return __real_clReleaseMemObject(memory);
+}
+
+static double *run_all(const contract_way *way, size_t batch) {
+    return contract_powers(way, &way->problem, way->sets, CONTRACT_SETS, batch);
+}
+
+/* ---- who is asked ------------------------------------------------------------------------ */
+
+static bool is_asked[3];
+
+static void note(const contract_way *way) {
+    is_asked[way->precision] = true;
+}
+
+static void every_engine_in_every_precision(void **state) {
+    (void)state;
+    for (size_t e = 0; ps_engines[e] != NULL; e++) {
+        memset(is_asked, 0, sizeof is_asked);
+        contract_walk(device, ps_engines[e], note);
+        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
+            const bool needs_double =
+                precision == PS_DOUBLE || ps_engines[e]->domains == PS_ON_SPHERE;
+            if (!needs_double || ps_device_get_limits(device)->has_fp64) {
+                assert_true(is_asked[precision] == ps_engines[e]->has_precision[precision]);
+            }
+        }
+    }
+}
+
+/* ---- the same bits ----------------------------------------------------------------------- */
+
+/* Alone, beside some and beside all, with the longest before or behind. */
+static void batches_change_no_bit(const contract_way *way) {
+    static const size_t batches[] = {1, 2, 5, CONTRACT_SETS + 3};
+    pspec_pattern reversed[CONTRACT_SETS];
+    double *const expected = run_all(way, CONTRACT_SETS);
+    for (size_t i = 0; i < sizeof batches / sizeof batches[0]; i++) {
+        contract_check_rows(way, "batches", CONTRACT_SETS, run_all(way, batches[i]), expected);
+    }
+    for (size_t r = 0; r < CONTRACT_SETS; r++) {
+        reversed[r] = way->sets[CONTRACT_SETS - 1 - r];
+    }
+    double *const found = contract_powers(way, &way->problem, reversed, CONTRACT_SETS, 4);
+    for (size_t r = 0; r < CONTRACT_SETS; r++) {
+        const size_t from = (CONTRACT_SETS - 1 - r) * way->frequencies.num;
+        assert_memory_equal(found + from, expected + r * way->frequencies.num,
+                            contract_row_bytes(way));
+    }
+    free(found);
+    free(expected);
+}
+
+/* (Not groups of fewer items than lanes, and none for grids: PoCL 3.1 gets them wrong,
+ * docs/engines/torus_nufft.md.) */
+static void work_groups_change_no_bit(const contract_way *way) {
+    static const size_t groups[] = {32, 64};
+    if (!way->engine->needs_device || strstr(way->what->name, "grid of") != NULL) {
+        return;
+    }
+    double *const expected = run_all(way, CONTRACT_SETS);
+    for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
+        ps_device_set_group_size(device, groups[i]);
+        double *const found = run_all(way, i == 0 ? CONTRACT_SETS : 5);
+        ps_device_set_group_size(device, 0);
+        contract_check_rows(way, "work-groups", CONTRACT_SETS, found, expected);
+    }
+    free(expected);
+}
+
+/* Room for more points than were planned leaves a job what it has. */
+static void growth_changes_no_bit(const contract_way *way) {
+    ps_problem problem = way->problem;
+    double *const expected = run_all(way, CONTRACT_SETS);
+    problem.planned_points = (uint64_t)ps_planned_points(&way->problem);
+    problem.num_points = 20000;
+    contract_check_rows(way, "growth", CONTRACT_SETS,
+                        contract_powers(way, &problem, way->sets, CONTRACT_SETS, 2), expected);
+    free(expected);
+}
+
+/* ---- memory ------------------------------------------------------------------------------ */
+
+static double announced(const contract_way *way, size_t batch) {
+    const ps_device_limits *const limits = ps_device_get_limits(device);
+    ps_problem problem = way->problem;
+    problem.num_realizations = batch;
+    const ps_work work = way->engine->survey(&problem, limits, way->precision).work;
+    const double moved = limits->has_unified_memory ? work.coordinate_bytes : 0;
+    return work.fixed_bytes - work.host_bytes +
+           (work.bytes_per_realization + work.point_bytes + moved) * (double)batch;
+}
+
+/* No more is taken than announced, up to small tables, and at least half of it; nothing stays. */
+static void memory_is_announced(const contract_way *way) {
+    static const size_t batches[] = {1, CONTRACT_SETS};
+    const double page = 4096;
+    for (size_t i = 0; i < 2 && way->engine->needs_device; i++) {
+        ps_problem problem = way->problem;
+        const double before = bytes_there;
+        const double expected = announced(way, batches[i]);
+        problem.num_realizations = batches[i];
+        most_bytes = before;
+        free(contract_powers(way, &problem, way->sets, batches[i], batches[i]));
+        assert_true(bytes_there == before);
+        if (!(most_bytes - before <= expected + page &&
+              expected <= 2 * (most_bytes - before) + page)) {
+            CONTRACT_FAIL(way, "batches of %zu take %.0f bytes, announced were %.0f", batches[i],
+                          most_bytes - before, expected);
+        }
+    }
+}
+
+/* ---- errors ------------------------------------------------------------------------------ */
+
+/* (host_direct is the referee of the torus and of coefficients; sums over pairs have another.) */
+static void errors_are_announced(const contract_way *way) {
+    double *const found = run_all(way, CONTRACT_SETS);
+    void *const state = contract_state(way);
+    const bool is_referee = way->engine == &ps_host_direct;
+    for (size_t r = 0; r < CONTRACT_SETS; r++) {
+        const pspec_pattern *const set = &way->sets[r];
+        const double *const row = found + r * way->frequencies.num;
+        double bound = 0;
+        for (size_t i = 0; i < way->frequencies.num && set->num_points == 0; i++) {
+            assert_true(row[i] == 0);
+        }
+        if (set->num_points == 0 || (is_referee && way->what->measure != PS_OF_PAIR_SUMS)) {
+            continue;
+        }
+        const double off = contract_error(way, state, set, row, &bound);
+        if (!(off <= bound)) {
+            CONTRACT_FAIL(way, "set %zu of %zu points: error %.3g, announced %.3g", r,
+                          set->num_points, off, bound);
+        }
+    }
+    way->engine->destroy(state);
+    free(found);
+}
+
+/* ---- weights, scales, coefficients ------------------------------------------------------- */
+
+/* Ones are no weights; twice the weights four times the power, which scales and exponents bring
+ * back. */
+static void weights_scale_exactly(const contract_way *way) {
+    enum { POINTS = CONTRACT_ODD, NUM = 5 };
+    double weights[3][POINTS];
+    double *const q = calloc(NUM * way->frequencies.num, sizeof *q);
+    pspec_pattern plain = way->sets[CONTRACT_ODD_SET];
+    assert_int_equal(plain.num_points, POINTS);
+    plain.weights = NULL;
+    for (size_t j = 0; j < POINTS; j++) {
+        weights[0][j] = 1;
+        weights[1][j] = 2;
+        weights[2][j] = 1024;
+    }
+    pspec_pattern patterns[NUM] = {plain, plain, plain, plain, plain};
+    patterns[1].weights = weights[0];
+    patterns[2].weights = patterns[3].weights = weights[1];
+    patterns[4].weights = weights[2];
+    const double scales[NUM] = {1, 1, 1, 0.25, 1};
+    const int exponents[NUM] = {0, 0, 0, 0, 10};
+    const ps_batch batch = {
+        .num_patterns = NUM, .patterns = patterns, .scales = scales, .exponents = exponents};
+    void *state = NULL;
+    assert_ok(way->engine->create(&state, &way->problem, way->precision, NUM, device, error));
+    test_run_batch(way->engine, state, &way->frequencies, device, &batch, q);
+    way->engine->destroy(state);
+    for (size_t i = 0; i < way->frequencies.num; i++) {
+        const size_t num = way->frequencies.num;
+        assert_true(q[num + i] == q[i]);
+        assert_true(q[2 * num + i] == 4 * q[i]);
+        assert_true(q[3 * num + i] == q[i]);
+        assert_true(q[4 * num + i] == q[i]);
+    }
+    free(q);
+}
+
+/* The power of a frequency, or of a degree, of coefficients. */
+static double power_of(const contract_way *way, const double *c, size_t i) {
+    if (way->what->dimension > 0) {
+        return c[2 * i] * c[2 * i] + c[2 * i + 1] * c[2 * i + 1];
+    }
+    const int32_t l = way->frequencies.vectors[i];
+    double sum = 0;
+    for (int32_t m = 0; m <= l; m++) {
+        const double *const at = c + 2 * test_coefficient(way->frequencies.max_frequency, l, m);
+        sum += (m == 0 ? 1 : 2) * (at[0] * at[0] + at[1] * at[1]);
+    }
+    return PS_FOUR_PI / (2.0 * l + 1) * sum;
+}
+
+/* Powers beside coefficients have the bits of powers alone, and are those of the coefficients up to
+ * the rounding of a power in single precision. */
+static void coefficients_have_the_powers(const contract_way *way) {
+    const double rounding = 1e-6;
+    if (way->engine->coefficients == NULL) {
+        return;
+    }
+    double *const expected = run_all(way, CONTRACT_SETS);
+    void *const state = contract_state(way);
+    for (size_t r = 0; r < CONTRACT_SETS; r++) {
+        double *const powers = malloc(contract_row_bytes(way));
+        double *const c = contract_coefficients(way, state, &way->sets[r], powers);
+        for (size_t i = 0; i < way->frequencies.num; i++) {
+            const double power = power_of(way, c, i);
+            if (!(fabs(power - powers[i]) <= rounding * power)) {
+                CONTRACT_FAIL(way, "set %zu, frequency %zu: %g of coefficients, %g", r, i, power,
+                              powers[i]);
+            }
+        }
+        contract_check_rows(way, "beside coefficients", 1, powers,
+                            expected + r * way->frequencies.num);
+        free(c);
+    }
+    way->engine->destroy(state);
+    free(expected);
+}
+
+/* ---- streams, stops, bad points ---------------------------------------------------------- */
+
+/* The longest set, blocks of it being as small as the engine makes them. */
+static void blocks_change_no_bit(const contract_way *way) {
+    enum { UNIT = 32 };
+    const ps_engine_stream *const stream = way->engine->stream;
+    const pspec_pattern *const set = &way->sets[CONTRACT_LONGEST_SET];
+    ps_problem problem = way->problem;
+    void *state = NULL;
+    ps_rows rows = {0};
+    problem.num_points = UNIT;
+    problem.num_realizations = 1;
+    if (stream == NULL) {
+        return;
+    }
+    assert_ok(way->engine->create(&state, &problem, way->precision, 1, device, error));
+    const size_t unit = stream->unit(state);
+    if (unit > 0) {
+        double *const powers = malloc(contract_row_bytes(way));
+        double *const expected = contract_powers(way, &problem, set, 1, 1);
+        pspec_pattern block = *set;
+        assert_ok(stream->begin(state, error));
+        for (size_t done = 0; done < set->num_points; done += block.num_points) {
+            const size_t left = set->num_points - done;
+            block.num_points = left < unit ? left : unit;
+            block.points = set->points + done * set->dimension;
+            block.weights = set->weights != NULL ? set->weights + done : NULL;
+            assert_ok(
+                stream->add(state, &(ps_batch){.num_patterns = 1, .patterns = &block}, error));
+        }
+        assert_ok(stream->finish(state, 1, &rows, error));
+        test_read_rows(way->engine, state, &way->frequencies, device, &rows, powers);
+        contract_check_rows(way, "blocks", 1, powers, expected);
+        free(expected);
+    }
+    way->engine->destroy(state);
+}
+
+static bool stop(void *payload) {
+    return --*(int *)payload <= 0;
+}
+
+/* A run that is stopped says so, and leaves an engine that does the next one. */
+static void runs_stop(const contract_way *way) {
+    double scales[CONTRACT_SETS];
+    int calls = 1;
+    for (size_t r = 0; r < CONTRACT_SETS; r++) {
+        scales[r] = 1;
+    }
+    double *const expected = run_all(way, CONTRACT_SETS);
+    double *const found = malloc(CONTRACT_SETS * contract_row_bytes(way));
+    ps_batch batch = {.num_patterns = CONTRACT_SETS,
+                      .patterns = way->sets,
+                      .scales = scales,
+                      .should_stop = stop,
+                      .payload = &calls};
+    void *const state = contract_state(way);
+    ps_rows rows = {0};
+    ps_error error = {0};
+    assert_int_equal(way->engine->run(state, &batch, &rows, &error), PSPEC_ERROR_CANCELLED);
+    batch.should_stop = NULL;
+    test_run_batch(way->engine, state, &way->frequencies, device, &batch, found);
+    contract_check_rows(way, "after a stop", CONTRACT_SETS, found, expected);
+    way->engine->destroy(state);
+    free(expected);
+}
+
+/* Coordinates outside of [0, 1) in the last set are found by the engines that look. */
+static void points_are_checked(const contract_way *way) {
+    static const double bad[] = {1, -0x1p-1074, NAN, INFINITY};
+    double x[8] = {0};
+    const pspec_pattern sets[2] = {way->sets[0], {way->what->dimension, 1, x, NULL}};
+    const ps_batch batch = {.num_patterns = 2, .patterns = sets, .scales = (const double[]){1, 1}};
+    void *state = NULL;
+    if (!way->engine->checks_points) {
+        return;
+    }
+    assert_ok(way->engine->create(&state, &way->problem, way->precision, 2, device, error));
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        ps_rows rows = {0};
+        x[way->what->dimension - 1] = bad[i];
+        assert_int_equal(way->engine->run(state, &batch, &rows, NULL), PSPEC_ERROR_INPUT);
+    }
+    way->engine->destroy(state);
+}
+
+/* A law, which every way keeps, as a test. */
+#define LAW(law)                                                                                   \
+    {                                                                                              \
+#law, keep_law, NULL, NULL, &(contract_law *) {                                            \
+            law                                                                                    \
+        }                                                                                          \
+    }
+
+static void keep_law(void **state) {
+    contract_law *const *const law = *state;
+    assert_true(contract_walk(device, NULL, *law) > 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_engine_in_every_precision),
+        LAW(batches_change_no_bit),
+        LAW(work_groups_change_no_bit),
+        LAW(growth_changes_no_bit),
+        LAW(memory_is_announced),
+        LAW(errors_are_announced),
+        LAW(weights_scale_exactly),
+        LAW(coefficients_have_the_powers),
+        LAW(blocks_change_no_bit),
+        LAW(runs_stop),
+        LAW(points_are_checked),
+    };
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("engine_contract", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}
