@@ -11,7 +11,7 @@ enum {
     WIDTH = 720,
     HEIGHT = 640,
     HEAD = 40,
-    LEFT = 95,
+    LEFT = 104, /* numbers down to 10^-14, and the label */
     RIGHT = 15,
     ABOVE = 56,
     ABOVE_AMONG_OTHERS = 30,
