@@ -151,7 +151,7 @@ ps_phases ps_plan_table_begin_phases(ps_planner *planner) {
 }
 
 void ps_plan_table_add_picture(ps_phases *phases, const ps_request *arguments) {
-    ps_phases_add(phases, "picture", PS_HOST_PICTURE, arguments->plot != NULL ? 1 : 0);
+    ps_phases_draw(phases, "picture", arguments->plot != NULL ? 1 : 0);
     ps_phases_say(phases, "picture", "by gnuplot");
 }
 

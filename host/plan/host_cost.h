@@ -1,77 +1,37 @@
-/* Seconds of what the host does beside the engines, from counts of work: the host's part of the
- * cost model. Nothing is chosen by it: it is for the seconds that plan prints. */
+/* Seconds of what the host does beside the engines: the host's part of the cost model. Nothing is
+ * chosen by it: it is for the seconds that plan prints. What a piece of work takes stands beside
+ * the formula that counts it, in seconds of one core of the machine of host_cost.c. */
 #ifndef PS_PLAN_HOST_COST_H
 #define PS_PLAN_HOST_COST_H
 
 #include "device/figures.h"
 
-#include <stdbool.h>
-
-/* Kinds of work; what one unit of each is stands in host_cost.c. */
+/* Kinds of work, each of which is as a whole faster or slower on another machine. */
 typedef enum ps_host_kind {
-    /* beginning */
-    PS_HOST_START,
-    PS_HOST_DRIVER,
-    PS_HOST_KERNEL,
-    PS_HOST_MEMORY,
-    /* points of samplers, besides what their rows say */
-    PS_HOST_LIFT,
-    PS_HOST_MOVE,
-    PS_HOST_MORPH,
-    /* files of points */
-    PS_HOST_READ_TEXT,
-    PS_HOST_READ_BINARY,
-    PS_HOST_INFLATE,
-    PS_HOST_WRITE_TEXT,
-    PS_HOST_WRITE_BINARY,
-    PS_HOST_CHECK_POINTS,
-    /* spectra */
-    PS_HOST_FREQUENCY,
-    PS_HOST_LISTED,
-    PS_HOST_COUNT,
-    PS_HOST_ACCUMULATE,
-    PS_HOST_SHIFTS,
-    PS_HOST_TURNS,
-    PS_HOST_REFEREE,
-    PS_HOST_REFEREE_DEGREE,
-    PS_HOST_ZONAL,
-    PS_HOST_SCATTER,
-    /* quadrature */
-    PS_HOST_LOBE,
-    PS_HOST_KAPPA,
-    PS_HOST_PAIR,
-    PS_HOST_PAIR_POWER,
-    PS_HOST_HEMISPHERE,
-    PS_HOST_CHOLESKY,
-    PS_HOST_MATRIX,
-    PS_HOST_MATRIX_POWER,
-    PS_HOST_SOLVE,
-    PS_HOST_NEIGHBOURS,
-    PS_HOST_INVERSE,
-    PS_HOST_PRODUCT,
-    PS_HOST_PRODUCT_POWER,
-    /* results */
-    PS_HOST_ROW,
-    PS_HOST_ARRAY,
-    PS_HOST_CURVE,
-    PS_HOST_PICTURE,
+    PS_HOST_START,   /* programs and libraries that are started, kernels that the cache has */
+    PS_HOST_MEMORY,  /* that is touched for the first time, or in no order */
+    PS_HOST_TEXT,    /* numbers that are read or written as text */
+    PS_HOST_BINARY,  /* bytes of other files and arrays, and checks of them */
+    PS_HOST_SCALAR,  /* arithmetic and functions, one after the other */
+    PS_HOST_REFEREE, /* sums in long double */
+    PS_HOST_SUMS,    /* sums by all threads */
+    PS_HOST_POWERS,  /* the same with a power of each term */
+    PS_HOST_DENSE,   /* factors of matrices by all threads */
     PS_NUM_HOST_KINDS
 } ps_host_kind;
 
-/* "lift", for files of figures and tables. */
+/* "text", for files of figures and tables. */
 const char *ps_host_kind_name(ps_host_kind kind);
 
-/* Estimates the seconds of so many units; figures: what was measured of this host, NULL: nothing.
- * Work that is shared out among threads is divided by the processors of this machine. */
-double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units);
+/* Seconds here of work that takes so many on one core of the machine of host_cost.c; figures: what
+ * was measured of this host, NULL: nothing. Work that is shared out among threads is divided by the
+ * processors of this machine. */
+double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double seconds);
 
-/* The same for sets of so many units each, which are shared out one set at a time: few units are
- * left to one thread, and for many the threads are started for every set (ps_workers_share). */
-double ps_host_seconds_of_sets(const ps_figures *figures, ps_host_kind kind, double units,
-                               double sets);
-
-/* How many times longer than built in a referee's sum takes on this host, in the engine host_direct
- * as in the self-check. */
-double ps_host_referee_scale(const ps_figures *figures, bool is_of_degrees);
+/* The same for sets of so many things each, which take `each` seconds and are shared out one set at
+ * a time: few things are left to one thread, and for many the threads are started for every set
+ * (ps_workers_share). */
+double ps_host_seconds_of_sets(const ps_figures *figures, ps_host_kind kind, double things,
+                               double each, double sets);
 
 #endif

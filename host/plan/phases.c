@@ -24,19 +24,33 @@ void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds) 
     }
 }
 
-void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double units) {
-    ps_phases_add_seconds(phases, name, ps_host_seconds(phases->host, kind, units));
+void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double seconds) {
+    ps_phases_add_seconds(phases, name, ps_host_seconds(phases->host, kind, seconds));
 }
 
-void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double units,
-                        double sets) {
-    ps_phases_add_seconds(phases, name, ps_host_seconds_of_sets(phases->host, kind, units, sets));
+void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double things,
+                        double each, double sets) {
+    ps_phases_add_seconds(phases, name,
+                          ps_host_seconds_of_sets(phases->host, kind, things, each, sets));
 }
 
 void ps_phases_touch(ps_phases *phases, double bytes) {
     static const char name[] = "memory";
-    ps_phases_add(phases, name, PS_HOST_MEMORY, bytes);
+    const double byte_seconds = 0.5e-9;
+    ps_phases_add(phases, name, PS_HOST_MEMORY, bytes * byte_seconds);
     ps_phases_say(phases, name, "%.3g bytes, which the system clears", bytes);
+}
+
+void ps_phases_tabulate(ps_phases *phases, double rows) {
+    static const char name[] = "results";
+    const double row_seconds = 3e-6;
+    ps_phases_add(phases, name, PS_HOST_TEXT, rows * row_seconds);
+    ps_phases_say(phases, name, "a table");
+}
+
+void ps_phases_draw(ps_phases *phases, const char *name, size_t num) {
+    const double picture_seconds = 0.15;
+    ps_phases_add(phases, name, PS_HOST_START, (double)num * picture_seconds);
 }
 
 void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) {

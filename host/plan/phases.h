@@ -28,18 +28,22 @@ typedef struct ps_phases {
     ps_phase_cost list[PS_MAX_PHASES];
 } ps_phases;
 
-/* Units of the kind become a phase, or more of the phase of that name, whose `what` stays; nothing
- * for no units. */
-void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double units);
+/* Work of so many seconds (ps_host_seconds) becomes a phase, or more of the phase of that name,
+ * whose `what` stays; nothing for no seconds. */
+void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double seconds);
 /* The same of so many sets that are shared out among threads one by one
  * (ps_host_seconds_of_sets). */
-void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double units,
-                        double sets);
-/* The same of seconds that are known already. */
+void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double things,
+                        double each, double sets);
+/* The same of seconds of this machine. */
 void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds);
 /* Adds the time that the system takes for memory of so many bytes, when they are touched for the
  * first time. */
 void ps_phases_touch(ps_phases *phases, double bytes);
+/* Adds rows of tables to the phase "results". */
+void ps_phases_tabulate(ps_phases *phases, double rows);
+/* Adds so many pictures, which gnuplot draws. */
+void ps_phases_draw(ps_phases *phases, const char *name, size_t num);
 /* Describes the phase of that name, if there is one; longer texts are cut. */
 void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) PS_PRINTF(3, 4);
 /* The phase of that name may end sooner. */

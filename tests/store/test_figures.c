@@ -3,6 +3,7 @@
  * figures. */
 #include "harness_plan.h"
 
+#include "base/workers.h"
 #include "plan/host_cost.h"
 #include "store/figures_text.h"
 #include "store/host_figures.h"
@@ -327,14 +328,13 @@ static void planner_does_not_choose_by_them(void **state) {
 static void host_figures_scale_its_work(void **state) {
     (void)state;
     ps_figures figures = {.is_measured = true};
-    const double built_in = ps_host_seconds(NULL, PS_HOST_PAIR, 1e6);
-    assert_true(built_in > 0);
-    assert_true(ps_host_seconds(&figures, PS_HOST_PAIR, 1e6) == built_in); /* nothing measured */
-    ps_figures_host_row(&figures, "pair")->scale = 4;
-    assert_true(ps_host_seconds(&figures, PS_HOST_PAIR, 1e6) == 4 * built_in);
-    ps_figures_host_row(&figures, "kappa")->scale = 1; /* others: the geometric mean */
-    const double doubled = ps_host_seconds(&figures, PS_HOST_LIFT, 1);
-    assert_true(fabs(doubled / ps_host_seconds(NULL, PS_HOST_LIFT, 1) - 2) < 1e-12);
+    assert_true(ps_host_seconds(NULL, PS_HOST_TEXT, 3) == 3);
+    assert_true(ps_host_seconds(&figures, PS_HOST_TEXT, 3) == 3); /* nothing measured */
+    ps_figures_host_row(&figures, "text")->scale = 4;
+    assert_true(ps_host_seconds(&figures, PS_HOST_TEXT, 3) == 12);
+    ps_figures_host_row(&figures, "sums")->scale = 1; /* others: the geometric mean */
+    assert_true(fabs(ps_host_seconds(&figures, PS_HOST_SCALAR, 1) - 2) < 1e-12);
+    assert_true(ps_host_seconds(&figures, PS_HOST_SUMS, 1) == 1.0 / ps_workers_most());
 }
 
 static void host_figures_come_back(void **state) {

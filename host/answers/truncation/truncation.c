@@ -130,10 +130,8 @@ static pspec_status find_errors(truncation *answer, double bracket, ps_error *er
 /* Pairs, and points, of a rule; making the points takes nothing beside. */
 static void add_rule(const truncation *answer, ps_phases *phases, double num) {
     static const char name[] = "points of equal error";
-    ps_phases_add_sets(phases, name, PS_HOST_KAPPA, num * (double)answer->representer.num_terms, 1);
-    ps_phases_add_sets(phases, name,
-                       answer->arguments->smoothness == 1.5 ? PS_HOST_PAIR : PS_HOST_PAIR_POWER,
-                       num * num / 2, 1);
+    ps_phases_kappa(phases, name, num, (double)answer->representer.num_terms, 1);
+    ps_phases_distances(phases, name, answer->arguments->smoothness, num * num / 2, 1);
 }
 
 /* For every degree as many points as will have its error: E falls like N^(-s/2) from a rule that is
@@ -167,8 +165,10 @@ static pspec_status add_equal_points(truncation *answer, ps_phases *phases, ps_e
  * they usually are. */
 static void add_conversion(const truncation *answer, ps_phases *phases) {
     const double usual = 1000;
+    const double step_seconds = 2e-9; /* a degree of each kind of harmonics */
     const double x = fmax(usual, 4 * (double)answer->max_degree);
-    ps_phases_add(phases, "conversion", PS_HOST_HEMISPHERE, (double)answer->max_degree * x * x);
+    ps_phases_add(phases, "conversion", PS_HOST_SCALAR,
+                  (double)answer->max_degree * x * x * step_seconds);
     ps_phases_say(phases, "conversion", "of hemispherical harmonics to spherical ones");
     ps_phases_limit(phases, "conversion");
 }
@@ -192,8 +192,7 @@ static pspec_status find_phases(const ps_request *arguments, ps_phases *phases, 
         if (ps_brdf_morph(answer.brdf).kind != PS_MORPH_NONE) {
             status = add_equal_points(&answer, phases, error);
         }
-        ps_phases_add(phases, "results", PS_HOST_ROW, (double)answer.max_degree);
-        ps_phases_say(phases, "results", "a table");
+        ps_phases_tabulate(phases, (double)answer.max_degree);
     }
     end(&answer);
     return status;

@@ -2,6 +2,7 @@
 
 #include "jobs/point_phases.h"
 #include "jobs/spectrum/power_phases.h"
+#include "plan/cost_model.h"
 #include "rules/distance_split.h"
 
 #include <math.h>
@@ -10,14 +11,34 @@
  * (docs/user/quadrature.md). */
 static const double most_steps = 18, most_steps_of_powers = 43;
 
-static bool needs_powers(const ps_quadrature_question *question) {
-    return question->smoothness != 1.5;
+static bool needs_powers(double smoothness) {
+    return smoothness != 1.5;
 }
+
+/* Of a sum with a power of every distance; other sums take ps_cost_rule_seconds. */
+static const double power_seconds = 4e-9;
 
 void ps_phases_lobe(ps_phases *phases, const ps_representer *representer) {
     const double tries = 3; /* degrees grow by half until they are enough: 1 + 2/3 + 4/9 + .. */
-    ps_phases_add(phases, "lobe", PS_HOST_LOBE, tries * (double)representer->max_degree);
+    const double coefficient_seconds = 3.5e-8;
+    ps_phases_add(phases, "lobe", PS_HOST_SCALAR,
+                  tries * (double)representer->max_degree * coefficient_seconds);
     ps_phases_say(phases, "lobe", "%zu coefficients", representer->max_degree + 1);
+}
+
+void ps_phases_kappa(ps_phases *phases, const char *name, double points, double terms,
+                     double sets) {
+    ps_phases_add_sets(phases, name, PS_HOST_SUMS, points * terms, ps_cost_rule_seconds(0, 1),
+                       sets);
+}
+
+void ps_phases_distances(ps_phases *phases, const char *name, double smoothness, double distances,
+                         double sets) {
+    if (needs_powers(smoothness)) {
+        ps_phases_add_sets(phases, name, PS_HOST_POWERS, distances, power_seconds, sets);
+    } else {
+        ps_phases_add_sets(phases, name, PS_HOST_SUMS, distances, ps_cost_rule_seconds(1, 0), sets);
+    }
 }
 
 /* Realizations that are made; of files as many as their size suggests. */
@@ -42,11 +63,16 @@ static double num_solutions(const ps_quadrature_question *question) {
 
 static void add_matrices(const ps_quadrature_question *question, double points, double sets,
                          ps_phases *phases) {
+    const double operation_seconds = 1.25e-11;                       /* of the factor */
+    const double entry_seconds = 14e-9, power_entry_seconds = 19e-9; /* made and summed */
+    const double solution_seconds = 8e-9; /* an entry, of condition and solutions */
+    const bool powers = needs_powers(question->smoothness);
     const double square = points * points * sets;
-    ps_phases_add(phases, "weights", PS_HOST_CHOLESKY, square * points / 3);
-    ps_phases_add(phases, "weights", needs_powers(question) ? PS_HOST_MATRIX_POWER : PS_HOST_MATRIX,
-                  square);
-    ps_phases_add(phases, "weights", PS_HOST_SOLVE, num_solutions(question) * square);
+    ps_phases_add(phases, "weights", PS_HOST_DENSE, square * points / 3 * operation_seconds);
+    ps_phases_add(phases, "weights", powers ? PS_HOST_POWERS : PS_HOST_SUMS,
+                  square * (powers ? power_entry_seconds : entry_seconds));
+    ps_phases_add(phases, "weights", PS_HOST_SCALAR,
+                  num_solutions(question) * square * solution_seconds);
     ps_phases_say(phases, "weights", "Cholesky of %.6g x %.6g", points, points);
 }
 
@@ -54,12 +80,16 @@ static void add_matrices(const ps_quadrature_question *question, double points, 
 static void add_gradients(const ps_quadrature_question *question, double points, double sets,
                           ps_phases *phases) {
     const double others = 3;
-    const bool powers = needs_powers(question);
+    const double search_seconds = 1.5e-9;  /* a pair of points, in the search for neighbours */
+    const double inverse_seconds = 14e-6;  /* a point: its row of an inverse */
+    const double product_seconds = 0.8e-9; /* a pair, in a product by the device */
+    const bool powers = needs_powers(question->smoothness);
     const double steps = powers ? most_steps_of_powers : most_steps;
-    ps_phases_add(phases, "weights", PS_HOST_NEIGHBOURS, points * points / 2 * sets);
-    ps_phases_add(phases, "weights", PS_HOST_INVERSE, points * sets);
-    ps_phases_add(phases, "weights", powers ? PS_HOST_PRODUCT_POWER : PS_HOST_PRODUCT,
-                  (num_solutions(question) * steps + others) * points * points * sets);
+    ps_phases_add(phases, "weights", PS_HOST_SUMS, points * points / 2 * sets * search_seconds);
+    ps_phases_add(phases, "weights", PS_HOST_DENSE, points * sets * inverse_seconds);
+    ps_phases_add(phases, "weights", powers ? PS_HOST_POWERS : PS_HOST_SUMS,
+                  (num_solutions(question) * steps + others) * points * points * sets *
+                      (powers ? power_seconds : product_seconds));
     ps_phases_say(phases, "weights", "conjugate gradients, %g steps", steps);
     ps_phases_limit(phases, "weights");
 }
@@ -68,7 +98,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
                       double sets, ps_phases *phases) {
     const double points = (double)setup->problem.num_points;
     const double terms = (double)setup->representer.num_terms;
-    ps_phases_add_sets(phases, "kappa", PS_HOST_KAPPA, points * terms, sets);
+    ps_phases_kappa(phases, "kappa", points, terms, sets);
     ps_phases_say(phases, "kappa", "%.4g points, %.4g terms", sets * points, terms);
     if (question->weights.kind == PS_WEIGHTS_OPTIMAL) {
         if (ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit)) {
@@ -79,8 +109,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
     }
     const double distances =
         setup->num_distances > 0 ? setup->num_distances : ps_distance_count(points);
-    ps_phases_add_sets(phases, "worst-case error",
-                       needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR, distances, sets);
+    ps_phases_distances(phases, "worst-case error", question->smoothness, distances, sets);
     ps_phases_say(phases, "worst-case error", "%.4g distances of pairs of points, %.3g bytes",
                   sets * distances, (double)ps_distance_bytes(setup->problem.num_points));
 }
@@ -90,7 +119,7 @@ double ps_quadrature_phases(const ps_quadrature_setup *setup,
     const ps_candidate *const chosen = setup->plan.chosen;
     ps_phases_start(phases, chosen);
     /* coefficients come by another build of the engine's last kernel */
-    ps_phases_add(phases, "start", PS_HOST_KERNEL, chosen != NULL && !setup->by_pairs ? 1 : 0);
+    ps_phases_load_kernels(phases, chosen != NULL && !setup->by_pairs ? 1 : 0);
     ps_phases_lobe(phases, &setup->representer);
     const double sets = add_points(setup, question, phases);
     const double planned = (double)setup->problem.num_realizations;
@@ -104,11 +133,10 @@ double ps_quadrature_phases(const ps_quadrature_setup *setup,
                       ps_precision_name(chosen->precision));
     }
     if (setup->by_pairs) {
-        ps_phases_add(phases, "averages", PS_HOST_ZONAL,
-                      sets * (double)setup->problem.num_points * (double)setup->max_degree);
+        ps_phases_sum_zonal(phases, sets * (double)setup->problem.num_points,
+                            (double)setup->max_degree);
         ps_phases_say(phases, "averages", "zonal sums");
     }
-    ps_phases_add(phases, "results", PS_HOST_ROW, (double)setup->max_degree);
-    ps_phases_say(phases, "results", "a table");
+    ps_phases_tabulate(phases, (double)setup->max_degree);
     return repeats;
 }

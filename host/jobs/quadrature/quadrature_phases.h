@@ -12,4 +12,10 @@ double ps_quadrature_phases(const ps_quadrature_setup *setup,
 /* Adds what the coefficients of a lobe take, made for so many degrees. */
 void ps_phases_lobe(ps_phases *phases, const ps_representer *representer);
 
+/* Adds kappa of sets of so many points and of so many terms, or so many distances of each set in
+ * powers of 2 s - 2, to the phase of that name (ps_cost_rule_seconds). */
+void ps_phases_kappa(ps_phases *phases, const char *name, double points, double terms, double sets);
+void ps_phases_distances(ps_phases *phases, const char *name, double smoothness, double distances,
+                         double sets);
+
 #endif

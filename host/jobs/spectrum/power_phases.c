@@ -22,20 +22,28 @@ static unsigned bit_of(const ps_engine *engine) {
     return 1U << index;
 }
 
+static const char start_name[] = "start";
+
+void ps_phases_load_kernels(ps_phases *phases, double kernels) {
+    const double kernel_seconds = 34e-3;
+    ps_phases_add(phases, start_name, PS_HOST_START, kernels * kernel_seconds);
+}
+
 /* Each once in a process. */
 void ps_phases_start(ps_phases *phases, const ps_candidate *chosen) {
-    static const char name[] = "start";
+    const double program_seconds = 2.2e-3;
+    const double driver_seconds = 32e-3; /* OpenCL's libraries, and its compiler's */
     ps_begun first = {false, false, 0};
     ps_begun *const begun = phases->begun != NULL ? phases->begun : &first;
-    ps_phases_add(phases, name, PS_HOST_START, begun->program ? 0 : 1);
+    ps_phases_add(phases, start_name, PS_HOST_START, begun->program ? 0 : program_seconds);
     begun->program = true;
-    ps_phases_say(phases, name, "libraries");
+    ps_phases_say(phases, start_name, "libraries");
     if (chosen != NULL && chosen->engine->needs_device) {
         const unsigned bit = bit_of(chosen->engine);
         const bool is_there = (begun->engines & bit) != 0;
-        ps_phases_add(phases, name, PS_HOST_DRIVER, begun->driver ? 0 : 1);
-        ps_phases_add(phases, name, PS_HOST_KERNEL, is_there ? 0 : chosen->kernels);
-        ps_phases_say(phases, name, "driver and kernels, which the driver's cache has");
+        ps_phases_add(phases, start_name, PS_HOST_START, begun->driver ? 0 : driver_seconds);
+        ps_phases_load_kernels(phases, is_there ? 0 : chosen->kernels);
+        ps_phases_say(phases, start_name, "driver and kernels, which the driver's cache has");
         begun->driver = true;
         begun->engines |= bit;
     }
@@ -51,6 +59,7 @@ typedef struct amounts {
 static amounts add_points(const ps_power_job *job, ps_phases *phases) {
     const ps_power_question *const question = job->question;
     const double each = job->num_points > 0 ? (double)job->num_points : 1;
+    const double checked_seconds = 20e-9; /* of a point */
     amounts out;
     if (question->sampler != NULL) {
         out.sets = job->problem.num_realizations > 0 ? (double)job->problem.num_realizations : 1;
@@ -67,7 +76,7 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
         out.points = out.sets * each;
     }
     const bool is_checked = question->on_sphere || job->problem.has_weights;
-    ps_phases_add(phases, "points", PS_HOST_CHECK_POINTS, is_checked ? out.points : 0);
+    ps_phases_add(phases, "points", PS_HOST_BINARY, is_checked ? out.points * checked_seconds : 0);
     return out;
 }
 
@@ -75,15 +84,18 @@ static void add_frequencies(const ps_power_job *job, ps_phases *phases) {
     static const char name[] = "frequencies";
     const ps_frequencies *const set = &job->frequencies;
     const double num = (double)set->num;
+    const double listed_seconds = 300e-9;  /* of one of a random subset */
+    const double lattice_seconds = 20e-9;  /* of one of a grid: its bin and its mean */
+    const double counted_seconds = 0.3e-9; /* of a step of counting the points of rings */
     if (set->kind == PS_FREQUENCIES_DEGREES) {
         return;
     }
-    ps_phases_add(phases, name,
-                  set->kind == PS_FREQUENCIES_LIST ? PS_HOST_LISTED : PS_HOST_FREQUENCY, num);
+    ps_phases_add(phases, name, PS_HOST_SCALAR,
+                  num * (set->kind == PS_FREQUENCIES_LIST ? listed_seconds : lattice_seconds));
     if (job->question->frequencies.per_ring >
         0) { /* rings are counted axis by axis: frequencies/frequency_sample.h */
         const double k = set->max_frequency;
-        ps_phases_add(phases, name, PS_HOST_COUNT, job->dimension * k * k * k);
+        ps_phases_add(phases, name, PS_HOST_SCALAR, job->dimension * k * k * k * counted_seconds);
     }
     ps_phases_say(phases, name, "%.4g of them, and their rings", num);
 }
@@ -111,23 +123,30 @@ static double beginning_seconds(const ps_power_job *job) {
 }
 
 static void add_check(const ps_power_job *job, ps_phases *phases) {
+    const double degree_seconds = 20e-9; /* a point, a degree and an order */
     bool is_of_degrees = false;
     if (job->question->accuracy.no_self_check) {
         return;
     }
     const double terms = ps_self_check_count(&job->frequencies, job->num_points, &is_of_degrees);
-    ps_phases_add(phases, "self-check", is_of_degrees ? PS_HOST_REFEREE_DEGREE : PS_HOST_REFEREE,
-                  terms);
+    ps_phases_add(phases, "self-check", PS_HOST_REFEREE,
+                  is_of_degrees ? terms * degree_seconds
+                                : ps_cost_seconds(&(ps_work){.phases = terms}, NULL, PS_EXTENDED));
     ps_phases_add_seconds(phases, "self-check", beginning_seconds(job));
     ps_phases_say(phases, "self-check", "%.3g terms in long double", terms);
 }
 
+void ps_phases_sum_zonal(ps_phases *phases, double points, double degrees) {
+    const double term_seconds = 1e-9;
+    ps_phases_add(phases, "averages", PS_HOST_SUMS, points * degrees * term_seconds);
+}
+
 static void add_averages(const ps_power_job *job, const amounts *amount, ps_phases *phases) {
     const double num = (double)job->frequencies.num;
-    ps_phases_add(phases, "averages", PS_HOST_ACCUMULATE, num * amount->sets);
+    const double power_seconds = 0.5e-9; /* a power of a realization */
+    ps_phases_add(phases, "averages", PS_HOST_SUMS, num * amount->sets * power_seconds);
     if (job->question->wants_pair_sums) {
-        ps_phases_add(phases, "averages", PS_HOST_ZONAL,
-                      amount->points * job->frequencies.max_frequency);
+        ps_phases_sum_zonal(phases, amount->points, job->frequencies.max_frequency);
     }
     ps_phases_say(phases, "averages", "%.4g powers of %.4g realizations", num, amount->sets);
 }
@@ -136,12 +155,15 @@ static void add_products(const ps_power_job *job, double sets, ps_phases *phases
     static const char name[] = "phases";
     const ps_frequencies *const set = &job->frequencies;
     const bool on_sphere = job->question->on_sphere;
+    const double shift_seconds = 85e-9; /* a number of a grid */
+    const double turn_seconds = 3.3e-9; /* a node, a degree and an order */
     if (!job->question->keeps_sets) {
         return;
     }
     const double steps =
         on_sphere ? ps_turn_products_steps(set->max_frequency) : ps_shift_products_cells(set);
-    ps_phases_add(phases, name, on_sphere ? PS_HOST_TURNS : PS_HOST_SHIFTS, steps * sets);
+    ps_phases_add(phases, name, PS_HOST_SCALAR,
+                  steps * sets * (on_sphere ? turn_seconds : shift_seconds));
     ps_phases_say(phases, name, "products of %.4g coefficients of %.4g realizations",
                   (double)ps_num_coefficients_at(set) / 2, sets);
 }
@@ -151,24 +173,27 @@ static void add_results(const ps_power_job *job, ps_phases *phases) {
     const ps_power_question *const question = job->question;
     const double k = job->frequencies.max_frequency;
     const double side = 2 * k + 1;
-    ps_phases_add(phases, "results", PS_HOST_ROW, k);
+    const double number_seconds = 60e-9; /* of an array in a file */
+    ps_phases_tabulate(phases, k);
     if (question->wants_full_array && !question->on_sphere) {
-        ps_phases_add(phases, "results", PS_HOST_ARRAY, pow(side, job->dimension));
+        ps_phases_add(phases, "results", PS_HOST_BINARY,
+                      pow(side, job->dimension) * number_seconds);
     }
     if (question->harmonics != PS_NO_HARMONICS) {
-        ps_phases_add(phases, "results", PS_HOST_ARRAY, (k + 1) * (k + 2) / 2);
+        ps_phases_add(phases, "results", PS_HOST_BINARY, (k + 1) * (k + 2) / 2 * number_seconds);
     }
     ps_phases_say(phases, "results", "tables and arrays");
 }
 
-/* Engines are measured on sets that stay in caches; these do not, where they lie in no order
- * (measured: 1e6 white points of the sphere, L = 64 .. 1000; on the torus there is no such
- * difference). */
-static double scattered_points(const ps_power_job *job, const amounts *amount) {
+/* Seconds beside those of the engine, which is measured on sets that stay in caches; these do not,
+ * where they lie in no order (measured: 1e6 white points of the sphere, L = 64 .. 1000; on the
+ * torus there is no such difference). */
+static double scatter_seconds(const ps_power_job *job, const amounts *amount) {
+    const double point_seconds = 200e-9;
     enum { MANY_POINTS = 1 << 18, MANY_DEGREES = 300 };
     const bool is_large = job->question->on_sphere && job->num_points >= MANY_POINTS &&
                           job->frequencies.max_frequency >= MANY_DEGREES;
-    return is_large ? amount->points : 0;
+    return is_large ? amount->points * point_seconds : 0;
 }
 
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
@@ -180,12 +205,12 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     add_frequencies(job, phases);
     if (chosen != NULL) {
         const bool is_on_device = chosen->engine->needs_device;
+        const double seconds = chosen->seconds * repeats;
         ps_phases_add_seconds(
             phases, "powers",
-            chosen->seconds * repeats *
-                (is_on_device ? 1 : ps_host_referee_scale(phases->host, job->question->on_sphere)));
+            is_on_device ? seconds : ps_host_seconds(phases->host, PS_HOST_REFEREE, seconds));
         ps_phases_touch(phases, chosen->bytes);
-        ps_phases_add(phases, "powers", PS_HOST_SCATTER, scattered_points(job, &all));
+        ps_phases_add(phases, "powers", PS_HOST_MEMORY, scatter_seconds(job, &all));
         ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
                       ps_precision_name(chosen->precision));
     }

@@ -13,4 +13,10 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases);
  * and its kernels, which the driver's cache has. NULL: no engine is needed. */
 void ps_phases_start(ps_phases *phases, const ps_candidate *chosen);
 
+/* Adds so many more kernels to that beginning. */
+void ps_phases_load_kernels(ps_phases *phases, double kernels);
+
+/* Adds zonal sums of a realization (engines/pairs/pairs_zonal.h) of so many points and degrees. */
+void ps_phases_sum_zonal(ps_phases *phases, double points, double degrees);
+
 #endif

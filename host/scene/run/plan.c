@@ -43,7 +43,7 @@ static pspec_status add_pictures(const ps_run *run, ps_planner *planner, ps_erro
     for (size_t i = 0; i < run->num_results && status == PSPEC_OK; i++) {
         status = ps_pictures_list(&pictures, run->results[i].asked, error);
     }
-    ps_phases_add(&phases, "pictures", PS_HOST_PICTURE, (double)pictures.num);
+    ps_phases_draw(&phases, "pictures", pictures.num);
     ps_phases_say(&phases, "pictures", "%zu by gnuplot", pictures.num);
     ps_pictures_free(&pictures);
     planner->lead = ps_plan_table_lead("pictures");

@@ -29,11 +29,11 @@ static double limit_scale(double scale) {
 
 static pspec_status measure_probe(ps_probe_data *data, const ps_probe *what, double *scale,
                                   ps_error *error) {
-    double predicted = 1;
     data->unmeasured = 0;
     const double begin = ps_clock_seconds();
-    PS_TRY(what->run(data, what, &predicted, error));
-    *scale = limit_scale((ps_clock_seconds() - begin - data->unmeasured) / predicted);
+    PS_TRY(what->run(data, what, error));
+    *scale = limit_scale((ps_clock_seconds() - begin - data->unmeasured) /
+                         ps_host_seconds(NULL, what->kind, what->seconds));
     return PSPEC_OK;
 }
 
@@ -49,7 +49,7 @@ static pspec_status measure_sampler(ps_probe_data *data, const ps_sampler *sampl
 static pspec_status measure_round(ps_probe_data *data, const ps_bench_options *options,
                                   probe_scales scales, size_t round, ps_error *error) {
     size_t at = 0;
-    for (size_t i = 0; ps_probes[i].run != NULL; i++) {
+    for (size_t i = 0; i < PS_NUM_PROBES; i++) {
         PS_TRY(ps_bench_go_on(options, error));
         PS_TRY(measure_probe(data, &ps_probes[i], &scales[at++][round], error));
     }
@@ -60,28 +60,41 @@ static pspec_status measure_round(ps_probe_data *data, const ps_bench_options *o
     return PSPEC_OK;
 }
 
-static void keep(ps_figures *figures, const char *name, double *scales) {
+static void keep(ps_figures *figures, const char *name, double scale) {
     ps_host_figure *const row = ps_figures_host_row(figures, name);
     if (row != NULL) {
-        row->scale = ps_bench_median(scales, ROUNDS);
+        row->scale = scale;
     }
+}
+
+/* Of a kind that has several probes, the geometric mean of theirs. */
+static void keep_kind(ps_figures *figures, ps_host_kind kind, probe_scales scales) {
+    double logarithms = 0;
+    double num = 0;
+    for (size_t i = 0; i < PS_NUM_PROBES; i++) {
+        if (ps_probes[i].kind == kind) {
+            logarithms += log(ps_bench_median(scales[i], ROUNDS));
+            num++;
+        }
+    }
+    keep(figures, ps_host_kind_name(kind), exp(logarithms / num));
 }
 
 static pspec_status measure_all(ps_probe_data *data, const ps_bench_options *options,
                                 ps_figures *figures, ps_error *error) {
     probe_scales scales;
-    size_t at = 0;
+    size_t at = PS_NUM_PROBES;
     for (size_t round = 0; round < ROUNDS; round++) {
         if (options->advance != NULL) {
             options->advance(options->payload, round, ROUNDS);
         }
         PS_TRY(measure_round(data, options, scales, round, error));
     }
-    for (size_t i = 0; ps_probes[i].run != NULL; i++) {
-        keep(figures, ps_host_kind_name(ps_probes[i].kind), scales[at++]);
+    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) {
+        keep_kind(figures, (ps_host_kind)kind, scales);
     }
     for (size_t i = 0; ps_samplers[i] != NULL && at < PS_FIGURES_HOST; i++) {
-        keep(figures, ps_samplers[i]->name, scales[at++]);
+        keep(figures, ps_samplers[i]->name, ps_bench_median(scales[at++], ROUNDS));
     }
     return PSPEC_OK;
 }

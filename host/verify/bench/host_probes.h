@@ -1,5 +1,4 @@
-/* The host's own work in small: inputs of some milliseconds for every kind of work that can be
- * timed alone. */
+/* The host's own work in small: one or two inputs of some milliseconds for every kind of it. */
 #ifndef PS_VERIFY_BENCH_HOST_PROBES_H
 #define PS_VERIFY_BENCH_HOST_PROBES_H
 
@@ -13,22 +12,21 @@ typedef struct ps_probe_data {
     double *points;  /* [PS_PROBE_POINTS][3]: unit vectors */
     double *numbers; /* [PS_PROBE_POINTS][3]: room */
     ps_representer representer;
-    const char *file;     /* to be written and read */
-    const char *program;  /* pointspec itself, to be started */
-    const char *device;   /* as --device takes it; NULL: the usual one */
-    double start, driver; /* seconds of one without work, and of one that opens a driver */
-    double unmeasured;    /* seconds of a probe that are no part of what it measures */
+    const char *file;    /* to be written and read */
+    const char *program; /* pointspec itself, to be started */
+    const char *device;  /* as --device takes it; NULL: the usual one */
+    double unmeasured;   /* seconds of a probe that are no part of what it measures */
 } ps_probe_data;
 
 typedef struct ps_probe {
     ps_host_kind kind;
-    const char *argument;
-    /* Does some of it, for which the built-in model has *predicted seconds. */
-    pspec_status (*run)(ps_probe_data *data, const struct ps_probe *what, double *predicted,
-                        ps_error *error);
+    double seconds; /* by the built-in model, on one core of its machine */
+    pspec_status (*run)(ps_probe_data *data, const struct ps_probe *what, ps_error *error);
 } ps_probe;
 
-/* In an order in which each finds what it needs; ends with one that has no run. */
-extern const ps_probe ps_probes[];
+enum { PS_NUM_PROBES = 14 };
+
+/* In an order in which each finds what it needs. Every kind has one at least. */
+extern const ps_probe ps_probes[PS_NUM_PROBES];
 
 #endif
