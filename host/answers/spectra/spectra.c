@@ -1,6 +1,5 @@
 #include "answers/spectra/spectra.h"
 
-#include "answers/spectra/spectrum_plot.h"
 #include "base/memory.h"
 #include "jobs/spectrum/power_phases.h"
 #include "store/figures_file.h"

@@ -62,4 +62,9 @@ pspec_status ps_spectra_draw(const void *computed, const ps_request *request,
 /* Header entries that are columns of a summary of spectra. */
 extern const char *const ps_spectra_summary[];
 
+/* The same of jobs of power and angular: curves of all jobs; the picture of the spectrum when there
+ * is one 2-D job on the torus. */
+pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *const *jobs,
+                              size_t num, ps_error *error) PS_MUST_CHECK;
+
 #endif

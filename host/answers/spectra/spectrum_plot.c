@@ -1,4 +1,4 @@
-#include "answers/spectra/spectrum_plot.h"
+#include "answers/spectra/spectra.h"
 
 #include "answers/lead.h"
 #include "base/memory.h"

@@ -7,7 +7,7 @@
 #include "request/options.h"
 #include "store/host_figures.h"
 #include "tables/table_stream.h"
-#include "verify/bench/bench_plot.h"
+#include "verify/bench/bench.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "files/input_file.h"
 #include "jobs/spectrum/power_frequencies.h"
-#include "jobs/spectrum/power_needs.h"
 #include "store/figures_file.h"
 
 #include <math.h>

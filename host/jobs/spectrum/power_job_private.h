@@ -44,4 +44,15 @@ pspec_status ps_power_coefficients_keep(void *payload, const double *coefficient
 pspec_status ps_power_coefficients_check(const ps_power_job *job, uint64_t num_sets,
                                          ps_error *error) PS_MUST_CHECK;
 
+/* What it does not need. This fills job->needs from the question, once dimension and frequencies
+ * are known. */
+void ps_power_needs_find(ps_power_job *job);
+/* The tolerance that the problem gets: what tolerance, standard error and floor ask for
+ * together. */
+double ps_power_needs_tolerance(const ps_power_question *question);
+/* That the plan is made for. */
+uint64_t ps_power_needs_realizations(const ps_power_job *job);
+/* Fills job->plan for job->problem, and the rest of job->needs. */
+pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+
 #endif

@@ -1,4 +1,4 @@
-#include "jobs/spectrum/power_needs.h"
+#include "jobs/spectrum/power_job_private.h"
 
 #include "jobs/spectrum/power_frequencies.h"
 

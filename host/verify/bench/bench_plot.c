@@ -1,4 +1,4 @@
-#include "verify/bench/bench_plot.h"
+#include "verify/bench/bench.h"
 
 #include "base/memory.h"
 #include "plots/plot.h"

@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "samplers/sampler.h"
 #include "verify/bench/host_probes.h"
-#include "verify/bench/sampler_probes.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,7 +8,6 @@
 #include "rules/kernel_factor.h"
 #include "rules/worst_case_error.h"
 #include "spectra/bins.h"
-#include "verify/bench/start_probes.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,6 +4,7 @@
 
 #include "plan/host_cost.h"
 #include "rules/representer.h"
+#include "samplers/sampler.h"
 
 enum { PS_PROBE_POINTS = 1 << 17 };
 
@@ -28,5 +29,19 @@ enum { PS_NUM_PROBES = 14 };
 
 /* In an order in which each finds what it needs. Every kind has one at least. */
 extern const ps_probe ps_probes[PS_NUM_PROBES];
+
+/* What a start takes: of the program, of a driver, of kernels that the driver's cache has. A
+ * process that measures has all of it in its caches, where a kernel loads in half the time; so the
+ * program is started anew, as a shell does, with four engines, which load 15 kernels: 4 times
+ * 2.2 ms of the program and 32 ms of the driver, and 15 times 34 ms. PSPEC_ERROR_IO: it does not
+ * start, or not well. */
+pspec_status ps_probe_start(ps_probe_data *data, const ps_probe *what,
+                            ps_error *error) PS_MUST_CHECK;
+
+/* A sampler against its row: makes a realization of as many points as take some milliseconds by
+ * the row, PS_PROBE_POINTS at most; room is [PS_PROBE_POINTS][3]. *predicted is the row's, in
+ * seconds. */
+pspec_status ps_probe_sampler(const ps_sampler *sampler, double *room, double *predicted,
+                              ps_error *error) PS_MUST_CHECK;
 
 #endif

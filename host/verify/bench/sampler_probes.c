@@ -1,4 +1,3 @@
-#include "verify/bench/sampler_probes.h"
 
 #include "verify/bench/host_probes.h"
 

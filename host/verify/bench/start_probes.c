@@ -1,4 +1,4 @@
-#include "verify/bench/start_probes.h"
+#include "verify/bench/host_probes.h"
 
 #include <errno.h>
 #include <fcntl.h>
