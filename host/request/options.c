@@ -71,11 +71,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
                            OF(ENGINES | BIT(sample), 0),
-                           .help = "what makes the points; the names are below",
-                           .set = ps_add_sampler},
+                           .help = "what makes the points, see Samplers", .set = ps_add_sampler},
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
-                             .help = "what is integrated; the names are below",
-                             .set = ps_add_integrand, .input = ps_input_of_named},
+                             .help = "what is integrated, see Integrands", .set = ps_add_integrand,
+                             .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
         {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
          .help = "random shifts, on the sphere rotations, of every set that is "
@@ -106,7 +105,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                             "above 0 and below 1 (default 0.001)",
                                     .set = ps_set_false_alarm_rate},
     [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
-                        .help = "lobe of reflection; the names are below", TEXT(brdf),
+                        .help = "lobe of reflection, see BRDFs", TEXT(brdf),
                         .input = ps_input_of_named},
     [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES, 0),
                               .help = "of the integrands, functions of the Sobolev space H^S, "

@@ -17,7 +17,7 @@ echo "installed: program runs"
 
 # ---- the manual page: every example is a whole program; every function is named ----------------------
 page=$(find "$prefix" -name pointspec.3)
-"$source_dir/scripts/man_examples.sh" "$page" "$scratch/page"
+"$source_dir/tests/project/man_examples.sh" "$page" "$scratch/page"
 pages=("$scratch"/page/*.c)
 cmp "${pages[0]}" <(sed '1,/^ \*\/$/d' "$source_dir/docs/examples/one_pattern.c") ||
     { echo "pointspec.3 does not have docs/examples/one_pattern.c" >&2; exit 1; }
