@@ -46,6 +46,14 @@ const ps_command *ps_command_find(const char *name, ps_error *error);
 #define PS_DECLARE_COMMAND(name) extern const ps_command ps_command_##name;
 PS_VERBS(PS_DECLARE_COMMAND, PS_DECLARE_COMMAND)
 
+/* Names of all kinds of answers in sentences, "power, angular, .., check, ", and in usages,
+ * "power|angular|..|check|". */
+#define PS_COMMA_AFTER(name) #name ", "
+#define PS_BAR_AFTER(name) #name "|"
+#define PS_UNNAMED(name)
+#define PS_KINDS_IN_SENTENCE PS_VERBS(PS_COMMA_AFTER, PS_UNNAMED)
+#define PS_KINDS_IN_USAGE PS_VERBS(PS_BAR_AFTER, PS_UNNAMED)
+
 /* Every command takes --help, also when the table of options does not say so. */
 bool ps_command_takes(const ps_command *command, ps_option_id id);
 

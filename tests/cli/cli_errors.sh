@@ -281,8 +281,14 @@ refuses 2 '--frequencies does not go with --standard-error' power --frequencies 
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
 refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
 refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
-refuses 2 'power, angular, pairs, quadrature, truncation, variance, check, run, sample and convert can be planned' plan
-refuses 2 'power, angular, pairs, quadrature, truncation, variance, check, run, sample and convert can be planned' plan devices
+planned=$("$program" plan --help | sed -n 's/^Usage: pointspec plan \([a-z|]*\) .*/\1/p')
+[[ $planned == power\|*\|convert ]] || complain "plan --help names \"$planned\""
+for kind in ${planned//|/ }; do # the sentence names all of them, and each can be planned
+    refuses 2 "$kind" plan devices
+    [[ $("$program" plan "$kind" </dev/null 2>&1) != *'name the command'* ]] || complain "plan does not take $kind"
+done
+refuses 2 'run, sample and convert can be planned' plan
+refuses 2 'name the command to plan first' plan devices
 refuses 2 'one --sampler NAME is needed' plan sample -n 16
 refuses 2 'nothing to convert' plan convert
 

@@ -4,10 +4,9 @@
 
 /* Options of plan are those of everything that can be planned. */
 #define BIT(name) PS_VERB_BIT(name) |
-#define NOTHING(name)
 enum {
     PLANNED =
-        PS_VERB_BIT(run) | PS_VERB_BIT(sample) | PS_VERB_BIT(convert) | PS_VERBS(BIT, NOTHING) 0
+        PS_VERB_BIT(run) | PS_VERB_BIT(sample) | PS_VERB_BIT(convert) | PS_VERBS(BIT, PS_UNNAMED) 0
 };
 
 /* Options of the other command only. */
@@ -30,9 +29,7 @@ static pspec_status take_command(ps_request *inner, const ps_verb **verb,
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "name the command to plan first, as in: pointspec plan power --sampler white "
-            "(power, angular, pairs, quadrature, truncation, variance, check, run, sample and "
-            "convert can be "
-            "planned)");
+            "(" PS_KINDS_IN_SENTENCE "run, sample and convert can be planned)");
     }
     *inner = *arguments;
     inner->files++;
@@ -62,9 +59,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
 const ps_command ps_command_plan = {
     .name = "plan",
     .summary = "what a command would do: engines, seconds, bytes, error, what is skipped",
-    .usage = "plan power|angular|pairs|quadrature|truncation|variance|check|run|sample|convert "
-             "[options of that "
-             "command]",
+    .usage = "plan " PS_KINDS_IN_USAGE "run|sample|convert [options of that command]",
     .description =
         "Takes the same arguments as the command named after it and prints how that "
         "command would go about it: every engine with its estimated time, memory and "

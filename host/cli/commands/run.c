@@ -24,11 +24,10 @@ const ps_command ps_command_run = {
     .summary = "all results that a scene file asks for, into a folder with a page that shows them",
     .usage = "run [options] SCENE.yaml",
     .description =
-        "Reads a scene (docs/user/scenes.md): results of the kinds power, angular, pairs, "
-        "quadrature, truncation, variance and check, and points of samplers (sample), each with "
-        "the options "
-        "of the command of that name, where lists ask "
-        "for every combination. Writes a folder (-o; else named like the scene) with a table and a "
+        "Reads a scene (docs/user/scenes.md): results of the kinds " PS_KINDS_IN_SENTENCE
+        "and points of samplers (sample), each with the options of the command of that name, where "
+        "lists ask for every combination. Writes a folder (-o; else named like the scene) with a "
+        "table and a "
         "summary of each result, pictures, index.html, which shows all of it, and record.json, "
         "which is a scene too: running it makes the same results and says whether they have the "
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "

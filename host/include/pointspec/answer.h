@@ -43,11 +43,8 @@ PSPEC_EXPORT const char *pspec_answer_kind(size_t i);
 PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *context,
                                               const char *command);
 
-/** Answers a question of a kind of answer: power (P of the torus over rings), angular (P(l) of the
- * sphere), pairs (Q(l) and C_l^2), quadrature (E^2 of rules and its parts by degree), truncation
- * (E(L) of products of harmonics), check (z-scores against a saved spectrum); the equations are at
- * the beginning of pointspec.h and of quadrature.h. Rows and columns of *out are those of the
- * program's table.
+/** Answers a question of a kind of answer, as "power" or "check": pspec_answer_kind() lists them.
+ * Rows and columns of *out are those of the table that the program's command of that name prints.
  *
  * Files that the options name are written, too: "output" (the table, "format" as in
  * pspec_table_write()), "plot" (a picture, by gnuplot), "full" of power (float64 [2K+1]...[2K+1])
