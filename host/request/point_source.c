@@ -73,7 +73,7 @@ uint64_t ps_num_realizations_asked(const ps_request *arguments) {
                : arguments->num_realizations;
 }
 
-pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
+pspec_status ps_sampler_request_read(ps_sampler_request *out, const ps_request *arguments,
                                      size_t question, ps_error *error) {
     const bool has_points = arguments->is_given[PS_OPTION_POINTS];
     *out = (ps_sampler_request){
@@ -81,6 +81,11 @@ pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *
         .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
         .seed = arguments->seed,
         .homogenize = arguments->homogenize};
-    PS_TRY(ps_sampler_parse(out, ps_request_sampler(arguments, question), error));
+    return ps_sampler_parse(out, ps_request_sampler(arguments, question), error);
+}
+
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
+                                     size_t question, ps_error *error) {
+    PS_TRY(ps_sampler_request_read(out, arguments, question, error));
     return ps_sampler_resolve(out, error);
 }

@@ -6,8 +6,10 @@
 #include "request/request.h"
 #include "samplers/sampler.h"
 
-/* What the sampler of a question is asked for: parsed, options that were not given left open,
- * resolved and checked. */
+/* What the sampler of a question is asked for: parsed, options that were not given left open. */
+pspec_status ps_sampler_request_read(ps_sampler_request *out, const ps_request *arguments,
+                                     size_t question, ps_error *error) PS_MUST_CHECK;
+/* The same, resolved and checked. */
 pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t question, ps_error *error) PS_MUST_CHECK;
 

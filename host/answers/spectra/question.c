@@ -177,7 +177,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
 static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_request *arguments,
                                            size_t question, ps_domain domain, ps_error *error) {
     const char *const text = ps_request_sampler(arguments, question);
-    PS_TRY(ps_sampler_parse(out, text, error));
+    PS_TRY(ps_sampler_request_read(out, arguments, question, error));
     if (domain == PS_DOMAIN_TORUS && ps_sampler_is_on_sphere(out)) {
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -192,7 +192,7 @@ static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_req
                        "=hemisphere takes them there",
                        text);
     }
-    return ps_sampler_request_make(out, arguments, question, error);
+    return ps_sampler_resolve(out, error);
 }
 
 pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
