@@ -169,20 +169,13 @@ pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {
                               : ps_fail(error, status, "%s: %s", said->shown, reason.message);
 }
 
-pspec_status ps_add_sampler(const ps_said *said, ps_error *error) {
-    if (said->request->num_samplers == PS_MAX_SAMPLERS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d samplers",
-                       said->shown, PS_MAX_SAMPLERS);
+pspec_status ps_add_text(const ps_said *said, ps_error *error) {
+    const char **const texts = find_field(said);
+    size_t *const num = (void *)((char *)said->request + said->option->offset_of_number);
+    if (*num == said->option->maximum) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %zu %ss", said->shown,
+                       *num, said->option->name);
     }
-    said->request->samplers[said->request->num_samplers++] = said->text;
-    return PSPEC_OK;
-}
-
-pspec_status ps_add_integrand(const ps_said *said, ps_error *error) {
-    if (said->request->num_integrands == PS_MAX_INTEGRANDS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d integrands",
-                       said->shown, PS_MAX_INTEGRANDS);
-    }
-    said->request->integrands[said->request->num_integrands++] = said->text;
+    texts[(*num)++] = said->text;
     return PSPEC_OK;
 }

@@ -15,6 +15,9 @@
 #define OF(kinds, others) .questions = kinds, .commands = others
 #define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
 #define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
+#define TEXTS(field, most)                                                                         \
+    .set = ps_add_text, .offset = offsetof(ps_request, field),                                     \
+    .offset_of_number = offsetof(ps_request, num_##field), .maximum = most
 #define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
 #define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_request, field)
 #define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
@@ -71,10 +74,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
                            OF(ENGINES | BIT(sample), 0),
-                           .help = "what makes the points, see Samplers", .set = ps_add_sampler},
+                           .help = "what makes the points, see Samplers",
+                           TEXTS(samplers, PS_MAX_SAMPLERS)},
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
-                             .help = "what is integrated, see Integrands", .set = ps_add_integrand,
-                             .input = ps_input_of_named},
+                             .help = "what is integrated, see Integrands",
+                             TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
         {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
          .help = "random shifts, on the sphere rotations, of every set that is "

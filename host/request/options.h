@@ -63,11 +63,14 @@ struct ps_option {
         commands; /* others that take it: how they compute, and what becomes of the results */
     ps_option_setter *set;
     size_t offset; /* of the field of ps_request, for setters that serve several options */
+    /* Of the number of texts, where the option may be repeated: offset is of their array, which has
+     * room for maximum of them. 0: the last one counts. */
+    size_t offset_of_number;
     uint64_t minimum, maximum;
     char letter; /* 0: none */
     ps_option_source source;
-    /* NULL: no value of it names a file that is read. Else offset is of the field with the text,
-     * but of --integrand, which is a list */
+    /* NULL: no value of it names a file that is read. Else offset is of the field with the text or
+     * of the array of texts */
     ps_option_input *input;
 };
 
