@@ -9,11 +9,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* One path of the command line and the option that named it. */
-typedef struct named_path {
-    const char *option, *path;
-} named_path;
-
 /* What stands under a name. What is not there yet is no failure: *exists is false. */
 static pspec_status look_up(const char *path, struct stat *facts, bool *exists, ps_error *error) {
     *exists = stat(path, facts) == 0;
@@ -37,25 +32,25 @@ static pspec_status compare_files(const char *a, const char *b, bool *are_same, 
     return PSPEC_OK;
 }
 
-static pspec_status check_pair(const named_path *output, const named_path *other, ps_error *error) {
+static pspec_status check_pair(const ps_request_file *output, const ps_request_file *other,
+                               ps_error *error) {
     bool are_same = false;
     if (strcmp(output->path, "-") == 0 || strcmp(other->path, "-") == 0) {
         return PSPEC_OK;
     }
     PS_TRY(compare_files(output->path, other->path, &are_same, error));
     return are_same ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                              "%s \"%s\" and %s \"%s\" are the same file", output->option,
-                              output->path, other->option, other->path)
+                              "%s \"%s\" and %s \"%s\" are the same file", output->option.text,
+                              output->path, other->option.text, other->path)
                     : PSPEC_OK;
 }
 
-static pspec_status compare_with_input(void *payload, const ps_request_input *input,
+static pspec_status compare_with_input(void *payload, const ps_request_file *input,
                                        ps_error *error) {
-    const named_path *const output = payload;
-    return check_pair(output, &(named_path){input->option.text, input->path}, error);
+    return check_pair(payload, input, error);
 }
 
-static pspec_status compare_with_standard_output(void *payload, const ps_request_input *input,
+static pspec_status compare_with_standard_output(void *payload, const ps_request_file *input,
                                                  ps_error *error) {
     const struct stat *const output = payload;
     struct stat facts;
@@ -111,30 +106,27 @@ static void replace_ending(ps_text *out, const char *path, const char *ending) {
 }
 
 /* The table goes there too, unless it has a file. */
-static pspec_status check_stream(const named_path *output, const ps_request *arguments,
+static pspec_status check_stream(const ps_request_file *output, const ps_request *arguments,
                                  ps_error *error) {
     return arguments->output == NULL || is_stream(arguments->output)
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s - and the table would both go to standard output; -o FILE keeps them "
                          "apart",
-                         output->option)
+                         output->option.text)
                : PSPEC_OK;
 }
 
-static pspec_status check_all(named_path *outputs, size_t num, const ps_request *arguments,
+static pspec_status check_all(ps_request_file *outputs, size_t num, const ps_request *arguments,
                               ps_error *error) {
     for (size_t i = 0; i < num; i++) {
-        if (outputs[i].path != NULL && outputs[i].path != arguments->output &&
-            is_stream(outputs[i].path)) {
+        if (outputs[i].path != arguments->output && is_stream(outputs[i].path)) {
             PS_TRY(check_stream(&outputs[i], arguments, error));
         }
-        if (outputs[i].path == NULL || is_stream(outputs[i].path)) {
+        if (is_stream(outputs[i].path)) {
             continue;
         }
         for (size_t j = i + 1; j < num; j++) {
-            if (outputs[j].path != NULL) {
-                PS_TRY(check_pair(&outputs[i], &outputs[j], error));
-            }
+            PS_TRY(check_pair(&outputs[i], &outputs[j], error));
         }
         PS_TRY(ps_request_visit_inputs(arguments, compare_with_input, &outputs[i], error));
         PS_TRY(check_folder(outputs[i].path, error));
@@ -148,22 +140,17 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
     const bool is_npy = is_table && arguments->output != NULL && !is_stream(arguments->output) &&
                         (arguments->format != NULL ? strcmp(arguments->format, "npy") == 0
                                                    : ends_in(arguments->output, ".npy"));
+    ps_request_file outputs[PS_NUM_OPTIONS + 2];
+    size_t num = ps_request_outputs(outputs, arguments);
     if (is_npy) {
         replace_ending(&sidecar, arguments->output, ".json");
+        outputs[num++] = (ps_request_file){{"the column names"}, ps_text_string(&sidecar)};
     }
     if (arguments->full != NULL) {
         replace_ending(&standard_errors, arguments->full, ".standard_error.npy");
+        outputs[num++] =
+            (ps_request_file){{"the standard errors"}, ps_text_string(&standard_errors)};
     }
-    const ps_shown_option shown = ps_option_show(arguments, PS_OPTION_OUTPUT);
-    named_path outputs[] = {
-        {shown.text, arguments->output},
-        {"--full", arguments->full},
-        {"--coefficients", arguments->coefficients},
-        {"--weights-out", arguments->weights_out},
-        {"--plot", arguments->plot},
-        {"the column names", is_npy ? ps_text_string(&sidecar) : NULL},
-        {"the standard errors", arguments->full != NULL ? ps_text_string(&standard_errors) : NULL},
-    };
     pspec_status status = ps_text_check(&sidecar, error);
     if (status == PSPEC_OK) {
         status = ps_text_check(&standard_errors, error);
@@ -172,7 +159,7 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
         status = check_standard_output(arguments, error);
     }
     if (status == PSPEC_OK) {
-        status = check_all(outputs, sizeof outputs / sizeof outputs[0], arguments, error);
+        status = check_all(outputs, num, arguments, error);
     }
     ps_text_free(&sidecar);
     ps_text_free(&standard_errors);

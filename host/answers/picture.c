@@ -17,8 +17,15 @@ static bool is_discarded(const char *output) {
            facts.st_rdev == nothing.st_rdev;
 }
 
+/* Files besides the table and the picture. */
+static bool has_other_files(const ps_request *request) {
+    ps_request_file files[PS_NUM_OPTIONS];
+    const int num_known = (request->output != NULL) + (request->plot != NULL);
+    return ps_request_outputs(files, request) > (size_t)num_known;
+}
+
 bool ps_picture_is_all(const ps_request *request, bool keeps_answer) {
-    return request->full == NULL && request->coefficients == NULL &&
+    return !has_other_files(request) &&
            (request->output != NULL ? is_discarded(request->output) : !keeps_answer);
 }
 

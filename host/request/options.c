@@ -15,6 +15,7 @@
 #define OF(kinds, others) .questions = kinds, .commands = others
 #define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
 #define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
+#define FILE_OUT(field) TEXT(field), .is_output = true
 #define TEXTS(field, most)                                                                         \
     .set = ps_add_text, .offset = offsetof(ps_request, field),                                     \
     .offset_of_number = offsetof(ps_request, num_##field), .maximum = most
@@ -145,7 +146,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     "write the complex128 array too: S(k) = sum w exp(-2 pi i k.x) "
                                     "of each set in the order of --full or of the list; c_lm = "
                                     "sum w Y_lm of the only set, (l, m) at index m(2L+1-m)/2 + l",
-                                TEXT(coefficients)},
+                                FILE_OUT(coefficients)},
     [PS_OPTION_HARMONICS] = {NAMED("harmonics", 0, "spherical|hemispherical"),
                              OF(BIT(truncation), BIT(angular)),
                              .help = "of --coefficients, or of the products that are cut "
@@ -168,7 +169,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
                                 "its standard error to FILE.standard_error.npy",
-                        TEXT(full)},
+                        FILE_OUT(full)},
     [PS_OPTION_NORMALIZE] =
         {NAMED("normalize", 0, "power|effective|integral"), OF(BIT(power) | BIT(angular), 0),
          .help = "N |S|^2 / W^2 with N of each set (default power), |S|^2 / sum w^2, "
@@ -194,7 +195,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                .help = "write the weights of the only rule too, as --weights FILE "
                                        "reads them: an array where FILE ends in .npy, else text, "
                                        "one a line; 0 for points that were dropped",
-                               TEXT(weights_out)},
+                               FILE_OUT(weights_out)},
     [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), .source = PS_OF_FILES,
                                 OF(READERS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
@@ -321,7 +322,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           OF(0, TABLES | BIT(sample) | BIT(convert) | BIT(run)),
                           .help = "write there, in the format of its ending (default: standard "
                                   "output)",
-                          TEXT(output)},
+                          FILE_OUT(output)},
     [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy|jsonl|text"),
                           OF(0, TABLES | BIT(sample) | BIT(convert)),
                           .help = "format of the output (default: by the ending of FILE, else the "
@@ -331,7 +332,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         OF(0, PICTURES | BIT(bench) | BIT(sample) | BIT(convert)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
                                 "warning, and an error where nothing else is kept",
-                        TEXT(plot)},
+                        FILE_OUT(plot)},
     [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, PICTURES),
                             .help = "which axes of the picture are logarithmic",
                             .set = ps_set_plot_log},

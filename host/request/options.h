@@ -72,6 +72,7 @@ struct ps_option {
     /* NULL: no value of it names a file that is read. Else offset is of the field with the text or
      * of the array of texts */
     ps_option_input *input;
+    bool is_output; /* its value names a file that is written; offset is of that text */
 };
 
 extern const ps_option ps_options[PS_NUM_OPTIONS];
@@ -87,17 +88,20 @@ ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
                            const char *value, ps_error *error) PS_MUST_CHECK;
 
-/* A file that a request reads. */
-typedef struct ps_request_input {
+/* A file that a request reads or writes. */
+typedef struct ps_request_file {
     ps_shown_option option; /* that names it */
     const char *path;       /* "-" is standard input; borrowed */
-} ps_request_input;
+} ps_request_file;
 /* Every file that is read, in the order of options, then those of points: visit is called for each
  * until it fails. The only list: caches, records and checks of outputs ask it. */
-typedef pspec_status ps_request_visit_input(void *payload, const ps_request_input *input,
+typedef pspec_status ps_request_visit_input(void *payload, const ps_request_file *input,
                                             ps_error *error);
 pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
                                      void *payload, ps_error *error) PS_MUST_CHECK;
+
+/* The files that options name to be written, that of --output first: how many. */
+size_t ps_request_outputs(ps_request_file out[PS_NUM_OPTIONS], const ps_request *request);
 
 /* What a value of --weights is where these words are admitted, "equal|column|FILE": the name of a
  * file where it is none of the others and FILE is admitted; PS_WEIGHTS_GIVEN: nothing. */

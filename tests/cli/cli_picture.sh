@@ -39,4 +39,7 @@ pairs --sampler white-sphere -n 4 -m 2 -l 4 --engine host_direct
 quadrature --sampler white-hemisphere -n 4 -m 2 -l 4 --brdf diffuse --engine host_direct
 truncation --brdf diffuse -l 4
 LINES
+# another file is kept
+PATH=$PWD/none try 0 quadrature --sampler fibonacci-hemisphere -n 4 -l 4 --brdf diffuse --engine host_direct --weights-out w.npy --plot a.svg -o /dev/null
+[[ -s w.npy && $(<err) == *'"a.svg" was not drawn: '* ]] || complain "weights and a picture: $(<err)"
 finish

@@ -83,7 +83,7 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
 
 /* Everything that the bits of an answer depend on: the program, the device, the question, and what
  * is in the files. */
-static pspec_status add_file(void *payload, const ps_request_input *input, ps_error *error) {
+static pspec_status add_file(void *payload, const ps_request_file *input, ps_error *error) {
     char digest[PS_DIGEST_BYTES];
     ps_text *const key = payload;
     PS_TRY(ps_digest_file(input->path, digest, error));

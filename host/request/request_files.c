@@ -1,4 +1,4 @@
-/* Which files a request reads. */
+/* Which files a request reads, and which it writes. */
 #include "request/options.h"
 
 #include <string.h>
@@ -23,11 +23,32 @@ static pspec_status visit_option(const ps_request *request, ps_option_id id,
     for (size_t i = 0; i < num; i++) {
         const char *const path = option->input(option->metavar, texts[i]);
         if (path != NULL) {
-            const ps_request_input input = {ps_option_show(request, id), path};
+            const ps_request_file input = {ps_option_show(request, id), path};
             PS_TRY(visit(payload, &input, error));
         }
     }
     return PSPEC_OK;
+}
+
+static void add_output(ps_request_file *out, size_t *num, const ps_request *request,
+                       ps_option_id id) {
+    size_t has_text = 0;
+    if (ps_options[id].is_output) {
+        const char *const *const text = find_texts(&has_text, request, &ps_options[id]);
+        out[*num] = (ps_request_file){ps_option_show(request, id), text[0]};
+        *num += has_text;
+    }
+}
+
+size_t ps_request_outputs(ps_request_file out[PS_NUM_OPTIONS], const ps_request *request) {
+    size_t num = 0;
+    add_output(out, &num, request, PS_OPTION_OUTPUT);
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (id != PS_OPTION_OUTPUT) {
+            add_output(out, &num, request, (ps_option_id)id);
+        }
+    }
+    return num;
 }
 
 pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
@@ -38,7 +59,7 @@ pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit
         }
     }
     for (size_t i = 0; i < request->num_files; i++) {
-        const ps_request_input input = {{"the input"}, request->files[i]};
+        const ps_request_file input = {{"the input"}, request->files[i]};
         PS_TRY(visit(payload, &input, error));
     }
     return PSPEC_OK;
