@@ -3,7 +3,7 @@
 #include "integrands/brdf_kind.h"
 
 #include "base/memory.h"
-#include "points/points.h"
+#include "points/lists/number_rows.h"
 
 #include <math.h>
 #include <stdlib.h>

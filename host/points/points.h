@@ -148,42 +148,4 @@ pspec_status ps_points_commit(ps_point_writer *writer, ps_error *error) PS_MUST_
 /* Frees the writer; what was not committed is removed. NULL is allowed. */
 void ps_points_discard(ps_point_writer *writer);
 
-/* ---- lists beside points ----------------------------------------------------------------- */
-
-/* Reads a list of integer frequency vectors, one per line, columns separated by blanks or commas,
- * '#' lines skipped; *vectors is [num_vectors][*dimension], freed by the caller. The dimension is
- * that of the first line (1 to 6). |k| <= 2^30. memory_limit: bytes that the list may take; 0: half
- * of those free. */
-pspec_status ps_read_frequencies(const char *path, uint64_t memory_limit, int **vectors,
-                                 size_t *num_vectors, unsigned *dimension,
-                                 ps_error *error) PS_MUST_CHECK;
-
-/* Reads weights: one number per line or token, or a one-dimensional NPY array. num_wanted: how many
- * the caller can use; a file that goes on long after them is refused, since it may have no end. */
-pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **weights,
-                             size_t *num_weights, ps_error *error) PS_MUST_CHECK;
-
-/* Writes weights that ps_read_weights reads: an array where the path ends in .npy, else text, one
- * number a line. "-" is standard output. */
-pspec_status ps_write_weights(const char *path, const double *weights, size_t num_weights,
-                              ps_error *error) PS_MUST_CHECK;
-/* Whether the ending tells which of both it is: .npy, .txt, or none. */
-pspec_status ps_weights_check_name(const char *path, ps_error *error) PS_MUST_CHECK;
-
-/* Reads lines of so many finite numbers separated by blanks or a comma, '#' lines skipped: rows
- * [num_rows][columns + 1], the last number of each its line; freed by the caller. */
-pspec_status ps_read_rows(const char *path, unsigned columns, double **rows, size_t *num_rows,
-                          ps_error *error) PS_MUST_CHECK;
-
-/* Two numbers of a line, and which line it was. */
-typedef struct ps_pair {
-    double first, second;
-    size_t line;
-} ps_pair;
-
-/* Reads lines of two finite numbers separated by blanks or a comma, '#' lines skipped; *pairs is
- * freed by the caller. */
-pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs,
-                           ps_error *error) PS_MUST_CHECK;
-
 #endif

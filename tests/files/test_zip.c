@@ -2,6 +2,7 @@
 #include "harness_points.h"
 
 #include "files/npy.h"
+#include "points/lists/weight_list.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,8 @@
 /* Frequency vectors and weights. The first byte: does the rest come through a pipe? */
 #include "fuzz.h"
 
-#include "points/points.h"
+#include "points/lists/frequency_list.h"
+#include "points/lists/weight_list.h"
 
 #include <math.h>
 #include <stdlib.h>

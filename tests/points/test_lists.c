@@ -1,6 +1,7 @@
 /* Lists of frequencies and of weights. */
 #include "files/npy.h"
-#include "points/points.h"
+#include "points/lists/frequency_list.h"
+#include "points/lists/weight_list.h"
 #include "test_folder.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "jobs/quadrature/quadrature_looks.h"
 #include "jobs/quadrature/quadrature_phases.h"
-#include "points/points.h"
+#include "points/lists/weight_list.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "points/points.h"
+#include "points/lists/number_rows.h"
 
 #include <math.h>
 #include <stdlib.h>

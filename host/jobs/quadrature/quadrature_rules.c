@@ -4,6 +4,7 @@
 #include "base/pieces.h"
 #include "engines/pairs/pairs_product.h"
 #include "math/linear/cholesky.h"
+#include "points/lists/weight_list.h"
 #include "rules/optimal_weights.h"
 
 #include <float.h>

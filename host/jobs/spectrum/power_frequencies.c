@@ -1,6 +1,7 @@
 #include "jobs/spectrum/power_frequencies.h"
 
 #include "frequencies/frequency_sample.h"
+#include "points/lists/frequency_list.h"
 
 #include <math.h>
 

@@ -1,6 +1,7 @@
 #include "jobs/spectrum/power_sets.h"
 
 #include "base/memory.h"
+#include "points/lists/weight_list.h"
 
 #include <stdlib.h>
 #include <string.h>

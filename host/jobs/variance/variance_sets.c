@@ -1,6 +1,7 @@
 #include "jobs/variance/variance_sets.h"
 
 #include "base/memory.h"
+#include "points/lists/weight_list.h"
 
 #include <math.h>
 #include <stdlib.h>
