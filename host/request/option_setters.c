@@ -131,19 +131,12 @@ static pspec_status parse_positive(const char *shown, const char *value, double 
     return PSPEC_OK;
 }
 
-pspec_status ps_set_tolerance(const ps_said *said, ps_error *error) {
-    return parse_positive(said->shown, said->text, 1, " and at most 1",
-                          &said->request->accuracy.tolerance, error);
+pspec_status ps_set_positive(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, DBL_MAX, "", find_field(said), error);
 }
 
-pspec_status ps_set_floor(const ps_said *said, ps_error *error) {
-    return parse_positive(said->shown, said->text, DBL_MAX, "", &said->request->accuracy.floor,
-                          error);
-}
-
-pspec_status ps_set_standard_error(const ps_said *said, ps_error *error) {
-    return parse_positive(said->shown, said->text, 1, " and at most 1",
-                          &said->request->accuracy.standard_error, error);
+pspec_status ps_set_share(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, 1, " and at most 1", find_field(said), error);
 }
 
 pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {
@@ -154,10 +147,6 @@ pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s: %s is not above 0 and below 1: every check would fail", said->shown,
                          said->text);
-}
-
-pspec_status ps_set_tail(const ps_said *said, ps_error *error) {
-    return parse_positive(said->shown, said->text, DBL_MAX, "", &said->request->tail, error);
 }
 
 pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {

@@ -5,14 +5,13 @@
 #include "request/options.h"
 
 /* These set the field at option->offset: a bool, a text, one more of several texts, a uint64_t
- * within limits, a ps_point_range, one of words. */
+ * within limits, a ps_point_range, one of words, a number above 0 (and at most 1). */
 ps_option_setter ps_set_flag, ps_set_text, ps_add_text, ps_set_count, ps_set_points, ps_set_size,
-    ps_set_range, ps_set_word;
+    ps_set_range, ps_set_word, ps_set_positive, ps_set_share;
 
 ps_option_setter ps_set_nothing, ps_set_dimension, ps_set_max_frequency, ps_set_max_degree,
-    ps_set_tolerance, ps_set_floor, ps_set_standard_error, ps_set_smoothness, ps_set_plot_log,
-    ps_set_plot_range, ps_set_bins, ps_set_box, ps_set_columns, ps_set_weights, ps_set_weight_sum,
-    ps_set_domain, ps_set_lift, ps_set_morph, ps_set_normalize, ps_set_precision,
-    ps_set_false_alarm_rate, ps_set_tail;
+    ps_set_smoothness, ps_set_plot_log, ps_set_plot_range, ps_set_bins, ps_set_box, ps_set_columns,
+    ps_set_weights, ps_set_weight_sum, ps_set_domain, ps_set_lift, ps_set_morph, ps_set_normalize,
+    ps_set_precision, ps_set_false_alarm_rate;
 
 #endif

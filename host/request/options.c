@@ -21,6 +21,8 @@
     .offset_of_number = offsetof(ps_request, num_##field), .maximum = most
 #define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
 #define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_request, field)
+#define POSITIVE(field) .set = ps_set_positive, .offset = offsetof(ps_request, field)
+#define SHARE(field) .set = ps_set_share, .offset = offsetof(ps_request, field)
 #define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
 
 /* 10^10 points of the plane are 160 GB. */
@@ -63,7 +65,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
         {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
          .help = "no more realizations than make the relative standard error of every ring or "
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
-         .set = ps_set_standard_error},
+         SHARE(accuracy.standard_error)},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
                              OF(BIT(power) | BIT(check) | BIT(variance) | BIT(sample),
                                 BIT(convert)),
@@ -92,7 +94,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_TAIL] = {NAMED("tail", 0, "X"), OF(BIT(variance), 0),
                         .help = "no more than this may half of upper - lower be, over predicted, "
                                 "of every row; else exit code 3, and the cut-off that would do",
-                        .set = ps_set_tail},
+                        POSITIVE(tail)},
     [PS_OPTION_PAPER_FORMULA] = {NAMED("paper-formula", 0, NULL), OF(BIT(variance), 0),
                                  .help = "a column more: the integral over |k| of radial means "
                                          "(E-13), which neglects P(0+) f_0^2 / N",
@@ -272,9 +274,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  "largest error, above 0 and at most 1: of S relative to white "
                                  "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
                                  "quadrature: of E^2 over c (sum |w|)^2 (1e-10)",
-                             .set = ps_set_tolerance},
+                             SHARE(accuracy.tolerance)},
     [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
-                         .help = "powers down to P are right to 10 %", .set = ps_set_floor},
+                         .help = "powers down to P are right to 10 %", POSITIVE(accuracy.floor)},
     [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"),
                              OF(ENGINES, SUITES),
                              .help = "arithmetic of the engine (default auto: the cheapest that "
