@@ -1,5 +1,7 @@
 #include "frequencies/bin_rule.h"
 
+#include "math/divisor.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,15 +9,6 @@
 #include <string.h>
 
 /* ---- words ------------------------------------------------------------------------------- */
-
-static uint32_t find_divisor(uint32_t a, uint32_t b) {
-    while (b != 0) {
-        const uint32_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
 
 /* Digits alone, from 1 to PS_MOST_BIN_WIDTH; *end is behind them. */
 static bool take_number(const char *text, const char **end, uint32_t *out) {
@@ -36,7 +29,7 @@ static bool take_fraction(const char *text, ps_bin_rule *out) {
         (*end == '/' && !take_number(end + 1, &end, &denominator)) || *end != '\0') {
         return false;
     }
-    const uint32_t divisor = find_divisor(numerator, denominator);
+    const uint32_t divisor = (uint32_t)ps_common_divisor(numerator, denominator);
     out->numerator = numerator / divisor;
     out->denominator = denominator / divisor;
     return true;

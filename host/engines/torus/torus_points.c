@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
+#include "math/divisor.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -100,19 +101,10 @@ void ps_torus_points_free(ps_torus_points *points) {
 
 /* ---- upload ------------------------------------------------------------------------------ */
 
-static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
-    while (b != 0) {
-        const uint64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 uint64_t ps_torus_point_step(uint64_t n) {
     const double golden = 0.6180339887498949;
     uint64_t step = (uint64_t)((double)n * golden);
-    while (step > 1 && greatest_common_divisor(step, n) != 1) {
+    while (step > 1 && ps_common_divisor(step, n) != 1) {
         step--;
     }
     return step > 0 ? step : 1;
