@@ -2,57 +2,29 @@
 
 #include "base/memory.h"
 #include "jobs/quadrature/quadrature_looks.h"
-#include "jobs/quadrature/quadrature_rules.h"
-#include "jobs/runner.h"
+#include "jobs/quadrature/quadrature_private.h"
 #include "math/pi.h"
-#include "spectra/sums.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What job.sums has for each degree. */
-enum { D2, C2, E2, SUMS };
-
-typedef struct rule_sums {
-    ps_sums squared, zonal, anisotropic, tail, weight_sum;
-} rule_sums;
-
-typedef struct quadrature_job {
-    const ps_quadrature_question *question;
-    ps_quadrature_result *out;
-    ps_rules rules;
-    ps_rule_shape shape;
-    ps_quadrature_setup setup;
-    ps_runner runner;
-    double *block;        /* what the next four lie in */
-    double *coefficients; /* [ps_num_coefficients(L)], unless sums are over pairs */
-    double *c_l0, *c2;    /* [L + 1] */
-    ps_sums *sums;        /* [L + 1][SUMS] */
-    ps_degree_error *degrees;
-    size_t num_told; /* rules of the batch whose spectrum is there */
-    pspec_status told_status;
-    ps_error *error; /* of what is told */
-    rule_sums of_rules;
-} quadrature_job;
-
 /* ---- one rule ------------------------------------------------------------------------------ */
 
-static void add_degrees(quadrature_job *job) {
+static void add_degrees(ps_quadrature_job *job) {
     for (size_t l = 0; l <= job->setup.max_degree; l++) {
         const ps_degree_error *const degree = &job->degrees[l];
-        ps_sums_add(&job->sums[SUMS * l + D2], degree->d2);
-        ps_sums_add(&job->sums[SUMS * l + C2], degree->c2);
-        ps_sums_add(&job->sums[SUMS * l + E2], degree->e2);
+        ps_sums_add(&job->sums[PS_RULE_SUMS * l + PS_RULE_D2], degree->d2);
+        ps_sums_add(&job->sums[PS_RULE_SUMS * l + PS_RULE_C2], degree->c2);
+        ps_sums_add(&job->sums[PS_RULE_SUMS * l + PS_RULE_E2], degree->e2);
     }
 }
 
 /* The next rule of the batch, whose spectrum is c_l0 and c2. */
-static pspec_status take_rule(quadrature_job *job, const double *c_l0, const double *c2,
+static pspec_status take_rule(ps_quadrature_job *job, const double *c_l0, const double *c2,
                               ps_error *error) {
     ps_quadrature_result *const out = job->out;
-    rule_sums *const sums = &job->of_rules;
+    ps_rule_sums *const sums = &job->of_rules;
     const ps_weighted_rule *const rule = &job->rules.batch[job->num_told++];
     ps_spectral_error spectral;
     PS_TRY(ps_spectral_error_of(&job->setup.representer, job->setup.max_degree, c_l0, c2,
@@ -73,7 +45,7 @@ static pspec_status take_rule(quadrature_job *job, const double *c_l0, const dou
 
 /* From sums over pairs. */
 static void hear(void *payload, const double *zonal, const double *c2) {
-    quadrature_job *const job = payload;
+    ps_quadrature_job *const job = payload;
     for (size_t l = 0; l <= job->setup.max_degree; l++) {
         job->c_l0[l] = sqrt((2 * (double)l + 1) / PS_FOUR_PI) * zonal[l];
     }
@@ -83,7 +55,7 @@ static void hear(void *payload, const double *zonal, const double *c2) {
 }
 
 /* From coefficients. */
-static pspec_status sum_coefficients(quadrature_job *job, const pspec_pattern *pattern,
+static pspec_status sum_coefficients(ps_quadrature_job *job, const pspec_pattern *pattern,
                                      ps_error *error) {
     const size_t last = job->setup.max_degree;
     PS_TRY(ps_estimator_coefficients(job->runner.estimator, pattern, PS_SPHERICAL_HARMONICS,
@@ -102,7 +74,7 @@ static pspec_status sum_coefficients(quadrature_job *job, const pspec_pattern *p
 /* ---- what the runner asks ------------------------------------------------------------------ */
 
 static pspec_status tell(void *payload, ps_error *error) {
-    const quadrature_job *const job = payload;
+    const ps_quadrature_job *const job = payload;
     return ps_watch_tell(&job->question->watch, "realizations", job->out->num_realizations,
                          job->setup.num_realizations, NULL, error);
 }
@@ -111,14 +83,14 @@ static bool should_stop(void *payload) {
     return tell(payload, NULL) != PSPEC_OK;
 }
 
-static void tell_plan(const quadrature_job *job) {
+static void tell_plan(const ps_quadrature_job *job) {
     if (job->question->tell_plan != NULL) {
         job->question->tell_plan(job->question->payload, &job->setup.plan);
     }
 }
 
 static pspec_status plan_again(void *payload, ps_error *error) {
-    quadrature_job *const job = payload;
+    ps_quadrature_job *const job = payload;
     PS_TRY(ps_quadrature_setup_plan_again(&job->setup, job->question, ps_runner_held(&job->runner),
                                           error));
     tell_plan(job);
@@ -126,7 +98,7 @@ static pspec_status plan_again(void *payload, ps_error *error) {
 }
 
 static ps_estimator_options choose_options(void *payload) {
-    const quadrature_job *const job = payload;
+    const ps_quadrature_job *const job = payload;
     const bool by_pairs = job->setup.by_pairs;
     return (ps_estimator_options){.batch = by_pairs ? 0 : 1,
                                   .normalization = by_pairs ? PSPEC_NORMALIZATION_PAIRS
@@ -138,7 +110,7 @@ static ps_estimator_options choose_options(void *payload) {
 }
 
 /* Sets of a batch are in memory all at once. */
-static size_t choose_batch(const quadrature_job *job) {
+static size_t choose_batch(const ps_quadrature_job *job) {
     enum { MOST_BYTES = 64 << 20, NUMBERS = 5 }; /* coordinates, weight, kappa */
     const size_t most = MOST_BYTES / (NUMBERS * sizeof(double)) / job->shape.num_points + 1;
     const size_t batch =
@@ -148,16 +120,16 @@ static size_t choose_batch(const quadrature_job *job) {
 
 /* Nothing is averaged yet. */
 static pspec_status begin(void *payload, ps_error *error) {
-    quadrature_job *const job = payload;
+    ps_quadrature_job *const job = payload;
     ps_quadrature_degree *const degrees = job->out->degrees;
     free(job->out->weights);
     *job->out = (ps_quadrature_result){.degrees = degrees, .largest_condition = NAN};
-    job->of_rules = (rule_sums){0};
-    memset(job->sums, 0, SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
+    job->of_rules = (ps_rule_sums){0};
+    memset(job->sums, 0, PS_RULE_SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
     return ps_rules_allocate(&job->rules, choose_batch(job), error);
 }
 
-static pspec_status sum_batch(quadrature_job *job, ps_error *error) {
+static pspec_status sum_batch(ps_quadrature_job *job, ps_error *error) {
     job->num_told = 0;
     if (job->setup.by_pairs) {
         job->error = error;
@@ -172,7 +144,7 @@ static pspec_status sum_batch(quadrature_job *job, ps_error *error) {
 }
 
 /* Of the points as they were given: those that were dropped have none. */
-static pspec_status keep_weights(quadrature_job *job, ps_error *error) {
+static pspec_status keep_weights(ps_quadrature_job *job, ps_error *error) {
     const ps_rules *const rules = &job->rules;
     const ps_weighted_rule *const rule = &rules->batch[0];
     if (!job->question->keeps_weights) {
@@ -187,7 +159,7 @@ static pspec_status keep_weights(quadrature_job *job, ps_error *error) {
 }
 
 static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
-    quadrature_job *const job = payload;
+    ps_quadrature_job *const job = payload;
     PS_TRY(ps_rules_next(&job->rules, &job->setup.representer, most, error));
     *num = job->rules.num;
     PS_TRY(*num > 0 ? keep_weights(job, error) : PSPEC_OK);
@@ -196,10 +168,10 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
 
 /* e_l^2 matters where it is above the tolerance, and so does E^2. */
 static pspec_status look_at_errors(void *payload, double *largest, ps_error *error) {
-    quadrature_job *const job = payload;
+    ps_quadrature_job *const job = payload;
     ps_quadrature_result *const out = job->out;
-    const ps_quadrature_sums sums = {job->setup.max_degree + 1, job->sums + E2, SUMS,
-                                     &job->of_rules.squared};
+    const ps_quadrature_sums sums = {job->setup.max_degree + 1, job->sums + PS_RULE_E2,
+                                     PS_RULE_SUMS, &job->of_rules.squared};
     const double unit = job->setup.representer.constant * out->weight_size * out->weight_size;
     (void)error;
     out->has_look = true;
@@ -210,7 +182,7 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
 }
 
 static pspec_status rewind_rules(void *payload, ps_error *error) {
-    quadrature_job *const job = payload;
+    ps_quadrature_job *const job = payload;
     if (!ps_source_can_rewind(job->rules.source)) {
         return ps_fail(error, PSPEC_ERROR_TOLERANCE,
                        "these rules have larger coefficients than was planned for, and standard "
@@ -227,70 +199,9 @@ static const ps_runner_kind kind = {.plan = plan_again,
                                     .look = look_at_errors,
                                     .rewind = rewind_rules};
 
-/* ---- the result ---------------------------------------------------------------------------- */
+/* ---- all of it ---------------------------------------------------------------------------- */
 
-static ps_mean finish(const ps_sums *sums, uint64_t num) {
-    ps_mean out;
-    ps_sums_finish(sums, num, &out.mean, &out.standard_error);
-    return out;
-}
-
-static void collect_means(quadrature_job *job) {
-    ps_quadrature_result *const out = job->out;
-    const uint64_t num = out->num_realizations;
-    for (size_t l = 0; l <= job->setup.max_degree; l++) {
-        const ps_sums *const sums = &job->sums[SUMS * l];
-        out->degrees[l] = (ps_quadrature_degree){
-            job->setup.representer.a[l], job->setup.representer.b[l], finish(&sums[D2], num),
-            finish(&sums[C2], num), finish(&sums[E2], num)};
-    }
-    out->squared = finish(&job->of_rules.squared, num);
-    out->zonal = finish(&job->of_rules.zonal, num);
-    out->anisotropic = finish(&job->of_rules.anisotropic, num);
-    out->tail = finish(&job->of_rules.tail, num);
-    out->weight_sum = finish(&job->of_rules.weight_sum, num);
-}
-
-static void collect_facts(quadrature_job *job) {
-    ps_quadrature_result *const out = job->out;
-    const ps_rule_facts *const facts = &job->rules.facts;
-    out->mean_points = (double)facts->num_points / (double)out->num_realizations;
-    out->smallest_points = facts->smallest_points;
-    out->largest_points = facts->largest_points;
-    out->num_dropped = facts->num_dropped;
-    out->num_duplicates = facts->num_duplicates;
-    out->is_ill_conditioned = facts->is_ill_conditioned;
-    out->has_matrices = facts->has_matrices;
-    out->largest_condition = facts->largest_condition > 0 ? facts->largest_condition : (double)NAN;
-    ps_rule_facts_name_weights(facts, out->weights_by, sizeof out->weights_by);
-}
-
-/* What the header says of the setup and of the engine. */
-static pspec_status describe(quadrature_job *job, ps_error *error) {
-    ps_quadrature_result *const out = job->out;
-    const ps_quadrature_setup *const setup = &job->setup;
-    ps_text skips = {0};
-    ps_text engine = {0};
-    out->max_degree = setup->max_degree;
-    out->was_replanned = job->runner.was_replanned;
-    out->precision = ps_precision_name(setup->plan.chosen->precision);
-    snprintf(out->device, sizeof out->device, "%s",
-             setup->device != NULL ? ps_device_get_limits(setup->device)->name : "none");
-    snprintf(out->degrees_note, sizeof out->degrees_note, "%s", setup->degrees_note);
-    ps_needs_describe(&setup->needs, &skips);
-    ps_estimator_describe(job->runner.estimator, &engine);
-    snprintf(out->skipped, sizeof out->skipped, "%s", ps_text_string(&skips));
-    snprintf(out->engine, sizeof out->engine, "%s", ps_text_string(&engine));
-    pspec_status status = ps_text_check(&skips, error);
-    if (status == PSPEC_OK) {
-        status = ps_text_check(&engine, error);
-    }
-    ps_text_free(&skips);
-    ps_text_free(&engine);
-    return status;
-}
-
-static void tell_profile(const quadrature_job *job) {
+static void tell_profile(const ps_quadrature_job *job) {
     const ps_quadrature_question *const question = job->question;
     if (question->tell_profile != NULL && job->setup.device != NULL) {
         size_t num = 0;
@@ -299,7 +210,7 @@ static void tell_profile(const quadrature_job *job) {
     }
 }
 
-static void tell_trouble(const quadrature_job *job) {
+static void tell_trouble(const ps_quadrature_job *job) {
     const ps_quadrature_question *const question = job->question;
     const char *const trouble = ps_source_trouble(job->rules.source);
     if (question->tell_trouble != NULL && trouble[0] != '\0') {
@@ -307,32 +218,13 @@ static void tell_trouble(const quadrature_job *job) {
     }
 }
 
-/* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than
- * rounding. */
-static pspec_status check_forms(const quadrature_job *job, ps_error *error) {
-    const ps_quadrature_result *const result = job->out;
-    const double slack = result->numerical_bound + job->question->accuracy.tolerance *
-                                                       job->setup.representer.constant *
-                                                       result->weight_size * result->weight_size;
-    if (result->tail.mean >= -slack && result->tail.mean <= result->tail_bound + slack) {
-        return PSPEC_OK;
-    }
-    return ps_fail(error, PSPEC_ERROR_CHECK,
-                   "E^2 is %.17g by the kernel and %.17g to degree %zu by the spectrum: the rest, "
-                   "%.3g, is outside 0 .. %.3g",
-                   result->squared.mean, result->zonal.mean + result->anisotropic.mean,
-                   result->max_degree, result->tail.mean, result->tail_bound);
-}
-
-/* ---- all of it ----------------------------------------------------------------------------- */
-
-static pspec_status allocate(quadrature_job *job, ps_error *error) {
+static pspec_status allocate(ps_quadrature_job *job, ps_error *error) {
     enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
     const size_t num = job->setup.max_degree + 1;
     const size_t num_coefficients =
         job->setup.by_pairs ? 0 : ps_num_coefficients((int32_t)job->setup.max_degree);
-    PS_TRY(
-        PS_NEW(&job->block, num_coefficients + (2 + SUMS * NUMBERS) * num, "coefficients", error));
+    PS_TRY(PS_NEW(&job->block, num_coefficients + (2 + PS_RULE_SUMS * NUMBERS) * num,
+                  "coefficients", error));
     job->coefficients = job->block;
     job->c_l0 = job->coefficients + num_coefficients;
     job->c2 = job->c_l0 + num;
@@ -341,7 +233,7 @@ static pspec_status allocate(quadrature_job *job, ps_error *error) {
     return PS_NEW(&job->out->degrees, num, "degrees", error);
 }
 
-static pspec_status prepare(quadrature_job *job, ps_error *error) {
+static pspec_status prepare(ps_quadrature_job *job, ps_error *error) {
     const ps_quadrature_question *const question = job->question;
     ps_quadrature_setup *const setup = &job->setup;
     PS_TRY(ps_quadrature_setup_begin(setup, question, error));
@@ -360,7 +252,7 @@ static pspec_status prepare(quadrature_job *job, ps_error *error) {
 
 /* Errors of coefficients do not depend on powers: it is sums of squares that are off by more where
  * powers are larger than was expected. */
-static pspec_status run(quadrature_job *job, ps_error *error) {
+static pspec_status run(ps_quadrature_job *job, ps_error *error) {
     PS_TRY(prepare(job, error));
     job->runner = (ps_runner){.kind = &kind,
                               .job = job,
@@ -373,13 +265,10 @@ static pspec_status run(quadrature_job *job, ps_error *error) {
     PS_TRY(ps_runner_run(&job->runner, error));
     tell_profile(job);
     tell_trouble(job);
-    collect_means(job);
-    collect_facts(job);
-    PS_TRY(describe(job, error));
-    return check_forms(job, error);
+    return ps_quadrature_collect(job, error);
 }
 
-static void release(quadrature_job *job) {
+static void release(ps_quadrature_job *job) {
     ps_runner_free(&job->runner);
     ps_rules_free(&job->rules);
     free(job->block);
@@ -392,7 +281,7 @@ static void release(quadrature_job *job) {
 pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_question *question,
                                ps_error *error) {
     *out = (ps_quadrature_result){0};
-    quadrature_job job = {.question = question, .out = out, .rules = {.question = question}};
+    ps_quadrature_job job = {.question = question, .out = out, .rules = {.question = question}};
     const pspec_status status = run(&job, error);
     release(&job);
     return status;

@@ -1,0 +1,91 @@
+/* The result of a quadrature job. */
+#include "jobs/quadrature/quadrature_private.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static ps_mean finish(const ps_sums *sums, uint64_t num) {
+    ps_mean out;
+    ps_sums_finish(sums, num, &out.mean, &out.standard_error);
+    return out;
+}
+
+static void collect_means(ps_quadrature_job *job) {
+    ps_quadrature_result *const out = job->out;
+    const uint64_t num = out->num_realizations;
+    for (size_t l = 0; l <= job->setup.max_degree; l++) {
+        const ps_sums *const sums = &job->sums[PS_RULE_SUMS * l];
+        out->degrees[l] =
+            (ps_quadrature_degree){job->setup.representer.a[l], job->setup.representer.b[l],
+                                   finish(&sums[PS_RULE_D2], num), finish(&sums[PS_RULE_C2], num),
+                                   finish(&sums[PS_RULE_E2], num)};
+    }
+    out->squared = finish(&job->of_rules.squared, num);
+    out->zonal = finish(&job->of_rules.zonal, num);
+    out->anisotropic = finish(&job->of_rules.anisotropic, num);
+    out->tail = finish(&job->of_rules.tail, num);
+    out->weight_sum = finish(&job->of_rules.weight_sum, num);
+}
+
+static void collect_facts(ps_quadrature_job *job) {
+    ps_quadrature_result *const out = job->out;
+    const ps_rule_facts *const facts = &job->rules.facts;
+    out->mean_points = (double)facts->num_points / (double)out->num_realizations;
+    out->smallest_points = facts->smallest_points;
+    out->largest_points = facts->largest_points;
+    out->num_dropped = facts->num_dropped;
+    out->num_duplicates = facts->num_duplicates;
+    out->is_ill_conditioned = facts->is_ill_conditioned;
+    out->has_matrices = facts->has_matrices;
+    out->largest_condition = facts->largest_condition > 0 ? facts->largest_condition : (double)NAN;
+    ps_rule_facts_name_weights(facts, out->weights_by, sizeof out->weights_by);
+}
+
+/* What the header says of the setup and of the engine. */
+static pspec_status describe(ps_quadrature_job *job, ps_error *error) {
+    ps_quadrature_result *const out = job->out;
+    const ps_quadrature_setup *const setup = &job->setup;
+    ps_text skips = {0};
+    ps_text engine = {0};
+    out->max_degree = setup->max_degree;
+    out->was_replanned = job->runner.was_replanned;
+    out->precision = ps_precision_name(setup->plan.chosen->precision);
+    snprintf(out->device, sizeof out->device, "%s",
+             setup->device != NULL ? ps_device_get_limits(setup->device)->name : "none");
+    snprintf(out->degrees_note, sizeof out->degrees_note, "%s", setup->degrees_note);
+    ps_needs_describe(&setup->needs, &skips);
+    ps_estimator_describe(job->runner.estimator, &engine);
+    snprintf(out->skipped, sizeof out->skipped, "%s", ps_text_string(&skips));
+    snprintf(out->engine, sizeof out->engine, "%s", ps_text_string(&engine));
+    pspec_status status = ps_text_check(&skips, error);
+    if (status == PSPEC_OK) {
+        status = ps_text_check(&engine, error);
+    }
+    ps_text_free(&skips);
+    ps_text_free(&engine);
+    return status;
+}
+
+/* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than
+ * rounding. */
+static pspec_status check_forms(const ps_quadrature_job *job, ps_error *error) {
+    const ps_quadrature_result *const result = job->out;
+    const double slack = result->numerical_bound + job->question->accuracy.tolerance *
+                                                       job->setup.representer.constant *
+                                                       result->weight_size * result->weight_size;
+    if (result->tail.mean >= -slack && result->tail.mean <= result->tail_bound + slack) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_CHECK,
+                   "E^2 is %.17g by the kernel and %.17g to degree %zu by the spectrum: the rest, "
+                   "%.3g, is outside 0 .. %.3g",
+                   result->squared.mean, result->zonal.mean + result->anisotropic.mean,
+                   result->max_degree, result->tail.mean, result->tail_bound);
+}
+
+pspec_status ps_quadrature_collect(ps_quadrature_job *job, ps_error *error) {
+    collect_means(job);
+    collect_facts(job);
+    PS_TRY(describe(job, error));
+    return check_forms(job, error);
+}
