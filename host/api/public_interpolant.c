@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "jobs/pattern_check.h"
 #include "math/sobolev.h"
-#include "rules/kernel_system.h"
+#include "rules/kernel/kernel_system.h"
 
 #include <math.h>
 #include <stdlib.h>

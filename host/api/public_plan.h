@@ -7,7 +7,7 @@
 #include "api/public_objects.h"
 #include "api/public_request.h"
 #include "base/text.h"
-#include "jobs/kept_patterns.h"
+#include "api/kept_patterns.h"
 #include "jobs/runner.h"
 #include "plan/needs.h"
 

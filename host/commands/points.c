@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "commands/points_drawing.h"
-#include "jobs/convert.h"
+#include "commands/convert.h"
 #include "plan/specs.h"
 #include "request/point_source.h"
 

@@ -2,8 +2,8 @@
  * plan begins with the first of them. Allocates all its room at once; what does not fit is not
  * kept, and then nothing can be had again.
  */
-#ifndef PS_JOBS_KEPT_PATTERNS_H
-#define PS_JOBS_KEPT_PATTERNS_H
+#ifndef PS_API_KEPT_PATTERNS_H
+#define PS_API_KEPT_PATTERNS_H
 
 #include "base/status.h"
 

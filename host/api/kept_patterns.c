@@ -1,4 +1,4 @@
-#include "jobs/kept_patterns.h"
+#include "api/kept_patterns.h"
 
 #include "base/memory.h"
 

@@ -1,8 +1,8 @@
 /* Point files to another point file, block by block: no set is ever in memory as a whole (but for
  * formats that lie in columns).
  */
-#ifndef PS_JOBS_CONVERT_H
-#define PS_JOBS_CONVERT_H
+#ifndef PS_COMMANDS_CONVERT_H
+#define PS_COMMANDS_CONVERT_H
 
 #include "base/text.h"
 #include "base/watch.h"

@@ -1,4 +1,4 @@
-#include "jobs/convert.h"
+#include "commands/convert.h"
 
 #include <math.h>
 #include <string.h>
