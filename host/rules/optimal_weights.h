@@ -4,7 +4,7 @@
 #ifndef PS_RULES_OPTIMAL_WEIGHTS_H
 #define PS_RULES_OPTIMAL_WEIGHTS_H
 
-#include "rules/kernel_system.h"
+#include "rules/kernel/kernel_system.h"
 #include "rules/representer.h"
 
 typedef struct ps_optimal_weights {

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "engines/host/host_direct.h"
 #include "engines/host/host_pairs.h"
-#include "engines/pairs/pairs_chords.h"
+#include "rules/kernel/kernel_chords.h"
 #include "engines/torus/torus_direct.h"
 #include "jobs/estimator.h"
 #include "verify/stress_shapes.h"
@@ -27,7 +27,7 @@ static pspec_status measure_chords(ps_device *device, ps_precision precision, do
     double sum = 0;
     PS_TRY(ps_vector_shape_make(ps_vector_shape_find("duplicates"), NUM, 1, &pattern, error));
     const ps_batch batch = {.num_patterns = 1, .patterns = &pattern};
-    pspec_status status = ps_pairs_chord_sums(device, precision, power, &batch, &sum, error);
+    pspec_status status = ps_kernel_chord_sums(device, precision, power, &batch, &sum, error);
     if (status == PSPEC_OK) {
         status = ps_host_chords(&pattern, 0, power, &truth, error);
     }
@@ -37,7 +37,7 @@ static pspec_status measure_chords(ps_device *device, ps_precision precision, do
     return status;
 }
 
-const ps_stress_probe ps_probe_chords = {.engine = "pairs_chords",
+const ps_stress_probe ps_probe_chords = {.engine = "kernel_chords",
                                          .needs_device = true,
                                          .has_precision = {true, true, false},
                                          .measure = measure_chords};

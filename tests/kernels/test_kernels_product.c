@@ -74,7 +74,7 @@ static void run(const product_case *one) {
     test_memory exponent = test_reals_create(device, one->precision, &power, 1);
     test_memory partials =
         test_reals_create(device, one->precision, NULL, SEGMENTS * PARTS * STRIDE);
-    cl_kernel kernel = test_kernel(device, "pairs/product.cl", "pairs_product",
+    cl_kernel kernel = test_kernel(device, "rules/product.cl", "kernel_product",
                                    "-DPRECISION=%u -DLANES=%u -DROOT=%d", one->precision,
                                    one->lanes, one->is_root);
     TEST_LAUNCH(device, kernel, one->group, STRIDE / one->lanes, SEGMENTS, 1,

@@ -2,14 +2,12 @@
 
 #include "base/memory.h"
 #include "engines/pairs/pairs_bins.h"
+#include "engines/pairs/pairs_chord.h"
 #include "engines/pairs/pairs_histogram.h"
 #include "math/neumaier.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* Terms of the polynomial below rho: as many derivatives as the remainder of a bin asks for. */
-enum { TERMS = PS_PAIRS_MOMENTS };
 
 /* Degrees of the histogram at least: few pairs are nearer than some of its bins then. */
 enum { LEAST_DEGREES = 64 };
@@ -174,93 +172,6 @@ static pspec_status fill_histogram(sums_of_pairs *self, ps_error *error) {
                    best, self->problem.tolerance);
 }
 
-/* ---- chords ------------------------------------------------------------------------------ */
-
-/* The kernel r^(2 power), and what takes its place below rho. */
-typedef struct chord {
-    double power, rho_square;
-    double binomials[TERMS];
-    double bound; /* of what bins lose */
-} chord;
-
-static double chord_at(const chord *shape, double square) {
-    return square > 0 ? pow(square, shape->power) : 0;
-}
-
-static double below_rho(const chord *shape, double square) {
-    const double x = square / shape->rho_square - 1;
-    double sum = 0;
-    for (int k = TERMS; k-- > 0;) {
-        sum = sum * x + shape->binomials[k];
-    }
-    return sum * pow(shape->rho_square, shape->power);
-}
-
-/* |x (x - 1) .. (x - k + 1)| */
-static double falling(double x, int k) {
-    double out = 1;
-    for (int i = 0; i < k; i++) {
-        out *= fabs(x - i);
-    }
-    return out;
-}
-
-/* Bounds g'''''''' below rho, in units of rho^(2 power - 8). */
-static double bound_below(const chord *shape) {
-    double sum = 0;
-    for (int j = PS_PAIRS_MOMENTS / 2; j < TERMS; j++) {
-        double c = 0;
-        double ways = 1; /* binom(k, j) (-1)^(k - j) */
-        for (int k = j; k < TERMS; k++) {
-            c += shape->binomials[k] * ways;
-            ways *= -(double)(k + 1) / (double)(k + 1 - j);
-        }
-        sum += fabs(c) * falling(2 * j, PS_PAIRS_MOMENTS);
-    }
-    return sum;
-}
-
-static double bound_opposite(double power) {
-    enum { K = PS_PAIRS_MOMENTS };
-    const double nearest = 2 - sqrt(2);
-    double sum = 0;
-    double ways = 1;
-    for (int i = 0; i <= K; i++) {
-        sum += ways * falling(power, i) * falling(power, K - i) * pow(nearest, power - i) *
-               pow(2, power - K + i);
-        ways *= (double)(K - i) / (double)(i + 1);
-    }
-    return sum;
-}
-
-/* Sets rho to so many bins of the histogram. */
-static void set_rho(chord *shape, size_t num_bins, size_t near_bins) {
-    enum { K = PS_PAIRS_MOMENTS };
-    const double width = sqrt(2) / (double)num_bins;
-    const double rho = width * (double)near_bins;
-    double rest = 2; /* 2 (1/4)^K / K!: (1/2)^K / (K! 2^(K-1)) */
-    for (int k = 1; k <= K; k++) {
-        rest /= 4 * (double)k;
-    }
-    shape->rho_square = rho * rho;
-    const double near = fmax(falling(2 * shape->power, K), bound_below(shape));
-    const double scaled = near * pow(rho, 2 * shape->power) * pow((double)near_bins, -K);
-    shape->bound = rest * fmax(scaled, bound_opposite(shape->power) * pow(width, K));
-}
-
-static chord make_chord(double power, size_t num_bins, double tolerance) {
-    chord out = {.power = power, .binomials = {1}};
-    size_t near_bins = 1;
-    for (int k = 1; k < TERMS; k++) {
-        out.binomials[k] = out.binomials[k - 1] * (power - k + 1) / k;
-    }
-    set_rho(&out, num_bins, near_bins);
-    while (out.bound > tolerance && near_bins < num_bins) {
-        set_rho(&out, num_bins, ++near_bins);
-    }
-    return out;
-}
-
 /* ---- pairs that are near each other ------------------------------------------------------- */
 
 typedef struct direction {
@@ -289,8 +200,8 @@ static void sort_directions(const sums_of_pairs *self, direction *all) {
     qsort(all, num, sizeof *all, by_height);
 }
 
-/* Adds what below_rho is off by, over pairs nearer than rho, each once. */
-static pspec_status add_near(const chord *shape, size_t num, const direction *all,
+/* Adds what ps_chord_below_rho is off by, over pairs nearer than rho, each once. */
+static pspec_status add_near(const ps_chord *shape, size_t num, const direction *all,
                              const ps_watch *watch, ps_neumaier *total, ps_error *error) {
     enum { PAIRS_AT_A_TIME = 1 << 22 }; /* some hundredths of a second */
     const double rho = sqrt(shape->rho_square);
@@ -308,8 +219,8 @@ static pspec_status add_near(const chord *shape, size_t num, const direction *al
                 square += step * step;
             }
             if ((double)square < shape->rho_square) {
-                const double off =
-                    chord_at(shape, (double)square) - below_rho(shape, (double)square);
+                const double off = ps_chord_power(shape, (double)square) -
+                                   ps_chord_below_rho(shape, (double)square);
                 ps_neumaier_add(&sum, all[i].weight * all[j].weight * off);
             }
         }
@@ -324,7 +235,7 @@ static pspec_status sum_chords(const sums_of_pairs *self, double power, double *
                                ps_error *error) {
     const double share = 0.5; /* of the tolerance; rounding has the other half */
     const size_t num_nodes = 2 * self->num_bins * PS_PAIRS_MOMENTS;
-    const chord kernel = make_chord(power, self->num_bins, share * self->tolerance);
+    const ps_chord kernel = ps_chord_make(power, self->num_bins, share * self->tolerance);
     ps_neumaier total = {0, 0};
     direction *directions = NULL;
     for (size_t i = 0; i < num_nodes; i++) {
@@ -332,8 +243,8 @@ static pspec_status sum_chords(const sums_of_pairs *self, double power, double *
         const double side = self->nodes[num_nodes + i];
         const double square = side > 0 ? 2 * t : 4 - 2 * t;
         ps_neumaier_add(&total, self->weights[i] * (square < kernel.rho_square
-                                                        ? below_rho(&kernel, square)
-                                                        : chord_at(&kernel, square)));
+                                                        ? ps_chord_below_rho(&kernel, square)
+                                                        : ps_chord_power(&kernel, square)));
     }
     PS_TRY(PS_NEW(&directions, self->pattern->num_points, "directions", error));
     sort_directions(self, directions);

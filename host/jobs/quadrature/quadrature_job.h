@@ -6,7 +6,7 @@
 #define PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 
 #include "jobs/spectrum/power_job.h"
-#include "rules/kernel_system.h"
+#include "rules/kernel/kernel_system.h"
 #include "rules/representer.h"
 
 typedef struct ps_quadrature_question {

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/pieces.h"
-#include "engines/pairs/pairs_product.h"
+#include "rules/kernel/kernel_product.h"
 #include "math/linear/cholesky.h"
 #include "points/lists/weight_list.h"
 #include "rules/optimal_weights.h"

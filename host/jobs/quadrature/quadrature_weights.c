@@ -1,5 +1,5 @@
 /* How optimal weights are made, in words. */
-#include "engines/pairs/pairs_product.h"
+#include "rules/kernel/kernel_product.h"
 #include "jobs/quadrature/quadrature_rules.h"
 
 #include <stdio.h>
@@ -21,7 +21,7 @@ void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_po
     snprintf(text, size,
              "optimal, by conjugate gradients with products %s, %.4g bytes; a matrix would take "
              "%.4g bytes, and %s",
-             ps_pairs_product_is_possible(device) ? "on the device" : "in threads", sparse, dense,
+             ps_kernel_product_is_possible(device) ? "on the device" : "in threads", sparse, dense,
              num_points > PS_KERNEL_MOST_DENSE ? "matrices are made for 20000 points and fewer"
                                                : "--memory is less");
 }

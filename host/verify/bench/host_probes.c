@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "engines/host/host_direct.h"
 #include "points/points.h"
-#include "rules/kernel_factor.h"
+#include "rules/kernel/kernel_factor.h"
 #include "rules/worst_case_error.h"
 #include "spectra/bins.h"
 

@@ -2,7 +2,7 @@
  * the direct chord sums of the device, and the series of the Sobolev kernel. */
 #include "harness_pairs.h"
 
-#include "engines/pairs/pairs_chords.h"
+#include "rules/kernel/kernel_chords.h"
 #include "engines/pairs/pairs_isotropic.h"
 #include "math/pi.h"
 #include "math/sobolev.h"
@@ -108,7 +108,7 @@ static void direct_sums(void **state) {
     assert_ok(ps_pairs_isotropic_sums(device, &set, 0, chords, NUM_POWERS, tolerance, sums, bounds,
                                       NULL, error));
     for (size_t k = 0; k < NUM_POWERS - 1; k++) {
-        assert_ok(ps_pairs_chord_sums(device, precision, chords[k].power, &batch, &direct, error));
+        assert_ok(ps_kernel_chord_sums(device, precision, chords[k].power, &batch, &direct, error));
         assert_true(fabs(sums[k] - direct) <= tolerance * NUM * NUM);
     }
     free(points);

@@ -17,10 +17,10 @@
 #define ROOT 0
 #endif
 
-__kernel void pairs_chords(__global const real *restrict points,
-                           __global const ulong *restrict counts,
-                           __global const real *restrict power, __global real *restrict partials,
-                           const ulong stride, const ulong run_vectors, const ulong num_runs) {
+__kernel void kernel_chords(__global const real *restrict points,
+                            __global const ulong *restrict counts,
+                            __global const real *restrict power, __global real *restrict partials,
+                            const ulong stride, const ulong run_vectors, const ulong num_runs) {
     const ulong run = get_global_id(0);
     const size_t realization = get_global_id(1);
     if (run >= num_runs) {

@@ -1,4 +1,4 @@
-#include "engines/pairs/pairs_product.h"
+#include "rules/kernel/kernel_product.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -14,7 +14,7 @@ enum { SEGMENT = 4096, AXES = 3, PARTS = 2 };
 /* Strides are multiples of all numbers of lanes and of the kernel's BLOCK. */
 enum { UNIT = 16 };
 
-struct ps_pairs_product {
+struct ps_kernel_product {
     ps_device *device;
     size_t num_points, stride, num_segments;
     unsigned lanes;
@@ -32,11 +32,11 @@ static size_t count_segments(size_t stride) {
     return (size_t)ps_divide_up(stride, SEGMENT);
 }
 
-bool ps_pairs_product_is_possible(const ps_device *device) {
+bool ps_kernel_product_is_possible(const ps_device *device) {
     return device != NULL && ps_device_get_limits(device)->has_fp64;
 }
 
-uint64_t ps_pairs_product_bytes(uint64_t num_points) {
+uint64_t ps_kernel_product_bytes(uint64_t num_points) {
     enum { HOST_AND_DEVICE = 2 };
     const uint64_t stride = stride_of(num_points);
     const uint64_t columns =
@@ -44,21 +44,21 @@ uint64_t ps_pairs_product_bytes(uint64_t num_points) {
     return columns * stride * sizeof(double);
 }
 
-static pspec_status create_kernel(ps_pairs_product *self, double power, ps_error *error) {
+static pspec_status create_kernel(ps_kernel_product *self, double power, ps_error *error) {
     const double root = 0.5;
     ps_text options = {0};
     pspec_status status = PSPEC_OK;
     ps_text_append(&options, "-DPRECISION=64 -DLANES=%u -DROOT=%d", self->lanes, power == root);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "pairs/product.cl",
-                                        "pairs_product", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "rules/product.cl",
+                                        "kernel_product", ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
 }
 
 /* Coordinates in columns. */
-static pspec_status upload_points(ps_pairs_product *self, const double *points, ps_error *error) {
+static pspec_status upload_points(ps_kernel_product *self, const double *points, ps_error *error) {
     const size_t row = self->stride * sizeof(double);
     PS_TRY(ps_buffer_create(self->device, &self->points, AXES * row, "points", error));
     for (size_t axis = 0; axis < AXES; axis++) {
@@ -70,7 +70,7 @@ static pspec_status upload_points(ps_pairs_product *self, const double *points, 
     return PSPEC_OK;
 }
 
-static pspec_status fill(ps_pairs_product *self, double power, const double *points,
+static pspec_status fill(ps_kernel_product *self, double power, const double *points,
                          ps_error *error) {
     size_t num = 0;
     if (!ps_size_multiply(self->num_segments * PARTS, self->stride, &num)) {
@@ -88,10 +88,10 @@ static pspec_status fill(ps_pairs_product *self, double power, const double *poi
                             "sums of segments of points", error);
 }
 
-pspec_status ps_pairs_product_create(ps_pairs_product **out, ps_device *device, double power,
-                                     size_t num_points, const double *points, ps_error *error) {
+pspec_status ps_kernel_product_create(ps_kernel_product **out, ps_device *device, double power,
+                                      size_t num_points, const double *points, ps_error *error) {
     *out = NULL;
-    ps_pairs_product *self = NULL;
+    ps_kernel_product *self = NULL;
     PS_TRY(PS_NEW(&self, 1, "a product", error));
     self->device = device;
     self->num_points = num_points;
@@ -100,14 +100,14 @@ pspec_status ps_pairs_product_create(ps_pairs_product **out, ps_device *device, 
     self->lanes = ps_engine_lanes(ps_device_get_limits(device), PS_DOUBLE);
     const pspec_status status = fill(self, power, points, error);
     if (status != PSPEC_OK) {
-        ps_pairs_product_destroy(self);
+        ps_kernel_product_destroy(self);
         return status;
     }
     *out = self;
     return PSPEC_OK;
 }
 
-void ps_pairs_product_destroy(ps_pairs_product *self) {
+void ps_kernel_product_destroy(ps_kernel_product *self) {
     if (self == NULL) {
         return;
     }
@@ -124,7 +124,7 @@ void ps_pairs_product_destroy(ps_pairs_product *self) {
 }
 
 /* Segment after segment, high parts first where both are of one segment. */
-static void add_up(const ps_pairs_product *self, double *out) {
+static void add_up(const ps_kernel_product *self, double *out) {
     for (size_t i = 0; i < self->num_points; i++) {
         long double sum = 0;
         for (size_t row = 0; row < self->num_segments * PARTS; row++) {
@@ -135,7 +135,7 @@ static void add_up(const ps_pairs_product *self, double *out) {
 }
 
 /* So many vectors of points, from the first on, with all points. */
-static pspec_status launch(ps_pairs_product *self, size_t first, size_t num, ps_error *error) {
+static pspec_status launch(ps_kernel_product *self, size_t first, size_t num, ps_error *error) {
     const double flops_per_pair = 12;
     const double pairs = (double)num * self->lanes * (double)self->stride;
     ps_range range =
@@ -149,7 +149,7 @@ static pspec_status launch(ps_pairs_product *self, size_t first, size_t num, ps_
 
 /* Launches take about a tenth of a second, and between them the watch is told. What the last
  * work-group of a launch rounds up to, the next launch does again, which gives the same bits. */
-static pspec_status launch_all(ps_pairs_product *self, const ps_watch *watch, ps_error *error) {
+static pspec_status launch_all(ps_kernel_product *self, const ps_watch *watch, ps_error *error) {
     const double first_pairs = 1 << 26; /* some hundredths of a second of two cores */
     const double enough =
         0.05; /* seconds; a launch of half as many pairs may be followed by a whole one */
@@ -166,8 +166,8 @@ static pspec_status launch_all(ps_pairs_product *self, const ps_watch *watch, ps
     return PSPEC_OK;
 }
 
-pspec_status ps_pairs_product_apply(ps_pairs_product *self, const double *x, double *out,
-                                    const ps_watch *watch, ps_error *error) {
+pspec_status ps_kernel_product_apply(ps_kernel_product *self, const double *x, double *out,
+                                     const ps_watch *watch, ps_error *error) {
     const size_t bytes = self->stride * sizeof(double);
     memcpy(self->padded, x, self->num_points * sizeof *x);
     memset(self->padded + self->num_points, 0,

@@ -1,10 +1,10 @@
 /* What kernel systems are made of. Private to the files kernel_*.c. */
-#ifndef PS_RULES_KERNEL_PRIVATE_H
-#define PS_RULES_KERNEL_PRIVATE_H
+#ifndef PS_RULES_KERNEL_KERNEL_PRIVATE_H
+#define PS_RULES_KERNEL_KERNEL_PRIVATE_H
 
-#include "engines/pairs/pairs_product.h"
-#include "rules/kernel_factor.h"
-#include "rules/kernel_system.h"
+#include "rules/kernel/kernel_product.h"
+#include "rules/kernel/kernel_factor.h"
+#include "rules/kernel/kernel_system.h"
 
 /* Arrays of N doubles: solution and residual; then numbers in two parts, or the three of conjugate
  * gradients. */
@@ -22,7 +22,7 @@ struct ps_kernel_system {
     double norm;  /* of K, the 1-norm */
     /* of conjugate gradients */
     ps_kernel_factor factor;
-    ps_pairs_product *product; /* NULL: on the host */
+    ps_kernel_product *product; /* NULL: on the host */
     ps_kernel_options options;
     ps_kernel_facts facts;
 };

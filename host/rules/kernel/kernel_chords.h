@@ -6,13 +6,13 @@
  * about 1e-15 in double precision, 1e-7 in single (tests/engines/pairs/test_pairs.c). Scales of the
  * batch are not looked at. Memory for the whole batch is allocated and freed.
  */
-#ifndef PS_ENGINES_PAIRS_PAIRS_CHORDS_H
-#define PS_ENGINES_PAIRS_PAIRS_CHORDS_H
+#ifndef PS_RULES_KERNEL_KERNEL_CHORDS_H
+#define PS_RULES_KERNEL_KERNEL_CHORDS_H
 
 #include "engines/engine.h"
 
-pspec_status ps_pairs_chord_sums(ps_device *device, ps_precision precision, double power,
-                                 const ps_batch *batch, double *sums,
-                                 ps_error *error) PS_MUST_CHECK;
+pspec_status ps_kernel_chord_sums(ps_device *device, ps_precision precision, double power,
+                                  const ps_batch *batch, double *sums,
+                                  ps_error *error) PS_MUST_CHECK;
 
 #endif

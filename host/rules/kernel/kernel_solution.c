@@ -1,5 +1,5 @@
 /* Solutions of kernel systems and the interpolant that they make. */
-#include "rules/kernel_private.h"
+#include "rules/kernel/kernel_private.h"
 
 #include "base/memory.h"
 #include "base/workers.h"

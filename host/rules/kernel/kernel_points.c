@@ -1,5 +1,5 @@
 /* The points of kernel systems: duplicates, and those too near each other. */
-#include "rules/kernel_private.h"
+#include "rules/kernel/kernel_private.h"
 
 #include "base/memory.h"
 #include "math/sobolev.h"

@@ -3,7 +3,7 @@
 #include "harness.h"
 #include "harness_pairs.h"
 
-#include "engines/pairs/pairs_product.h"
+#include "rules/kernel/kernel_product.h"
 #include "math/sobolev.h"
 
 #include <math.h>
@@ -34,10 +34,10 @@ static void against_long_double(void **state) {
         double *x = make_vector(num, &size);
         double *out = calloc(num, sizeof *out);
         for (size_t p = 0; p < sizeof powers / sizeof powers[0]; p++) {
-            ps_pairs_product *product = NULL;
-            assert_ok(ps_pairs_product_create(&product, device, powers[p], num, points, error));
-            assert_ok(ps_pairs_product_apply(product, x, out, NULL, error));
-            ps_pairs_product_destroy(product);
+            ps_kernel_product *product = NULL;
+            assert_ok(ps_kernel_product_create(&product, device, powers[p], num, points, error));
+            assert_ok(ps_kernel_product_apply(product, x, out, NULL, error));
+            ps_kernel_product_destroy(product);
             for (size_t i = 0; i < num; i++) {
                 long double exact = 0;
                 for (size_t j = 0; j < num; j++) {
@@ -62,24 +62,24 @@ static void against_long_double(void **state) {
 static void segments(void **state) {
     enum { NUM = 4096 + 33 };
     const double s = 1.7;
-    ps_pairs_product *product = NULL;
+    ps_kernel_product *product = NULL;
     double size = 0;
     double *points = test_sphere_white_set(NUM, &seed);
     double *x = make_vector(NUM, &size);
     double *out = calloc(NUM, sizeof *out);
     double *again = calloc(NUM, sizeof *again);
     (void)state;
-    assert_ok(ps_pairs_product_create(&product, device, s - 1, NUM, points, error));
-    assert_ok(ps_pairs_product_apply(product, x, out, NULL, error));
+    assert_ok(ps_kernel_product_create(&product, device, s - 1, NUM, points, error));
+    assert_ok(ps_kernel_product_apply(product, x, out, NULL, error));
     ps_device_set_group_size(device, 5);
-    assert_ok(ps_pairs_product_apply(product, x, again, NULL, error));
+    assert_ok(ps_kernel_product_apply(product, x, again, NULL, error));
     ps_device_set_group_size(device, 0);
     assert_memory_equal(out, again, NUM * sizeof *out);
     for (size_t i = 0; i < NUM; i += 41) {
         const double expected = ps_sobolev_distance_sum(s, points + 3 * i, NUM, points, x);
         assert_true(fabs(out[i] - expected) <= 2e-15 * size);
     }
-    ps_pairs_product_destroy(product);
+    ps_kernel_product_destroy(product);
     free(points);
     free(x);
     free(out);
@@ -90,12 +90,12 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(against_long_double),
                                        cmocka_unit_test(segments)};
     device = test_open_device();
-    if (!ps_pairs_product_is_possible(device)) {
+    if (!ps_kernel_product_is_possible(device)) {
         print_message("no double precision: skipped\n");
         ps_device_close(device);
         return TEST_SKIPPED;
     }
-    const int failures = cmocka_run_group_tests_name("pairs_product", tests, NULL, NULL);
+    const int failures = cmocka_run_group_tests_name("kernel_product", tests, NULL, NULL);
     ps_device_close(device);
     return failures;
 }

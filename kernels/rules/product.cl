@@ -25,9 +25,9 @@
 #define BLOCK 8
 #endif
 
-__kernel void pairs_product(__global const real *restrict points, __global const real *restrict x,
-                            __global const real *restrict power, __global real *restrict partials,
-                            const ulong stride, const ulong segment) {
+__kernel void kernel_product(__global const real *restrict points, __global const real *restrict x,
+                             __global const real *restrict power, __global real *restrict partials,
+                             const ulong stride, const ulong segment) {
     const ulong vector = get_global_id(0);
     const size_t index = get_global_id(1);
     if (vector * LANES >= stride) {

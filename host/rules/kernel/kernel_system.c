@@ -1,4 +1,4 @@
-#include "rules/kernel_private.h"
+#include "rules/kernel/kernel_private.h"
 
 #include "base/memory.h"
 #include "math/linear/cholesky.h"
@@ -36,7 +36,7 @@ uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense) {
     const uint64_t rows = is_dense ? PS_KERNEL_DENSE_ROWS : PS_KERNEL_GRADIENT_ROWS;
     const uint64_t lists = num * ((3 + 1 + rows) * sizeof(double) + sizeof(size_t));
     return lists + (is_dense ? num * num * sizeof(double) + ps_cholesky_bytes(num_points)
-                             : ps_kernel_factor_bytes(num_points) + ps_pairs_product_bytes(num));
+                             : ps_kernel_factor_bytes(num_points) + ps_kernel_product_bytes(num));
 }
 
 bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit) {
@@ -117,7 +117,7 @@ void ps_kernel_system_destroy(ps_kernel_system *system) {
         free(system->matrix);
         free(system->rows);
         ps_kernel_factor_free(&system->factor);
-        ps_pairs_product_destroy(system->product);
+        ps_kernel_product_destroy(system->product);
         free(system);
     }
 }

@@ -7,8 +7,8 @@
  * the fly, on the device where there is one with double precision. Exact duplicates are one point:
  * K is singular with them.
  */
-#ifndef PS_RULES_KERNEL_SYSTEM_H
-#define PS_RULES_KERNEL_SYSTEM_H
+#ifndef PS_RULES_KERNEL_KERNEL_SYSTEM_H
+#define PS_RULES_KERNEL_KERNEL_SYSTEM_H
 
 #include "base/watch.h"
 #include "device/device.h"

@@ -1,6 +1,6 @@
 /* Kernel systems by conjugate gradients, with the matrix made on the fly, by a device or in
  * threads, and the sparse inverse of kernel_factor.h as preconditioner. */
-#include "rules/kernel_private.h"
+#include "rules/kernel/kernel_private.h"
 
 #include "base/memory.h"
 #include "base/pieces.h"
@@ -65,7 +65,7 @@ static pspec_status multiply(const ps_kernel_system *system, const double *x, do
     const double sum = system->constant * ps_kernel_dot(system->num, x, NULL);
     const ps_watch watch = {tell_step, (void *)system};
     if (system->product != NULL) {
-        PS_TRY(ps_pairs_product_apply(system->product, x, out, &watch, error));
+        PS_TRY(ps_kernel_product_apply(system->product, x, out, &watch, error));
     } else {
         rows_work work = {system, x, out};
         PS_TRY(ps_pieces_share(&watch, "rows of a product", system->num * system->num, system->num,
@@ -124,9 +124,10 @@ static pspec_status find_condition(ps_kernel_system *system, ps_error *error) {
 pspec_status ps_kernel_gradients_prepare(ps_kernel_system *system, ps_error *error) {
     PS_TRY(ps_kernel_factor_create(&system->factor, system->smoothness, system->num, system->points,
                                    system->options.watch, error));
-    if (ps_pairs_product_is_possible(system->options.device)) {
-        PS_TRY(ps_pairs_product_create(&system->product, system->options.device,
-                                       system->smoothness - 1, system->num, system->points, error));
+    if (ps_kernel_product_is_possible(system->options.device)) {
+        PS_TRY(ps_kernel_product_create(&system->product, system->options.device,
+                                        system->smoothness - 1, system->num, system->points,
+                                        error));
     }
     return find_condition(system, error);
 }

@@ -5,8 +5,8 @@
  * later ones are in between: every scale has its rows, which makes this work for kernels whose
  * inverse is nearly local (F. Schaefer, M. Katzfuss, H. Owhadi, 2021).
  */
-#ifndef PS_RULES_KERNEL_FACTOR_H
-#define PS_RULES_KERNEL_FACTOR_H
+#ifndef PS_RULES_KERNEL_KERNEL_FACTOR_H
+#define PS_RULES_KERNEL_KERNEL_FACTOR_H
 
 #include "base/watch.h"
 

@@ -1,5 +1,5 @@
 /* The kernel matrix in memory: filling it, its norm, and residuals. */
-#include "rules/kernel_private.h"
+#include "rules/kernel/kernel_private.h"
 
 #include "base/pieces.h"
 #include "base/wide.h"

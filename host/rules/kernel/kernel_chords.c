@@ -1,4 +1,4 @@
-#include "engines/pairs/pairs_chords.h"
+#include "rules/kernel/kernel_chords.h"
 
 #include "base/memory.h"
 #include "base/round.h"
@@ -37,8 +37,8 @@ static pspec_status create_kernel(chords *self, double power, ps_error *error) {
     ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u -DROOT=%d",
                    8 * ps_real_bytes(self->precision), self->lanes, power == root);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "pairs/chords.cl",
-                                        "pairs_chords", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "rules/chords.cl",
+                                        "kernel_chords", ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
@@ -89,8 +89,8 @@ static pspec_status sum_up(chords *self, double power, const ps_batch *batch, do
     return PSPEC_OK;
 }
 
-pspec_status ps_pairs_chord_sums(ps_device *device, ps_precision precision, double power,
-                                 const ps_batch *batch, double *sums, ps_error *error) {
+pspec_status ps_kernel_chord_sums(ps_device *device, ps_precision precision, double power,
+                                  const ps_batch *batch, double *sums, ps_error *error) {
     chords self = {.device = device,
                    .precision = precision,
                    .lanes = ps_engine_lanes(ps_device_get_limits(device), precision),
