@@ -10,6 +10,9 @@ rooms=(
     scene scene/run commands api cli cli/commands
 )
 
+# A room's table names what is in its folders, which are rooms above it: these sources alone look up.
+tables=(answers/kinds.c engines/engines.c samplers/samplers.c)
+
 declare -A rank=()
 for i in "${!rooms[@]}"; do
     rank[${rooms[i]}]=$i

@@ -3,7 +3,7 @@
  * An engine turns batches of point sets into rows of powers, one row per realization, one slot per
  * frequency or degree (plus padding). It says when it applies, what it costs in work and memory and
  * how exact it is; the planner (host/plan) compares. Costs are counts of work: turning them into
- * seconds is the cost model's business. A new engine is a new file and a row in engines/table.c.
+ * seconds is the cost model's business. A new engine is a new file and a row in engines/engines.c.
  */
 #ifndef PS_ENGINES_ENGINE_H
 #define PS_ENGINES_ENGINE_H

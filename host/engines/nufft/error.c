@@ -3,7 +3,7 @@
  * tests/engines/torus/test_tolerance_sweep.c and tests/engines/torus/test_tolerance_regular.c. */
 #include "engines/nufft/error.h"
 
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 
 #include <math.h>
 

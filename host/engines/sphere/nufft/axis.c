@@ -2,7 +2,7 @@
  * tolerance. */
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
 
 #include <math.h>

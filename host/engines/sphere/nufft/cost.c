@@ -2,7 +2,7 @@
 #include "engines/nufft/cycles.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
 
 #include <math.h>

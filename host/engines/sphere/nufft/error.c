@@ -1,7 +1,7 @@
 /* The error formula of sphere_nufft and sphere_grid: docs/engines/sphere_nufft.md has the reasons.
  * All errors are in units of the root of sum w^2; constants were measured, and are held, by
  * tests/engines/sphere/test_sphere_nufft_sweep.c. */
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
 #include "math/pi.h"
 

@@ -6,7 +6,7 @@
 #define PS_ENGINES_SPHERE_NUFFT_GRID_STAGES_H
 
 #include "engines/sphere/nufft/grid_table.h"
-#include "engines/sphere/nufft/points.h"
+#include "engines/sphere/nufft/places.h"
 #include "engines/sphere/nufft/sphere_powers.h"
 #include "engines/sphere/nufft/tables.h"
 

@@ -4,7 +4,7 @@
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 
 #include <math.h>
 

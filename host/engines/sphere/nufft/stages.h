@@ -4,7 +4,7 @@
 #ifndef PS_ENGINES_SPHERE_NUFFT_STAGES_H
 #define PS_ENGINES_SPHERE_NUFFT_STAGES_H
 
-#include "engines/sphere/nufft/points.h"
+#include "engines/sphere/nufft/places.h"
 #include "engines/sphere/nufft/sphere_powers.h"
 #include "engines/sphere/nufft/tables.h"
 

@@ -2,7 +2,7 @@
 #ifndef PS_ENGINES_SPHERE_NUFFT_TABLES_H
 #define PS_ENGINES_SPHERE_NUFFT_TABLES_H
 
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
 #include "sphere/nufft/numbers.h"
 

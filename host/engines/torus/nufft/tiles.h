@@ -5,7 +5,7 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_TILES_H
 #define PS_ENGINES_TORUS_NUFFT_TILES_H
 
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/torus/nufft/places.h"
 
 typedef struct ps_nufft_tiles {

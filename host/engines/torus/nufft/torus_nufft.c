@@ -7,7 +7,7 @@
 #include "engines/nufft/choose.h"
 #include "engines/nufft/cost.h"
 #include "engines/nufft/error.h"
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/torus/nufft/variants.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_WHOLE_H
 #define PS_ENGINES_TORUS_NUFFT_WHOLE_H
 
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/torus_points.h"
 

@@ -1,4 +1,4 @@
-#include "engines/sphere/nufft/points.h"
+#include "engines/sphere/nufft/places.h"
 
 #include "base/memory.h"
 #include "base/round.h"

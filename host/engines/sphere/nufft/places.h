@@ -1,7 +1,7 @@
 /* Directions on their way to the device, where they become places on a torus
  * (kernels/sphere/nufft/orders_turns.cl). */
-#ifndef PS_ENGINES_SPHERE_NUFFT_POINTS_H
-#define PS_ENGINES_SPHERE_NUFFT_POINTS_H
+#ifndef PS_ENGINES_SPHERE_NUFFT_PLACES_H
+#define PS_ENGINES_SPHERE_NUFFT_PLACES_H
 
 #include "engines/sphere/nufft/shape.h"
 

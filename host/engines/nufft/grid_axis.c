@@ -1,4 +1,4 @@
-#include "engines/nufft/plan.h"
+#include "engines/nufft/grid_axis.h"
 
 #include "base/memory.h"
 #include "device/reals.h"

@@ -1,7 +1,7 @@
 /* One axis of the fine grid on the device: its transform, its window as polynomials, what undoes
  * the window. */
-#ifndef PS_ENGINES_NUFFT_PLAN_H
-#define PS_ENGINES_NUFFT_PLAN_H
+#ifndef PS_ENGINES_NUFFT_GRID_AXIS_H
+#define PS_ENGINES_NUFFT_GRID_AXIS_H
 
 #include "engines/nufft/axis.h"
 #include "engines/nufft/fft.h"
