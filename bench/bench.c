@@ -107,6 +107,11 @@ void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision 
     ps_engine_slots(engine, job->state, own.frequencies->num, job->slots);
 }
 
+const char *bench_why_not(const ps_engine *engine, ps_precision precision,
+                          const ps_problem *problem, ps_device *device) {
+    return engine->survey(problem, ps_device_get_limits(device), precision).why_not;
+}
+
 void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
                       double tolerance, ps_device *device, ps_frequencies frequencies,
                       size_t num_points, size_t num_realizations) {

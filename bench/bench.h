@@ -45,6 +45,9 @@ typedef struct bench_job {
     uint32_t *slots;
 } bench_job;
 
+/* Why the engine cannot do it, or NULL. */
+const char *bench_why_not(const ps_engine *engine, ps_precision precision,
+                          const ps_problem *problem, ps_device *device);
 void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
                       double tolerance, ps_device *device, ps_frequencies frequencies,
                       size_t num_points, size_t num_realizations);

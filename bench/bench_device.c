@@ -110,8 +110,18 @@ static void run_engine(const char *text, const device_case *what, const ps_engin
     ps_rows rows = {0};
     double seconds[REPEATS];
     BENCH_TRY(ps_frequencies_lattice(&grid, what->dimension, what->k, false, error));
-    bench_job_create(&job, engine, what->precision, what->tolerance, device, grid, what->num_points,
-                     is_direct ? fewer(what) : what->num_realizations);
+    const ps_problem problem = {.frequencies = &grid,
+                                .num_points = what->num_points,
+                                .num_realizations =
+                                    is_direct ? fewer(what) : what->num_realizations,
+                                .tolerance = what->tolerance};
+    const char *const why_not = bench_why_not(engine, what->precision, &problem, device);
+    if (why_not != NULL) {
+        printf("# %s, %s: %s\n", text, engine->name, why_not);
+        ps_frequencies_free(&grid);
+        return;
+    }
+    bench_job_create_for(&job, engine, what->precision, &problem, device);
     bench_job_run(&job, &rows); /* builds kernels, touches memory */
     for (int i = 0; i < REPEATS; i++) {
         seconds[i] = bench_job_run(&job, &rows) / (double)job.num_realizations;

@@ -44,6 +44,18 @@ static bool parse_case(const char *text, bench_case *out) {
     return num >= 5;
 }
 
+static const char *why_not(const bench_case *what, ps_device *device) {
+    ps_frequencies grid = {0};
+    BENCH_TRY(ps_frequencies_lattice(&grid, what->dimension, what->k, false, error));
+    const ps_problem problem = {.frequencies = &grid,
+                                .num_points = what->num_points,
+                                .num_realizations = what->num_realizations,
+                                .tolerance = what->tolerance};
+    const char *const why = bench_why_not(&ps_torus_nufft, what->precision, &problem, device);
+    ps_frequencies_free(&grid);
+    return why;
+}
+
 static void create(bench_job *job, const ps_engine *engine, const bench_case *what,
                    size_t num_realizations, ps_device *device) {
     ps_frequencies grid = {0};
@@ -95,6 +107,10 @@ static void run_case(const char *text, ps_device *device) {
     double ratios[REPEATS];
     if (!parse_case(text, &what)) {
         bench_die(text);
+    }
+    if (why_not(&what, device) != NULL) {
+        printf("%-28s %s\n", text, why_not(&what, device));
+        return;
     }
     create(&fast, &ps_torus_nufft, &what, what.num_realizations, device);
     create(&direct, &ps_torus_direct, &what, fewer(&what), device);

@@ -13,6 +13,7 @@ import numpy
 
 REPEATS = 5
 MOST_SETS = 64  # realizations that differ; more of them use the same points again
+MOST_REALIZATIONS = 1024  # of a case; each is a call, and takes as long as any other
 SAMPLES = 64
 
 
@@ -25,6 +26,7 @@ def run_case(line):
     words = line.split()
     dimension, num, reach, realizations = (int(word) for word in words[:4])
     real, kind = {"single": ("float32", "complex64"), "double": ("float64", "complex128")}[words[5]]
+    realizations = min(realizations, MOST_REALIZATIONS)
     random = numpy.random.default_rng(1)
     points = random.random((min(realizations, MOST_SETS), num, dimension))
     centred = numpy.ascontiguousarray(

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # kernel_tests.sh list BUILD: names of the tests labelled kernel in that build folder, one per line; none is an error.
-# kernel_tests.sh run BUILD LOG: runs them one after the other. Fails when one fails, is skipped or was not built:
+# kernel_tests.sh run BUILD LOG: runs them JOBS (default 2) at a time. Fails when one fails, is skipped or was not built:
 # a machine that is asked for its kernels must not be taken for one whose kernels are right.
 set -euo pipefail
 what=$1 build=$2
@@ -16,7 +16,7 @@ list() {
 run() { # LOG
     local log=$1 num passed
     num=$(list | wc -l)
-    ctest --test-dir "$build" -L '^kernel$' --output-on-failure >"$log" 2>&1 || true
+    ctest --test-dir "$build" -L '^kernel$' --parallel "${JOBS:-2}" --output-on-failure >"$log" 2>&1 || true
     passed=$(grep -cE '^ *[0-9]+/[0-9]+ Test +#[0-9]+: .* Passed ' "$log" || true)
     echo "kernel tests: $passed of $num ran and passed"
     ((passed == num)) && return

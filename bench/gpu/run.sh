@@ -3,8 +3,9 @@
 # and a compiler, with the packages of build/carry (bench/gpu/carry.sh) and no network; runs the tests of the
 # kernels, bench_nufft, bench_torus and bench_device, prints one table (bench/bench_device.c says what its
 # columns are), and leaves everything in OUT (default build/gpu). Without such a GPU it takes the
-# device that there is, or POINTSPEC_DEVICE. --quick: three small cases. The exit code is 1 when a test of the
-# kernels did not run or did not pass; what can be measured is measured first.
+# device that there is, or POINTSPEC_DEVICE. --quick: three small cases. A benchmark that runs longer than
+# PATIENCE seconds (default 600) is ended with the rows that it has. The exit code is 1 when a test of the kernels
+# did not run or did not pass, or a benchmark failed; all that can be measured is measured first.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."
@@ -99,39 +100,74 @@ test_kernels() {
     "$here/kernel_tests.sh" run build/dev "$out/tests.txt" >&2
 }
 
-# cuFINUFFT on the cases of the table, where its wheel was carried and loads.
+# Lines go out one by one, so that what was measured before an end is kept.
+measure() { # NAME COMMAND...
+    local name=$1 code=0
+    timeout "$patience" stdbuf -oL "${@:2}" >>"$out/$name.txt" 2>>"$out/$name.errors.txt" || code=$?
+    ((code == 0)) && return
+    say "$name ended with $code: $(tail -n 1 "$out/$name.errors.txt")"
+    ((code == 124)) || failed=1
+}
+
+# cuFINUFFT on the cases of the table, where its wheel, or its package built for the CUDA there, was carried.
 run_peer() {
-    local wheel
+    local wheel libraries
     [[ -d $carry/python ]] || return 0
     wheel=$(find "$carry/python" -name 'cufinufft-*.whl' -print -quit)
-    python3 -m zipfile -e "$wheel" "$unpacked/python"
+    if [[ -n $wheel ]]; then python3 -m zipfile -e "$wheel" "$unpacked/python"; fi
+    libraries=$(find /usr /opt -name 'libcufft.so.*' -printf '%h\n' 2>/dev/null | sort -u | paste -sd:)
     awk '!/^#/ && NR > 3 && !seen[$1 FS $2 FS $3 FS $5]++ { print $1, $2, $3, $8, $5, $6 }' "$out/table.txt" |
-        PYTHONPATH=$unpacked/python python3 "$here/cufinufft_cases.py" >"$out/peer.txt" 2>"$out/peer_errors.txt" ||
+        PYTHONPATH=$unpacked/python:$carry/python LD_LIBRARY_PATH=$LD_LIBRARY_PATH:$libraries \
+            timeout "$patience" python3 "$here/cufinufft_cases.py" >"$out/peer.txt" 2>"$out/peer_errors.txt" ||
         echo "# no cufinufft: $(tail -n 1 "$out/peer_errors.txt")" >>"$out/peer.txt"
     cat "$out/peer.txt" >>"$out/table.txt"
+}
+
+# Where the time of a job goes, by kernels.
+profiles=(
+    "power --sampler white -n 256 -k 32 -m 200000" "power --sampler white -n 4096 -k 256 -m 2000"
+    "power --sampler white -n 1e7 -k 1024" "power --sampler white -d 3 -n 1e6 -k 64 -m 4"
+    "power --sampler white -d 1 -n 65536 -k 32768 -m 200" "power --sampler white -n 1024 -k 64 -m 4000 --tol 1e-9"
+    "angular --sampler white-sphere -n 1024 -l 64 -m 20000" "angular --sampler white-sphere -n 4096 -l 256 -m 1000"
+    "angular --sampler white-sphere -n 1e6 -l 1000" "pairs --sampler white-sphere -n 4096 -l 256 -m 100"
+    "quadrature --brdf glossy:n=30 --sampler white-hemisphere -n 1024 -m 2000"
+    "variance --integrand disk --sampler white -n 1024 -m 1000")
+profile() {
+    local each
+    for each in "${profiles[@]}"; do
+        echo "## $each" | tee -a "$out/profile.errors.txt" >>"$out/profile.txt"
+        # shellcheck disable=SC2086 # words of a command
+        measure profile build/release/pointspec $each --seed 1 --profile -o /dev/null
+    done
 }
 
 use_libraries
 use_cmake
 use_driver
 options=()
+patience=${PATIENCE:-600}
 [[ ! -d $unpacked/libraries ]] || options=(-DPOINTSPEC_WERROR=OFF) # another compiler, other warnings
 # Kernels are compiled once for tests, benchmarks and other presets, by drivers that keep them here.
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-$PWD/build/pocl-cache}
-: >"$out/build.txt"
-if ! configure release || ! build release --target bench_device bench_nufft bench_torus; then
+rm -f "$out"/*.txt
+if ! configure release || ! build release --target pointspec_program bench_device bench_nufft bench_torus; then
     tail -n 20 "$out/build.txt" >&2
     exit 1
 fi
 nvidia-smi -L 2>/dev/null >"$out/device.txt" || true
 clinfo -l >>"$out/device.txt" 2>&1 || true
 failed=0
+measure doctor build/release/pointspec doctor
 test_kernels || failed=1
 benches=build/release/bench
-"$benches/bench_device" "${cases[@]}" >"$out/table.txt"
+measure table "$benches/bench_device" "${cases[@]}"
 run_peer
-"$benches/bench_nufft" "${nufft_cases[@]}" >"$out/nufft.txt"
-"$benches/bench_nufft" "${large[@]}" | tail -n +2 >>"$out/nufft.txt"
-"$benches/bench_torus" "${torus_cases[@]}" >"$out/torus.txt"
+measure nufft "$benches/bench_nufft" "${nufft_cases[@]}"
+measure large "$benches/bench_nufft" "${large[@]}"
+measure torus "$benches/bench_torus" "${torus_cases[@]}"
+if [[ ${1-} != --quick ]]; then
+    profile
+    measure stress build/release/pointspec stress --quick
+fi
 cat "$out/table.txt"
 exit $failed

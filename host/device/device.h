@@ -172,6 +172,10 @@ ps_range ps_range_light(const ps_device *device, size_t first, size_t second, si
  * changes in between. */
 bool ps_range_is_alone(const ps_device *device);
 ps_range ps_range_alone(size_t second, size_t third, double flops, double bytes);
+/* Work-groups of `wanted` items, or as many as there may be, which share local memory: (1, second,
+ * third) of them. Their kernels serve any number of items. */
+ps_range ps_range_shared(const ps_device *device, size_t wanted, size_t second, size_t third,
+                         double flops, double bytes);
 /* Work-items in a light work-group, and in a heavy one on devices with local memory of their own; 0
  * restores the default. Results do not depend on it (that is what the tests use it for). */
 void ps_device_set_group_size(ps_device *device, size_t group_size);

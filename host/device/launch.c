@@ -56,6 +56,14 @@ ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, si
     return make_range(group, first, second, third, flops, bytes);
 }
 
+ps_range ps_range_shared(const ps_device *device, size_t wanted, size_t second, size_t third,
+                         double flops, double bytes) {
+    const size_t most = device->limits.max_work_group_size;
+    const size_t fitting = wanted < most ? wanted : most;
+    return make_range(device->group_size > 0 ? light_group_size(device) : fitting, 1, second, third,
+                      flops, bytes);
+}
+
 static pspec_status set_arguments(cl_kernel kernel, const ps_argument *arguments,
                                   size_t num_arguments, size_t *local_bytes, ps_error *error) {
     cl_uint expected = 0;

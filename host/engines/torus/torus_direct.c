@@ -8,6 +8,7 @@
 #include "engines/torus/torus_layout.h"
 #include "engines/torus/torus_coefficients.h"
 #include "engines/torus/torus_points.h"
+#include "engines/torus/torus_product.h"
 #include "engines/torus/torus_split.h"
 #include "engines/torus/torus_sums.h"
 #include "math/pi.h"
@@ -26,8 +27,8 @@ typedef struct torus_direct {
     ps_split split; /* grids only */
     ps_torus_points points;
     ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
-    cl_kernel product;
-    ps_buffer pairs, products, scales, power;
+    ps_torus_product product; /* grids only */
+    ps_buffer scales, power;
 } torus_direct;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
@@ -141,36 +142,10 @@ static void destroy(void *state) {
     ps_split_free(&self->split);
     ps_torus_points_free(&self->points);
     ps_torus_sums_free(&self->sums);
-    if (self->product != NULL) {
-        clReleaseKernel(self->product);
-    }
-    ps_buffer_release(&self->pairs);
-    ps_buffer_release(&self->products);
+    ps_torus_product_free(&self->product);
     ps_buffer_release(&self->scales);
     ps_buffer_release(&self->power);
     free(self);
-}
-
-static pspec_status create_product(torus_direct *self, ps_error *error) {
-    ps_text options = {0};
-    const unsigned lanes = self->layout.lanes;
-    const ps_split *split = &self->split;
-    ps_torus_options(&options, &self->layout, self->frequencies->dimension);
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_create(self->device, &self->product, "torus/product.cl", "torus_product",
-                                  ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    PS_TRY(status);
-    PS_TRY(ps_buffer_create(self->device, &self->pairs, split->num_pairs * sizeof *split->pairs,
-                            "tile pairs", error));
-    PS_TRY(ps_buffer_write(self->device, &self->pairs, 0, split->pairs,
-                           split->num_pairs * sizeof *split->pairs, error));
-    return ps_buffer_create(self->device, &self->products,
-                            self->layout.group * split->num_pairs * lanes * 8 * lanes *
-                                self->layout.real_bytes,
-                            "sums of products", error);
 }
 
 /* Left and right factors in one list; the left ones fill whole tiles, padded with zeros. */
@@ -195,7 +170,7 @@ static pspec_status create_grid(torus_direct *self, ps_error *error) {
     PS_TRY(ps_split_create(&self->split, self->frequencies, self->layout.lanes, error));
     PS_TRY(create_factor_sums(self, error));
     self->stride = ps_split_stride(&self->split);
-    return create_product(self, error);
+    return ps_torus_product_create(&self->product, &self->layout, &self->split, self->device, error);
 }
 
 static pspec_status create_list(torus_direct *self, ps_error *error) {
@@ -270,24 +245,21 @@ typedef struct slab_place {
 
 static pspec_status multiply(torus_direct *self, const slab_place *at, size_t num_points,
                              ps_error *error) {
-    const ps_split *split = &self->split;
-    const double lanes = self->layout.lanes;
-    const double products = (double)num_points * (double)split->num_pairs * lanes * lanes;
-    const double tables = (double)num_points * lanes * (double)self->sums.num_tiles * 2;
-    const ps_range range = ps_range_heavy(self->device, split->num_pairs, at->num_patterns, 1,
-                                          8 * products, tables * (double)self->layout.real_bytes);
-    const product_numbers numbers = {.num_pairs = split->num_pairs,
+    const product_numbers numbers = {.num_pairs = self->split.num_pairs,
                                      .num_tiles = self->sums.num_tiles,
-                                     .num_left_tiles = split->left.num_tiles,
+                                     .num_left_tiles = self->split.left.num_tiles,
                                      .table_points = self->layout.table_points,
                                      .first_row = at->first_row,
                                      .stride = self->stride,
                                      .is_first = at->first_point == 0,
                                      .is_last = at->is_last};
-    return PS_LAUNCH(self->device, self->product, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->sums.table), PS_BUFFER(self->points.offsets),
-                     PS_BUFFER(self->pairs), PS_BUFFER(self->products), PS_BUFFER(self->scales),
-                     PS_BUFFER(self->power));
+    const ps_torus_factors factors = {.table = &self->sums.table,
+                                      .offsets = &self->points.offsets,
+                                      .scales = &self->scales,
+                                      .num_patterns = at->num_patterns,
+                                      .num_points = num_points};
+    return ps_torus_product_add(&self->product, &numbers, &factors, &self->power, self->device,
+                                error);
 }
 
 static pspec_status add_slab(torus_direct *self, const ps_batch *group, const slab_place *at,
@@ -356,7 +328,7 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
     PS_TRY(run(state, &batch, rows != NULL ? rows : &unused, error));
     const ps_torus_finished finished = {.frequencies = self->frequencies,
                                         .split = self->layout.is_grid ? &self->split : NULL,
-                                        .products = &self->products,
+                                        .products = &self->product.sums,
                                         .sums = &self->sums,
                                         .precision = self->precision,
                                         .exponent = one->exponents != NULL ? one->exponents[0] : 0};

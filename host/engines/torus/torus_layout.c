@@ -4,6 +4,7 @@
 #include "device/kind.h"
 #include "device/reals.h"
 #include "engines/torus/torus_split.h"
+#include "torus/product.h"
 
 /* Share of a CPU's cache that the tables of a group of realizations, one slab of each, may take
  * with their sums: flat optimum around 1/2 of a 32 MB L3 (Zen 5, 2 cores, PoCL 3.1, 2026-11,
@@ -86,6 +87,19 @@ static uint64_t largest(const uint64_t *numbers, size_t num) {
     return found;
 }
 
+size_t ps_torus_shared_bytes(const ps_torus_layout *layout) {
+    const size_t row = (BLOCK_TILES + 1) * layout->lanes * layout->real_bytes;
+    return 2 * 2 * PS_TORUS_RUN * row; /* sides, cosines and sines */
+}
+
+/* Where tile pairs stand, and blocks of them (torus_product.c). */
+static uint64_t pair_bytes(const ps_torus_layout *layout) {
+    enum { NUMBERS = 2 };
+    const uint64_t block = BLOCK_TILES * BLOCK_TILES + NUMBERS;
+    return (layout->is_shared ? layout->max_blocks * block : layout->max_pairs * NUMBERS) *
+           sizeof(uint32_t);
+}
+
 static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
@@ -101,7 +115,7 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     layout->point_bytes = point_bytes(layout, dimension);
     layout->fixed_bytes =
         layout->group * (group_member_bytes(layout, dimension) - 2 * layout->point_bytes) +
-        tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t);
+        tiles * dimension * row + pair_bytes(layout);
     layout->largest_buffer = layout->group * largest(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
@@ -122,6 +136,11 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
     layout.max_pairs = layout.left_tiles * layout.right_tiles;
     layout.max_stride = layout.max_pairs * 2 * layout.lanes * layout.lanes +
                         (layout.left_tiles + layout.right_tiles) * layout.lanes;
+    layout.max_blocks = ps_divide_up(layout.left_tiles, BLOCK_TILES) *
+                        ps_divide_up(layout.right_tiles, BLOCK_TILES);
+    layout.is_shared = layout.is_grid && limits->has_dedicated_local_memory &&
+                       layout.lanes % PRODUCT_STRIP == 0 &&
+                       ps_torus_shared_bytes(&layout) <= limits->local_bytes;
     choose_slab(&layout, problem, limits);
     choose_group(&layout, problem, limits);
     count_bytes(&layout, set->dimension);

@@ -16,10 +16,12 @@ typedef struct ps_torus_layout {
     unsigned lanes;
     size_t real_bytes;
     bool is_grid;
+    bool is_shared; /* products by work-groups that share tables (kernels/torus/product_shared.cl) */
     unsigned left_axes;             /* of a grid, see torus_split.h */
     size_t num_left, num_right;     /* frequencies; a list is all left */
     size_t left_tiles, right_tiles; /* of `lanes` frequencies */
     size_t max_pairs;               /* tile pairs, before those nobody needs are dropped */
+    size_t max_blocks;              /* of them, likewise; with shared tables alone */
     size_t max_stride;              /* powers in a row, likewise */
     size_t group;        /* realizations whose tables are made and multiplied at a time */
     size_t slab;         /* points of each realization at a time, a multiple of chunks */
@@ -30,6 +32,9 @@ typedef struct ps_torus_layout {
     uint64_t largest_buffer; /* of those that do not depend on the batch */
     uint64_t largest_buffer_per_realization; /* of the others */
 } ps_torus_layout;
+
+/* Local memory of a work-group that shares tables: a run of both sides. */
+size_t ps_torus_shared_bytes(const ps_torus_layout *layout);
 
 /* Enumerates no frequencies, and so is cheap for planning. */
 ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
