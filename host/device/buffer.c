@@ -128,6 +128,10 @@ void ps_device_set_unified_memory(ps_device *device, bool is_wanted) {
     device->limits.has_unified_memory = is_wanted && device->own_unified_memory;
 }
 
+void ps_device_set_dedicated_local_memory(ps_device *device, bool is_wanted) {
+    device->limits.has_dedicated_local_memory = is_wanted || device->own_dedicated_local_memory;
+}
+
 void ps_device_set_max_allocation(ps_device *device, uint64_t bytes) {
     const bool is_smaller = bytes > 0 && bytes < device->own_max_allocation;
     device->limits.max_allocation_bytes = is_smaller ? bytes : device->own_max_allocation;

@@ -137,6 +137,9 @@ static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_er
     limits->max_allocation_bytes =
         query_number(&ask, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
     limits->local_bytes = query_number(&ask, CL_DEVICE_LOCAL_MEM_SIZE, sizeof(cl_ulong));
+    if (limits->has_dedicated_local_memory && limits->local_bytes > PS_DRIVERS_LOCAL_BYTES) {
+        limits->local_bytes -= PS_DRIVERS_LOCAL_BYTES;
+    }
     limits->cache_bytes = query_number(&ask, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, sizeof(cl_ulong));
     return ask.status;
 }
@@ -274,6 +277,7 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     device->own_max_allocation = limits[index].max_allocation_bytes;
     device->own_local_bytes = limits[index].local_bytes;
     device->own_unified_memory = limits[index].has_unified_memory;
+    device->own_dedicated_local_memory = limits[index].has_dedicated_local_memory;
     return PSPEC_OK;
 }
 

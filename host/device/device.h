@@ -121,6 +121,10 @@ uint64_t ps_device_most_buffer_bytes(const ps_device *device);
  * depend on it. */
 void ps_device_set_unified_memory(ps_device *device, bool is_wanted);
 
+/* Whether local memory is taken to be of its own, as GPUs have it, even where it is not. For tests:
+ * results stay within their bounds, with the work-groups and variants of GPUs. */
+void ps_device_set_dedicated_local_memory(ps_device *device, bool is_wanted);
+
 /* The largest allocation from now on, at most what the device allows; 0 restores that. For tests,
  * too: results do not depend on it. */
 void ps_device_set_max_allocation(ps_device *device, uint64_t bytes);

@@ -12,13 +12,18 @@ typedef struct ps_built_program {
     cl_program program;
 } ps_built_program;
 
+/* Local memory of its own that a driver may count beside what kernels ask for: 4 bytes by NVIDIA's
+ * 580 (H100). Limits leave it out. */
+enum { PS_DRIVERS_LOCAL_BYTES = 64 };
+
 enum { PS_PROFILE_ROWS = 64 }; /* more kernels than the product has; further ones are not counted */
 
 struct ps_device {
     ps_device_limits limits;
-    uint64_t own_max_allocation; /* see ps_device_set_max_allocation */
-    uint64_t own_local_bytes;    /* see ps_device_set_local_bytes */
-    bool own_unified_memory;     /* see ps_device_set_unified_memory */
+    uint64_t own_max_allocation;     /* see ps_device_set_max_allocation */
+    uint64_t own_local_bytes;        /* see ps_device_set_local_bytes */
+    bool own_unified_memory;         /* see ps_device_set_unified_memory */
+    bool own_dedicated_local_memory; /* see ps_device_set_dedicated_local_memory */
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;

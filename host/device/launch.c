@@ -102,7 +102,9 @@ static pspec_status check_limits(const ps_device *device, cl_kernel kernel, cons
                        group, kernel_limit, device->limits.name);
     }
     /* Drivers may or may not count the pointer arguments already; the larger reading is safe. */
-    const uint64_t needed = local_bytes > kernel_local_bytes ? local_bytes : kernel_local_bytes;
+    const uint64_t own = device->limits.has_dedicated_local_memory ? PS_DRIVERS_LOCAL_BYTES : 0;
+    const uint64_t counted = kernel_local_bytes > own ? kernel_local_bytes - own : 0;
+    const uint64_t needed = local_bytes > counted ? local_bytes : counted;
     if (needed > device->limits.local_bytes) {
         return ps_fail(error, PSPEC_ERROR_DEVICE,
                        "a launch needs %llu bytes of local memory, device \"%s\" has %llu",

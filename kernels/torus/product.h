@@ -4,13 +4,13 @@
 
 #include "shared/fixed.h"
 
-/* Left and right tiles of a block of torus/product_shared.cl: with 4 lanes 32 frequencies of either side, for
- * which the tables are read once. NO_PAIR: nobody needs these two tiles. */
+/* Left and right tiles of a block of torus/product_shared.cl: with 4 lanes 32 frequencies of either
+ * side, for which the tables are read once. NO_PAIR: nobody needs these two tiles. */
 #define BLOCK_TILES 8
 #define NO_PAIR 0xffffffffu
 
-/* Left frequencies of a work-item there: 8 vectors of sums, and twice as many of what pairs have so far, are 96
- * registers in single precision. */
+/* Left frequencies of a work-item there: 8 vectors of sums, and twice as many of what pairs have so
+ * far, are 96 registers in single precision. */
 #define PRODUCT_STRIP 2
 
 typedef struct product_numbers {

@@ -8,12 +8,16 @@
  *
  * Launch: (work-items of one group, blocks, realizations).
  *
- *   numbers, table, offsets, sums, scales, power  of torus/product.cl; every sum is begun anew when is_first is set,
- *            and powers are written when is_last is set
+ *   numbers, table, offsets, sums, scales, power
+ *            of torus/product.cl; every sum is begun anew when is_first is set, and powers are
+ *            written when is_last is set
  *   blocks   [block]: first left tile, first right tile
  *   pairs    [block][left in block][right in block]: the pair, or NO_PAIR
  *   runs     local, [RUN][cos, sin][ROW] of left tiles, then of right tiles
  */
+#ifndef LANES
+#define LANES 4 /* whole strips */
+#endif
 #include "shared/real.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
@@ -29,7 +33,8 @@ typedef PS_JOIN(REAL, 2) strip_real;
 /* Vectors of a side, and one more: work-items that write neighbouring rows use other banks. */
 #define ROW (BLOCK_TILES + 1)
 
-/* Points first .. first + num - 1 of tiles first_tile .. of one side; zeros of those behind end_tile. */
+/* Points first .. first + num - 1 of tiles first_tile .. of one side; zeros of those behind
+ * end_tile. */
 static inline void load_side(__local realv *to, __global const realv *table, const uint first_tile,
                              const uint end_tile, const ulong table_points, const ulong first,
                              const uint num) {
@@ -43,8 +48,9 @@ static inline void load_side(__local realv *to, __global const realv *table, con
 }
 
 /* Adds a run of num points. left: of the strip; right: of the tile. */
-static inline void add_run(realv high[STRIP][4], realv low[STRIP][4], __local const strip_real *left,
-                           __local const realv *right, const uint num) {
+static inline void add_run(realv high[STRIP][4], realv low[STRIP][4],
+                           __local const strip_real *left, __local const realv *right,
+                           const uint num) {
     realv sum[STRIP][4];
 #pragma unroll
     for (int i = 0; i < STRIP; i++) {
@@ -71,11 +77,12 @@ static inline void add_run(realv high[STRIP][4], realv low[STRIP][4], __local co
     }
 }
 
-__kernel void torus_product_shared(
-    const product_numbers numbers, __global const realv *restrict table,
-    __global const ulong *restrict offsets, __global const uint2 *restrict blocks,
-    __global const uint *restrict pairs, __global real *restrict sums,
-    __global const real *restrict scales, __global real *restrict power, __local realv *runs) {
+__kernel void
+torus_product_shared(const product_numbers numbers, __global const realv *restrict table,
+                     __global const ulong *restrict offsets, __global const uint2 *restrict blocks,
+                     __global const uint *restrict pairs, __global real *restrict sums,
+                     __global const real *restrict scales, __global real *restrict power,
+                     __local realv *runs) {
     const size_t block = get_global_id(1), realization = get_global_id(2);
     const ulong count = offsets[realization + 1] - offsets[realization];
     const uint num_left_tiles = (uint)numbers.num_left_tiles, num_tiles = (uint)numbers.num_tiles;
@@ -90,7 +97,8 @@ __kernel void torus_product_shared(
         const bool is_own = pair != NO_PAIR && first_job + get_local_id(0) < JOBS;
         const bool is_new = numbers.is_first || !is_own;
         const size_t left = pair * (size_t)LANES + strip % STRIPS * STRIP; /* of all pairs */
-        __global real *own_sums = sums + (realization * numbers.num_pairs * LANES + left) * 8 * LANES;
+        __global real *own_sums =
+            sums + (realization * numbers.num_pairs * LANES + left) * 8 * LANES;
         realv high[STRIP][4], low[STRIP][4];
 #pragma unroll
         for (int i = 0; i < STRIP * 4; i++) {

@@ -102,15 +102,13 @@ static ps_problem make_problem(const contract_way *way) {
     return ps_engine_problem(way->engine, &asked);
 }
 
-/* Is it the variant that the case is there for? */
+/* Is it the variant that the case is there for? (GPUs may be given another.) */
 static bool is_meant(const contract_way *way) {
+    const bool is_gpu = ps_device_get_limits(way->device)->has_dedicated_local_memory;
     void *state = NULL;
     ps_text text = {0};
-    if (way->what->says == NULL) {
-        return true;
-    }
-    if (way->engine != &ps_torus_nufft) {
-        return false;
+    if (way->what->says == NULL || way->engine != &ps_torus_nufft || is_gpu) {
+        return way->what->says == NULL || way->engine == &ps_torus_nufft;
     }
     assert_ok(way->engine->create(&state, &way->problem, way->precision, 1, way->device, error));
     way->engine->describe(state, &text);

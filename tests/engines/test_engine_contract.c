@@ -86,11 +86,15 @@ static void batches_change_no_bit(const contract_way *way) {
     free(expected);
 }
 
-/* (Not groups of fewer items than lanes, and none for grids: PoCL 3.1 gets them wrong,
- * docs/engines/torus_nufft.md.) */
+/* PoCL 3.1 gets groups of fewer items than lanes wrong, and all those for grids
+ * (docs/engines/torus_nufft.md). */
+static bool has_work_groups(const contract_way *way) {
+    return way->engine->needs_device && strstr(way->what->name, "grid of") == NULL;
+}
+
 static void work_groups_change_no_bit(const contract_way *way) {
     static const size_t groups[] = {32, 64};
-    if (!way->engine->needs_device || strstr(way->what->name, "grid of") != NULL) {
+    if (!has_work_groups(way)) {
         return;
     }
     double *const expected = run_all(way, CONTRACT_SETS);
@@ -351,6 +355,24 @@ static void keep_law(void **state) {
     assert_true(contract_walk(device, NULL, *law) > 0);
 }
 
+/* ---- as on GPUs -------------------------------------------------------------------------- */
+
+/* Engines with the vectors, work-groups and kernels that GPUs get keep the laws, too. */
+static void keep_laws_of_gpus(const contract_way *way) {
+    if (has_work_groups(way)) {
+        memory_is_announced(way);
+        errors_are_announced(way);
+        batches_change_no_bit(way);
+    }
+}
+
+static void layouts_of_gpus_keep_the_laws(void **state) {
+    (void)state;
+    ps_device_set_dedicated_local_memory(device, true);
+    assert_true(contract_walk(device, NULL, keep_laws_of_gpus) > 0);
+    ps_device_set_dedicated_local_memory(device, false);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_engine_in_every_precision),
@@ -364,6 +386,7 @@ int main(void) {
         LAW(blocks_change_no_bit),
         LAW(runs_stop),
         LAW(points_are_checked),
+        cmocka_unit_test(layouts_of_gpus_keep_the_laws),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("engine_contract", tests, NULL, NULL);

@@ -26,7 +26,7 @@ typedef struct torus_direct {
     size_t batch, stride;
     ps_split split; /* grids only */
     ps_torus_points points;
-    ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
+    ps_torus_sums sums;       /* of the list, or of the left and right factors of the grid */
     ps_torus_product product; /* grids only */
     ps_buffer scales, power;
 } torus_direct;
@@ -170,7 +170,8 @@ static pspec_status create_grid(torus_direct *self, ps_error *error) {
     PS_TRY(ps_split_create(&self->split, self->frequencies, self->layout.lanes, error));
     PS_TRY(create_factor_sums(self, error));
     self->stride = ps_split_stride(&self->split);
-    return ps_torus_product_create(&self->product, &self->layout, &self->split, self->device, error);
+    return ps_torus_product_create(&self->product, &self->layout, &self->split, self->device,
+                                   error);
 }
 
 static pspec_status create_list(torus_direct *self, ps_error *error) {

@@ -16,7 +16,7 @@ typedef struct ps_torus_layout {
     unsigned lanes;
     size_t real_bytes;
     bool is_grid;
-    bool is_shared; /* products by work-groups that share tables (kernels/torus/product_shared.cl) */
+    bool is_shared;                 /* products by kernels/torus/product_shared.cl */
     unsigned left_axes;             /* of a grid, see torus_split.h */
     size_t num_left, num_right;     /* frequencies; a list is all left */
     size_t left_tiles, right_tiles; /* of `lanes` frequencies */

@@ -6,7 +6,8 @@
 
 #include <stdlib.h>
 
-/* Work-items that share tables: half a block of two lanes of 4 each, so that a block is read once. */
+/* Work-items that share tables: as many as a block of vectors of 4 has strips times right tiles, so
+ * that its tables are read once. */
 enum { SHARING_ITEMS = 128 };
 
 static pspec_status upload(ps_device *device, ps_buffer *buffer, const void *data, size_t bytes,
@@ -76,11 +77,11 @@ static pspec_status create_kernel(ps_torus_product *self, const ps_torus_layout 
     ps_torus_options(&options, layout, dimension);
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(
-            device, &self->kernel,
-            layout->is_shared ? "torus/product_shared.cl" : "torus/product.cl",
-            layout->is_shared ? "torus_product_shared" : "torus_product",
-            ps_text_string(&options), error);
+        status =
+            ps_kernel_create(device, &self->kernel,
+                             layout->is_shared ? "torus/product_shared.cl" : "torus/product.cl",
+                             layout->is_shared ? "torus_product_shared" : "torus_product",
+                             ps_text_string(&options), error);
     }
     ps_text_free(&options);
     return status;
@@ -128,8 +129,8 @@ pspec_status ps_torus_product_add(ps_torus_product *self, const product_numbers 
             ps_range_heavy(device, numbers->num_pairs, factors->num_patterns, 1, flops, bytes);
         return PS_LAUNCH(device, self->kernel, &range, error, PS_STRUCT(*numbers),
                          PS_BUFFER(*factors->table), PS_BUFFER(*factors->offsets),
-                         PS_BUFFER(self->pairs), PS_BUFFER(self->sums),
-                         PS_BUFFER(*factors->scales), PS_BUFFER(*power));
+                         PS_BUFFER(self->pairs), PS_BUFFER(self->sums), PS_BUFFER(*factors->scales),
+                         PS_BUFFER(*power));
     }
     const ps_range range = ps_range_shared(device, SHARING_ITEMS, self->num_blocks,
                                            factors->num_patterns, flops, bytes);

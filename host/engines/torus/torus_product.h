@@ -1,5 +1,5 @@
-/* Products of the two tables of a grid on the device: tile pairs, each by one work-item, or blocks of
- * them by work-groups that share the tables. */
+/* Products of the two tables of a grid on the device: tile pairs, each by one work-item, or blocks
+ * of them by work-groups that share the tables. */
 #ifndef PS_ENGINES_TORUS_TORUS_PRODUCT_H
 #define PS_ENGINES_TORUS_TORUS_PRODUCT_H
 
