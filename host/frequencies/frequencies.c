@@ -5,6 +5,7 @@
 #include "math/pi.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,6 +206,43 @@ static void list_degrees(ps_frequencies *set) {
     }
 }
 
+/* Vectors with the number of sets that have them. */
+typedef struct ps_shared_vectors {
+    atomic_size_t num_owners;
+    int32_t vectors[];
+} ps_shared_vectors;
+
+static pspec_status create_shared(ps_frequencies *set, size_t num_components, ps_error *error) {
+    void *memory = NULL;
+    const size_t header = sizeof(ps_shared_vectors) / sizeof(int32_t);
+    PS_TRY(
+        ps_allocate(&memory, header + num_components, sizeof(int32_t), "the frequencies", error));
+    set->shared = memory;
+    set->vectors = set->shared->vectors;
+    atomic_init(&set->shared->num_owners, 1);
+    return PSPEC_OK;
+}
+
+static pspec_status copy_vectors(ps_frequencies *out, const ps_frequencies *original,
+                                 ps_error *error) {
+    const size_t num_components = original->num * ps_frequency_components(original);
+    if (original->shared != NULL) {
+        atomic_fetch_add(&original->shared->num_owners, 1);
+        return PSPEC_OK;
+    }
+    PS_TRY(PS_NEW(&out->vectors, num_components, "the frequencies", error));
+    memcpy(out->vectors, original->vectors, num_components * sizeof(int32_t));
+    return PSPEC_OK;
+}
+
+static void free_vectors(ps_frequencies *set) {
+    if (set->shared == NULL) {
+        free(set->vectors);
+    } else if (atomic_fetch_sub(&set->shared->num_owners, 1) == 1) {
+        free(set->shared);
+    }
+}
+
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) {
     size_t num_components = 0;
     if (frequencies->vectors != NULL) {
@@ -215,7 +253,7 @@ pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *err
     if (!ps_size_multiply(num, ps_frequency_components(frequencies), &num_components)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
     }
-    PS_TRY(PS_NEW(&frequencies->vectors, num_components, "the frequencies", error));
+    PS_TRY(create_shared(frequencies, num_components, error));
     frequencies->num = num;
     if (are_degrees) {
         list_degrees(frequencies);
@@ -234,15 +272,15 @@ static pspec_status copy_rings(ps_frequencies *out, const ps_frequencies *origin
 
 pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *original,
                                  ps_error *error) {
-    int32_t *vectors = NULL;
-    const size_t num_components = original->num * ps_frequency_components(original);
-    PS_TRY(PS_NEW(&vectors, num_components, "the frequencies", error));
-    memcpy(vectors, original->vectors, num_components * sizeof(int32_t));
     *out = *original;
-    out->vectors = vectors;
     out->rings = NULL;
-    const pspec_status status =
-        original->rings != NULL ? copy_rings(out, original, error) : PSPEC_OK;
+    if (original->shared == NULL) {
+        out->vectors = NULL;
+    }
+    pspec_status status = copy_vectors(out, original, error);
+    if (status == PSPEC_OK && original->rings != NULL) {
+        status = copy_rings(out, original, error);
+    }
     if (status != PSPEC_OK) {
         ps_frequencies_free(out);
     }
@@ -250,7 +288,7 @@ pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *orig
 }
 
 void ps_frequencies_free(ps_frequencies *frequencies) {
-    free(frequencies->vectors);
+    free_vectors(frequencies);
     free(frequencies->rings);
     *frequencies = (ps_frequencies){0};
 }

@@ -53,6 +53,7 @@ typedef struct ps_frequencies {
     size_t num;            /* exact but for balls that are not enumerated */
     /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
     int32_t *vectors;
+    struct ps_shared_vectors *shared; /* of enumerated sets: their copies have the same vectors */
     int32_t degree_step; /* from degree to degree: 1, or 2 on the hemisphere; 0 on the torus */
     /* How grids, and lists that were drawn from rings, are put into bins, and the largest |k|^2 of
      * bins that are reported; 0 for other lists and for degrees */
@@ -110,7 +111,8 @@ unsigned ps_frequency_components(const ps_frequencies *frequencies);
 unsigned ps_frequencies_space_dimension(const ps_frequencies *frequencies);
 /* Fills vectors (and the exact num of a ball). */
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) PS_MUST_CHECK;
-/* A copy with vectors of its own; the original is enumerated. */
+/* A copy that may outlive the original, which is enumerated. Vectors are read only then: copies of
+ * grids and degrees share them, whatever threads have them. */
 pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *original,
                                  ps_error *error) PS_MUST_CHECK;
 void ps_frequencies_free(ps_frequencies *frequencies);
