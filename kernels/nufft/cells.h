@@ -7,6 +7,7 @@
 typedef PS_VECTOR(uint) uintv;
 typedef PS_VECTOR(ulong) ulongv;
 #define TO_UINTV(x) PS_JOIN(convert_, PS_VECTOR(uint))(x)
+#define TO_ULONGV(x) PS_JOIN(convert_, PS_VECTOR(ulong))(x)
 #define TO_WORDV(x) PS_JOIN(convert_, PS_VECTOR(WORD))(x)
 
 /* Buffers are aligned as numbers, not always as vectors. */

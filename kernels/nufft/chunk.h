@@ -11,6 +11,8 @@
 /* Points of a chunk; LANES divides it. */
 #define CHUNK 16
 
+typedef PS_JOIN(REAL, 4) real4;
+typedef real4 unaligned_real4 __attribute__((aligned(sizeof(real))));
 typedef PS_JOIN(REAL, 16) real16;
 typedef real16 unaligned_real16 __attribute__((aligned(sizeof(real))));
 
@@ -25,11 +27,10 @@ typedef struct chunk {
     __local uint *columns; /* [CHUNK]: the first of its row */
 } chunk;
 
-/* Windows of a point: along rows of cells, across them, and in three dimensions those of axis 0, of
- * which one bin counts. In one dimension there is only the first. */
+/* Windows of a point: along rows of cells, and in two dimensions across them. */
 typedef struct chunk_axes {
-    window_axis outer, across, along;
-    uint dimension, outer_bin;
+    window_axis across, along;
+    uint dimension;
 } chunk_axes;
 
 static inline chunk make_chunk(__local real *windows, __local uint *cells, const window_axis across,
@@ -55,25 +56,19 @@ static inline void place_lanes(const chunk to, const uint part, const uint pitch
                                __global const ulong *from, const uint num, const realv weights,
                                const chunk_axes axes) {
     const uint dimension = axes.dimension;
-    realv values = weights;
     wordv fractions;
     const uintv columns = first_cells(load_some_coordinates(from, dimension, axes.along.axis, num),
                                       axes.along.n, axes.along.width, &fractions);
     uintv cells = columns;
     store_local(to.centres + CHUNK, part, centred_fractions(fractions));
-    if (dimension == 3) {
-        first_cells(load_some_coordinates(from, dimension, axes.outer.axis, num), axes.outer.n,
-                    axes.outer.width, &fractions);
-        values *= window_bin_of_points(axes.outer, centred_fractions(fractions), axes.outer_bin);
-    }
     if (dimension > 1) {
         cells += first_cells(load_some_coordinates(from, dimension, axes.across.axis, num),
                              axes.across.n, axes.across.width, &fractions) *
                  (uintv)pitch;
         store_local(to.centres, part, centred_fractions(fractions));
-        store_local(to.weights, part, values);
+        store_local(to.weights, part, weights);
     } else {
-        store_local(to.across, part, values);
+        store_local(to.across, part, weights);
     }
     *(__local unaligned_uintv *)(to.columns + part * LANES) = columns;
     *(__local unaligned_uintv *)(to.cells + part * LANES) = cells;
@@ -119,6 +114,16 @@ static inline void make_16_bins(const window_axis axis, __local const real *cent
     }
 }
 
+/* All bins of four points: [4][bins] */
+static inline void make_row_windows(const window_axis axis, __local const real *centres,
+                                    __local real *to) {
+    if (axis.bins == 8) {
+        make_8_bins(axis, centres, to);
+    } else {
+        make_16_bins(axis, centres, to);
+    }
+}
+
 /* Makes the windows of the first `count` points at least. */
 static inline void make_windows(const chunk to, const uint count, const chunk_axes axes) {
     const window_axis across = axes.across, along = axes.along;
@@ -130,12 +135,7 @@ static inline void make_windows(const chunk to, const uint count, const chunk_ax
                        load_local(to.weights, part), to.across + part * LANES, CHUNK);
     }
     for (uint i = 4 * own_item(); i < count; i += 4 * num_items()) {
-        __local const real *centres = to.centres + CHUNK + i;
-        if (along.bins == 8) {
-            make_8_bins(along, centres, to.along + i * 8);
-        } else {
-            make_16_bins(along, centres, to.along + i * 16);
-        }
+        make_row_windows(along, to.centres + CHUNK + i, to.along + i * along.bins);
     }
 }
 
@@ -162,39 +162,52 @@ static inline void fill_chunk(const chunk to, __global const ulong *points,
 
 /* ---- adding --------------------------------------------------------------------------------- */
 
+/* A row of 8 or 16 cells, and one of 12 by the first of 16 values: in double precision rows are
+ * what spreading waits for, and a third less of windows up to 12 cells wide is worth a branch. */
+#define ADD_ROW_8(SPACE, at, weight, values)                                                       \
+    *(SPACE unaligned_real8 *)(at) = fma((real8)(weight), values, *(SPACE unaligned_real8 *)(at));
+#define ADD_ROW_16(SPACE, at, weight, values)                                                      \
+    *(SPACE unaligned_real16 *)(at) =                                                              \
+        fma((real16)(weight), values, *(SPACE unaligned_real16 *)(at));
+#define ADD_ROW_12(SPACE, at, weight, values)                                                      \
+    ADD_ROW_8(SPACE, at, weight, (values).lo)                                                      \
+    *(SPACE unaligned_real4 *)((at) + 8) =                                                         \
+        fma((real4)(weight), (values).hi.lo, *(SPACE unaligned_real4 *)((at) + 8));
+
 /* A point into num_rows rows `pitch` apart, by one work-item: values along a row are one vector,
  * weighted row by row by across. Four rows in a step: addresses and the loop are half of the
  * instructions else. */
-#define ADD_ROWS(NAME, SPACE, BINS)                                                                \
-    static inline void add_##NAME##_rows_##BINS(SPACE real *at, const size_t pitch,                \
-                                                __local const real *across,                        \
-                                                __local const real *along, const uint num_rows) {  \
-        const real##BINS values = *(__local const unaligned_real##BINS *)along;                    \
+#define ADD_ROWS(NAME, SPACE, CELLS, BINS)                                                         \
+    static inline void add_##NAME##_values_##CELLS(SPACE real *at, const size_t pitch,             \
+                                                   __local const real *across,                     \
+                                                   const real##BINS values, const uint num_rows) { \
         uint row = 0;                                                                              \
         for (; row + 4 <= num_rows; row += 4) {                                                    \
-            _Pragma("unroll") for (uint i = 0; i < 4; i++) {                                       \
-                SPACE unaligned_real##BINS *to = (SPACE unaligned_real##BINS *)(at + i * pitch);   \
-                *to = fma((real##BINS)across[(row + i) * CHUNK], values, *to);                     \
-            }                                                                                      \
-            at += 4 * pitch;                                                                       \
+            _Pragma("unroll") for (uint i = 0; i < 4; i++){ADD_ROW_##CELLS(                        \
+                SPACE, at + i * pitch, across[(row + i) * CHUNK], values)} at += 4 * pitch;        \
         }                                                                                          \
         for (; row < num_rows; row++) {                                                            \
-            SPACE unaligned_real##BINS *to = (SPACE unaligned_real##BINS *)at;                     \
-            *to = fma((real##BINS)across[row * CHUNK], values, *to);                               \
-            at += pitch;                                                                           \
+            ADD_ROW_##CELLS(SPACE, at, across[row * CHUNK], values) at += pitch;                   \
         }                                                                                          \
     }
 
+/* width: of the window along rows, whose values are [8] or [16]. */
 #define ADD_ANY_ROWS(NAME, SPACE)                                                                  \
-    ADD_ROWS(NAME, SPACE, 8)                                                                       \
-    ADD_ROWS(NAME, SPACE, 16)                                                                      \
-    static inline void add_##NAME##_rows(SPACE real *at, const uint pitch,                         \
+    ADD_ROWS(NAME, SPACE, 8, 8)                                                                    \
+    ADD_ROWS(NAME, SPACE, 12, 16)                                                                  \
+    ADD_ROWS(NAME, SPACE, 16, 16)                                                                  \
+    static inline void add_##NAME##_rows(SPACE real *at, const size_t pitch,                       \
                                          __local const real *across, __local const real *along,    \
-                                         const uint num_rows, const uint bins) {                   \
-        if (bins == 8) {                                                                           \
-            add_##NAME##_rows_8(at, pitch, across, along, num_rows);                               \
+                                         const uint num_rows, const uint width) {                  \
+        if (width <= 8) {                                                                          \
+            add_##NAME##_values_8(at, pitch, across, *(__local const unaligned_real8 *)along,      \
+                                  num_rows);                                                       \
+        } else if (PRECISION == 64 && width <= 12) {                                               \
+            add_##NAME##_values_12(at, pitch, across, *(__local const unaligned_real16 *)along,    \
+                                   num_rows);                                                      \
         } else {                                                                                   \
-            add_##NAME##_rows_16(at, pitch, across, along, num_rows);                              \
+            add_##NAME##_values_16(at, pitch, across, *(__local const unaligned_real16 *)along,    \
+                                   num_rows);                                                      \
         }                                                                                          \
     }
 

@@ -5,7 +5,7 @@
  * frequencies, as nufft/finish.cl wants it.
  *
  *   numbers    first_numbers of nufft/numbers.h
- *   high, low  [cell of axis 0][column], some columns: cells of all other axes, a multiple of 2 LANES
+ *   high, low  [cell of axis 0][column], pairs, or high alone without PAIRS; some columns: cells of all other axes, a multiple of 2 LANES
  *   mean       taken off every cell: frequency 0
  *   radices, twiddles, position  of nufft/finish.h; gains [K + 1]: 1 / squared transform of the window
  *   rows       [tile][column][re, im][LANES]: frequencies tile LANES + lane from first_tile on; what exceeds K is 0;
@@ -15,15 +15,28 @@
 #include "nufft/halves.h"
 #include "nufft/numbers.h"
 
+#ifndef PAIRS
+#define PAIRS 1
+#endif
+
+static inline realv load_sum(__global const real *high, __global const real *low,
+                             const size_t index) {
+#if PAIRS
+    return load_global(high, index) + load_global(low, index);
+#else
+    (void)low;
+    return load_global(high, index);
+#endif
+}
+
 static inline void load_cells(__local real *cells, __global const real *high,
                               __global const real *low, const real mean, const size_t columns,
                               const size_t first, const uint n) {
     for (uint m = get_local_id(0); m < n; m += get_local_size(0)) {
         const size_t at = m * columns + first;
-        store_complex(
-            cells, m,
-            (complexv){load_global(high + at, 0) + load_global(low + at, 0) - (realv)mean,
-                       load_global(high + at, 1) + load_global(low + at, 1) - (realv)mean});
+        store_complex(cells, m,
+                      (complexv){load_sum(high + at, low + at, 0) - (realv)mean,
+                                 load_sum(high + at, low + at, 1) - (realv)mean});
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }

@@ -1,15 +1,14 @@
-/* Points of one large set spread on the whole fine grid, as real numbers, a block of rows by each
- * work-group. Launch: (work-items of one group, outer cells * blocks).
+/* Points of one large set in two dimensions spread on the whole fine grid, as real numbers, a block
+ * of rows by each work-group. Launch: (work-items of one group, blocks).
  *
- * Rows lie along the last axis; blocks are block_rows cells of the axis before it. In three
- * dimensions axis 0 is the outer one; in two there is none: outer_n and outer_width are 1.
+ * Rows lie along the last axis; blocks are block_rows cells of axis 0.
  *
  *   places, sorted, heights  of nufft/sort.cl, in parts
- *   starts    [part][outer_n block_n + 2]: places in the order of outer cells and cells of the block's axis
+ *   starts    [part][block_n + 2]: places in the order of cells of axis 0
  *   numbers   grid_numbers of nufft/numbers.h; the coordinates are those of the points
- *   outer_window, block_window, last_window  coefficients of nufft/window.h
- *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued unless
- *             is_first; a slab of them, the blocks from first_block on
+ *   block_window, last_window  coefficients of nufft/window.h
+ *   high, low [cell of axis 0][cell of the last axis]: pairs of numbers, continued unless is_first; a slab
+ *             of them, the blocks from first_block on
  *   rows      local, [block_rows][last_n + last_bins]; last_n is a multiple of LANES
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
@@ -36,7 +35,7 @@ static inline void add_alone(__local real *rows, const chunk from, const uint co
         add_local_rows(rows + touched.first * pitch + from.columns[i], pitch,
                        from.across + touched.first_bin * CHUNK + i,
                        from.along + i * axes.along.bins, touched.end - touched.first,
-                       axes.along.bins);
+                       axes.along.width);
     }
 }
 
@@ -84,56 +83,44 @@ static inline void add_to_grid(__local real *rows, const uint num_rows, const wi
     }
 }
 
-__kernel void
-nufft_grid(const grid_numbers numbers, __global const ulong *restrict places,
-           __global const ulong *restrict sorted, __global const real *restrict heights,
-           __global const uint *restrict starts, __global const real *restrict outer_window,
-           __global const real *restrict block_window, __global const real *restrict last_window,
-           __global real *restrict high, __global real *restrict low, __local real *rows,
-           __local real *windows, __local uint *cells) {
-    const uint outer_n = numbers.outer.n, outer_width = numbers.outer.width;
+__kernel void nufft_grid(const grid_numbers numbers, __global const ulong *restrict places,
+                         __global const ulong *restrict sorted,
+                         __global const real *restrict heights,
+                         __global const uint *restrict starts,
+                         __global const real *restrict block_window,
+                         __global const real *restrict last_window, __global real *restrict high,
+                         __global real *restrict low, __local real *rows, __local real *windows,
+                         __local uint *cells) {
     const uint block_n = numbers.block.n, block_width = numbers.block.width;
     const uint last_n = numbers.last.n, last_bins = numbers.last.bins;
-    const uint num_parts = numbers.num_parts, dimension = numbers.dimension;
-    const uint first_block = numbers.first_block, block_rows = numbers.block_rows;
-    const uint num_blocks = (block_n + block_rows - 1) / block_rows;
-    const size_t block = first_block + get_global_id(1);
-    const uint outer_cell = block / num_blocks;
-    const uint first_row = block % num_blocks * block_rows;
+    const uint num_parts = numbers.num_parts, block_rows = numbers.block_rows;
+    const size_t block = get_global_id(1);
+    const uint first_row = (uint)(numbers.first_block + block) * block_rows;
     const uint num_rows = min(block_rows, block_n - first_row);
-    const window_axis across = make_chunk_window(block_window, numbers.block, dimension - 2);
-    const window_axis along = make_chunk_window(last_window, numbers.last, dimension - 1);
-    chunk_axes axes = {make_chunk_window(outer_window, numbers.outer, 0), across, along, dimension,
-                       0};
+    const window_axis across = make_chunk_window(block_window, numbers.block, 0);
+    const window_axis along = make_chunk_window(last_window, numbers.last, 1);
+    const chunk_axes axes = {across, along, 2};
     const chunk chunk = make_chunk(windows, cells, across, along);
-    const size_t slab_row =
-        first_block / num_blocks * (size_t)block_n + first_block % num_blocks * block_rows;
-    const size_t at = ((size_t)outer_cell * block_n + first_row - slab_row) * last_n;
+    const size_t at = block * block_rows * last_n;
     for (uint i = get_local_id(0); i < num_rows * (last_n + last_bins); i += get_local_size(0)) {
         rows[i] = 0;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint outer_bin = 0; outer_bin < outer_width; outer_bin++) {
-        const uint outer = (outer_cell + outer_n - outer_bin) % outer_n;
-        axes.outer_bin = outer_bin;
-        for (uint before = 0; before < num_rows + block_width - 1; before++) {
-            const uint key =
-                outer * block_n + (first_row + before + block_n - block_width + 1) % block_n;
-            const touched_rows touched = rows_touched(before, num_rows, block_width);
-            for (uint part = 0; part < num_parts; part++) {
-                __global const uint *start = starts + part * ((size_t)outer_n * block_n + 2) + key;
-                const size_t end = places[part] + start[1];
-                for (size_t place = places[part] + start[0]; place < end; place += CHUNK) {
-                    const uint count = (uint)min((size_t)CHUNK, end - place);
-                    fill_chunk(chunk, sorted + place * dimension, heights + place, count, count, 0,
-                               axes);
-                    if (get_local_size(0) == 1) {
-                        add_alone(rows, chunk, count, touched, axes);
-                    } else {
-                        add_together(rows, chunk, count, touched, axes);
-                    }
-                    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint before = 0; before < num_rows + block_width - 1; before++) {
+        const uint key = (first_row + before + block_n - block_width + 1) % block_n;
+        const touched_rows touched = rows_touched(before, num_rows, block_width);
+        for (uint part = 0; part < num_parts; part++) {
+            __global const uint *start = starts + part * ((size_t)block_n + 2) + key;
+            const size_t end = places[part] + start[1];
+            for (size_t place = places[part] + start[0]; place < end; place += CHUNK) {
+                const uint count = (uint)min((size_t)CHUNK, end - place);
+                fill_chunk(chunk, sorted + place * 2, heights + place, count, count, 0, axes);
+                if (get_local_size(0) == 1) {
+                    add_alone(rows, chunk, count, touched, axes);
+                } else {
+                    add_together(rows, chunk, count, touched, axes);
                 }
+                barrier(CLK_LOCAL_MEM_FENCE);
             }
         }
     }

@@ -25,14 +25,18 @@ typedef struct transform_numbers {
 
 /* ---- of kernels, by the names of their files ------------------------------------------------- */
 
+/* An axis that keys are made of: its cells, or its boxes (nufft/boxes.h); keys 1: it does not
+ * count. */
+typedef struct sort_axis {
+    ps_u32 n, width, axis, keys, per_cell;
+} sort_axis;
+
 typedef struct sort_numbers {
     ps_u64 num_realizations;
-    ps_u64 factor; /* the coordinate is factor * x[axis] mod 1 */
-    ps_u32 n, width, axis;
-    /* Another axis, for cells m = cell * second_n + second cell; second_n 1: there is none */
-    ps_u32 second_n, second_width, second_axis;
+    ps_u64 factor; /* the coordinate of the first axis is factor * x[axis] mod 1 */
+    sort_axis axes[3];
+    ps_u32 num_keys;
     ps_u32 has_weights; /* or all are 1 */
-    ps_u32 unused;      /* fills the size up to whole numbers of eight bytes */
 } sort_numbers;
 
 typedef struct tile_numbers {
@@ -49,10 +53,9 @@ typedef struct rows_numbers {
 } rows_numbers;
 
 typedef struct grid_numbers {
-    window_numbers outer, block, last;
-    ps_u32 num_parts, dimension, first_block, is_first;
+    window_numbers block, last;
+    ps_u32 num_parts, first_block, is_first;
     ps_u32 block_rows; /* of a work-group */
-    ps_u32 unused;     /* fills the size up to whole numbers of eight bytes */
 } grid_numbers;
 
 typedef struct first_numbers {
@@ -70,10 +73,10 @@ typedef struct powers_numbers {
     ps_u32 column_K;  /* of columns alone: the largest frequency along rows */
 } powers_numbers;
 
-SAME_SIZE(sort_numbers, 48);
+SAME_SIZE(sort_numbers, 88);
 SAME_SIZE(tile_numbers, 64);
 SAME_SIZE(rows_numbers, 80);
-SAME_SIZE(grid_numbers, 72);
+SAME_SIZE(grid_numbers, 48);
 SAME_SIZE(first_numbers, 40);
 SAME_SIZE(powers_numbers, 32);
 

@@ -41,11 +41,11 @@ static inline void scatter(const whole_grid grid, const chunk from, const chunk_
     const uint bins = axes.along.bins;
     for (uint i = 0; i < CHUNK && grid.is_line; i++) {
         add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
-                        from.along + i * bins, 1, bins);
+                        from.along + i * bins, 1, axes.along.width);
     }
     for (uint i = 0; i < CHUNK && !grid.is_line; i++) {
         add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
-                        from.along + i * bins, axes.across.width, bins);
+                        from.along + i * bins, axes.across.width, axes.along.width);
     }
 }
 
@@ -175,7 +175,7 @@ __kernel void nufft_whole(
                              numbers.grid_rows, dimension == 1};
     __global real *row = rows + get_global_id(1) * numbers.row_reals;
     __global real *spare = row + columns * 2 * LANES;
-    const chunk_axes axes = {across, across, along, dimension, 0};
+    const chunk_axes axes = {across, along, dimension};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const uint sharing = shared_lanes > 0 ? LANES / shared_lanes : 1;
     const uint own_tiles = shared_lanes > 0 ? num_tiles - 1 : num_tiles;

@@ -20,6 +20,9 @@
 
 enum { PS_NUFFT_MAX_AXES = 3 };
 
+/* Points of a large set that are sorted and spread at a time. */
+enum { PS_NUFFT_MOST_CHUNK_POINTS = 1 << 20 };
+
 typedef struct ps_nufft_choice {
     unsigned lanes; /* whose cost counts: those of the device, nominal ones where it has none */
     unsigned num_axes;
@@ -28,7 +31,9 @@ typedef struct ps_nufft_choice {
     bool is_gridded;     /* axis 0 is the first of the axes, spread like the others */
     bool is_whole;       /* gridded, kernels/nufft/whole.cl: */
     uint32_t lengths[2]; /* of its two transforms; in one dimension the grid is their product */
-    uint64_t chunk;      /* points whose numbers are added up in working precision; 0: all */
+    /* Points whose numbers are added up in working precision, before pairs of numbers; 0: all,
+     * without pairs */
+    uint64_t chunk;
     ps_nufft_axis axes[PS_NUFFT_MAX_AXES];
 } ps_nufft_choice;
 

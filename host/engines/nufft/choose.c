@@ -228,7 +228,7 @@ static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_
 static uint64_t choose_chunk(const ps_nufft_choice *choice) {
     const double windows_on_a_cell = 16;
     const double least = 4096;
-    const double most = 1 << 20;
+    const double most = PS_NUFFT_MOST_CHUNK_POINTS;
     double points = windows_on_a_cell;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         points *= (double)choice->axes[i].n / choice->axes[i].window.width;
@@ -236,11 +236,18 @@ static uint64_t choose_chunk(const ps_nufft_choice *choice) {
     return (uint64_t)fmin(fmax(points, least), most);
 }
 
-/* A choice with lengths and windows. */
+/* A choice with lengths and windows. In three dimensions, where windows of few points touch a cell,
+ * sums may do without pairs. */
 static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
                           ps_precision precision) {
-    choice->chunk = choice->is_gridded && !choice->is_whole ? choose_chunk(choice) : 0;
-    if (!choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
+    const bool is_large = choice->is_gridded && !choice->is_whole;
+    choice->chunk = 0;
+    if (is_large ? choice->num_axes == 3
+                 : !choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
+        consider(best, choice, problem, precision);
+    }
+    if (is_large) {
+        choice->chunk = choose_chunk(choice);
         consider(best, choice, problem, precision);
     }
 }

@@ -3,6 +3,7 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/axis.h"
+#include "engines/nufft/boxes.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
 #include "engines/nufft/whole_sizes.h"
@@ -96,26 +97,75 @@ static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choi
     add(counts, PS_NUFFT_TOUCHED, visits * num_tiles * touched);
 }
 
+/* Cells of a row that a point is added to, kernels/nufft/chunk.h. */
+static double cells_of_row(const ps_nufft_axis *axis, ps_precision precision) {
+    enum { OF_DOUBLES = 12 };
+    const bool is_short = precision == PS_DOUBLE && axis->window.width <= OF_DOUBLES;
+    return fmin(ps_nufft_bins(axis), is_short ? OF_DOUBLES : HUGE_VAL);
+}
+
 /* ---- grids of large sets ----------------------------------------------------------------- */
 
 static const size_t word_bytes = sizeof(float);
+
+/* Polynomials of the windows of a point on all axes, in vectors; mirrored ones count half. */
+static double polynomials_of(const ps_nufft_choice *choice) {
+    double sum = 0;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        const double mirrored = i + 1 < choice->num_axes ? 2 : 1;
+        sum += (axis->window.width + 2.0) * ps_nufft_bins(axis) / (choice->lanes * mirrored);
+    }
+    return sum;
+}
+
+/* Spreading in blocks of rows, in two dimensions. */
+static void count_blocks(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                         ps_precision precision, double num_points) {
+    enum { STRIP = 8 };
+    const double width = choice->axes[0].window.width;
+    const double blocks = (PS_NUFFT_BLOCK_ROWS + width - 1.0) / PS_NUFFT_BLOCK_ROWS;
+    const double strips = cells_of_row(&choice->axes[1], precision) / STRIP;
+    add(counts, PS_NUFFT_GRID_BLOCK, num_points * blocks);
+    add(counts, PS_NUFFT_GRID_ROW, num_points * width * strips);
+}
+
+/* Spreading in boxes, in three. */
+static void count_boxes(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                        ps_precision precision, double num_points) {
+    enum { ROW_BYTES = 32 };
+    const ps_nufft_axis *axes = choice->axes;
+    const ps_nufft_boxes boxes = ps_nufft_boxes_measure(choice, 0);
+    const double real_bytes = (double)ps_real_bytes(precision);
+    const double rows = (double)axes[0].window.width * axes[1].window.width;
+    const double cells =
+        (double)ps_nufft_boxes_reals(&boxes) * (double)ps_nufft_boxes_count(&boxes);
+    const uint64_t chunk = choice->chunk > 0 ? choice->chunk : PS_NUFFT_MOST_CHUNK_POINTS;
+    const double chunks = ceil(num_points / (double)chunk);
+    add(counts, PS_NUFFT_BOX_POINT, num_points);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials_of(choice));
+    add(counts, PS_NUFFT_BOX_ROW,
+        num_points * rows * cells_of_row(&axes[2], precision) * real_bytes / ROW_BYTES);
+    add(counts, PS_NUFFT_BOX_CELL, cells * real_bytes / (double)word_bytes * chunks);
+}
 
 /* Spreading on a grid and the transform along axis 0. */
 static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice,
                        ps_precision precision, double num_points) {
     const ps_nufft_axis *axes = choice->axes;
-    const ps_nufft_axis *block = &axes[choice->num_axes - 2];
-    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
-    const double visits = num_points * (choice->num_axes == 3 ? axes[0].window.width : 1);
-    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
-    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
-    const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
+    const double columns =
+        (choice->num_axes == 3 ? (double)axes[1].n : 1) * axes[choice->num_axes - 1].n;
     const double words = columns * axes[0].n * (double)(ps_real_bytes(precision) / word_bytes);
-    add(counts, PS_NUFFT_GRID_BLOCK, visits * blocks);
-    add(counts, PS_NUFFT_GRID_ROW, visits * block->window.width * strips);
+    if (choice->num_axes == 3) {
+        count_boxes(counts, choice, precision, num_points);
+    } else {
+        count_blocks(counts, choice, precision, num_points);
+    }
     add_transforms(counts, columns / (2 * choice->lanes), axes[0].n);
     add(counts, PS_NUFFT_GRID_CELL, words);
-    add(counts, PS_NUFFT_GRID_PAIR, words * ceil(num_points / (double)choice->chunk));
+    if (choice->chunk > 0) {
+        add(counts, PS_NUFFT_GRID_PAIR, words * ceil(num_points / (double)choice->chunk));
+    }
 }
 
 /* ---- whole realizations ------------------------------------------------------------------ */
@@ -150,15 +200,9 @@ static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const bool is_near = (double)(sizes.grid_reals * ps_real_bytes(precision)) <= near_bytes;
     const double rows = choice->num_axes > 1 ? choice->axes[0].window.width : 1;
-    const double vectors = ceil(ps_nufft_bins(last) / (double)lanes);
-    double polynomials = 0;
-    for (unsigned i = 0; i < choice->num_axes; i++) {
-        const ps_nufft_axis *axis = &choice->axes[i];
-        const double mirrored = choice->num_axes == 2 && i == 0 ? 2 : 1;
-        polynomials += (axis->window.width + 2.0) * ps_nufft_bins(axis) / (lanes * mirrored);
-    }
+    const double vectors = fmax(1, cells_of_row(last, precision) / (double)lanes);
     add(counts, PS_NUFFT_WHOLE_POINT, num_points);
-    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials_of(choice));
     add(counts, is_near ? PS_NUFFT_WHOLE_ROW : PS_NUFFT_WHOLE_FAR_ROW, num_points * rows * vectors);
     add(counts, PS_NUFFT_WHOLE_CLEARED, (double)sizes.grid_reals / lanes);
     count_whole_transforms(counts, choice);

@@ -141,7 +141,7 @@ sphere_grid_values(const grid_values_numbers numbers, __global const ulong *rest
     const uint transforms = only_even != 0 ? 1 : 2;
     const window_axis across = make_chunk_window(window, numbers.window, 0);
     const window_axis along = make_chunk_window(window, numbers.window, 1);
-    const chunk_axes axes = {across, across, along, 2, 0};
+    const chunk_axes axes = {across, along, 2};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const size_t grid_reals = (size_t)(n + width) * pitch + 2 * LANES;
     __global real *all_cells = grids + slot * grid_reals;

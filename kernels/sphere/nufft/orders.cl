@@ -167,7 +167,7 @@ __kernel void sphere_orders(
     const size_t room = (numbers.most_points + LANES - 1) / LANES * LANES;
     const window_axis across = make_chunk_window(window, numbers.window, 0);
     const window_axis along = make_chunk_window(window, numbers.window, 1);
-    const chunk_axes axes = {across, across, along, 2, 0};
+    const chunk_axes axes = {across, along, 2};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const half_plan around = {radices, twiddles, position, n / 2};
     const half_plan to_rings = {ring_radices, ring_twiddles, ring_position, rings / 2};

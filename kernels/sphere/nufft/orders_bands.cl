@@ -23,7 +23,7 @@ sphere_orders_bands(const orders_bands_numbers numbers, __global const ulong *re
     const uint band = get_global_id(1);
     const window_axis across = make_chunk_window(window, numbers.window, 0);
     const window_axis along = make_chunk_window(window, numbers.window, 1);
-    const chunk_axes axes = {across, across, along, 2, 0};
+    const chunk_axes axes = {across, along, 2};
     __global real *own = grid + band * (size_t)band_rows * pitch;
     const orders_grid to = {own, pitch, band_rows,
                             start_of_band(band, numbers.window.n, bands) * pitch};

@@ -27,7 +27,7 @@ typedef struct orders_grid {
 static inline void scatter(const orders_grid grid, const chunk from, const chunk_axes axes) {
     for (uint i = 0; i < CHUNK; i++) {
         add_global_rows(grid.cells + (from.cells[i] - grid.origin), grid.pitch, from.across + i,
-                        from.along + i * axes.along.bins, axes.across.width, axes.along.bins);
+                        from.along + i * axes.along.bins, axes.across.width, axes.along.width);
     }
 }
 

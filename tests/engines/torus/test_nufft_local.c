@@ -17,7 +17,21 @@ static ps_device *device;
 
 /* ---- plans --------------------------------------------------------------------------------- */
 
-/* What kernels/nufft/grid.cl takes, written down once more. */
+/* What kernels/nufft/boxes.cl takes, written down once more. */
+static uint64_t bytes_of_boxes(const ps_nufft_layout *layout) {
+    const uint64_t chunk = 16;
+    uint64_t cells = 1;
+    uint64_t windows = 4;
+    for (unsigned i = 0; i < 3; i++) {
+        const ps_nufft_axis *axis = &layout->choice.axes[i];
+        const uint64_t behind = i == 2 ? ps_nufft_bins(axis) : axis->window.width - 1;
+        cells *= (axis->n + layout->boxes.num[i] - 1) / layout->boxes.num[i] + behind;
+        windows += ps_nufft_bins(axis);
+    }
+    return (cells + chunk * windows) * layout->real_bytes + chunk * sizeof(uint32_t);
+}
+
+/* The same of grid.cl. */
 static uint64_t bytes_of_blocks(const ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
     const uint64_t chunk = 16;
@@ -52,7 +66,8 @@ static int check_layout(const ps_problem *problem, const ps_device_limits *limit
         assert_true(bytes_of_rows(&layout) <= ps_nufft_local_bytes(&layout));
     }
     if (ps_nufft_way_of(&layout.choice) == PS_NUFFT_LARGE) {
-        assert_true(bytes_of_blocks(&layout) <= ps_nufft_local_bytes(&layout));
+        assert_true((layout.choice.num_axes == 3 ? bytes_of_boxes : bytes_of_blocks)(&layout) <=
+                    ps_nufft_local_bytes(&layout));
     }
     return 1;
 }

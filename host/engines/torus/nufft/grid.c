@@ -2,19 +2,23 @@
 
 #include "base/round.h"
 #include "engines/torus/nufft/local.h"
+#include "nufft/boxes.h"
 
 #include <stdio.h>
 
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_nufft_grid *self, ps_precision precision, ps_error *error) {
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes);
+    char options[96];
+    const bool has_boxes = self->layout->choice.num_axes == 3;
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DPAIRS=%u -DALONE=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->layout->has_pairs,
+             self->is_alone);
     const struct {
         cl_kernel *kernel;
         const char *source, *name;
-    } all[] = {{&self->spread, "nufft/grid.cl", "nufft_grid"},
+    } all[] = {{&self->spread, has_boxes ? "nufft/boxes.cl" : "nufft/grid.cl",
+                has_boxes ? "nufft_boxes" : "nufft_grid"},
                {&self->first, "nufft/first.cl", "nufft_first"},
                {&self->tile, "nufft/finish.cl", "nufft_finish_tile"},
                {&self->rows, "nufft/finish.cl", "nufft_finish_rows"},
@@ -45,10 +49,14 @@ static pspec_status create_buffers(ps_nufft_grid *self, ps_error *error) {
     for (uint32_t slab = 0; slab < layout->num_slabs; slab++) {
         const size_t bytes = slab_rows(layout, slab) * num_columns(layout) * layout->real_bytes;
         PS_TRY(ps_buffer_create(self->device, &self->high[slab], bytes, "the fine grid", error));
-        PS_TRY(ps_buffer_create(self->device, &self->low[slab], bytes, "the fine grid", error));
+        if (layout->has_pairs) {
+            PS_TRY(ps_buffer_create(self->device, &self->low[slab], bytes, "the fine grid", error));
+        }
     }
     if (strip > 0) {
         PS_TRY(ps_buffer_create(self->device, &self->high_strip, strip, "the fine grid", error));
+    }
+    if (strip > 0 && layout->has_pairs) {
         PS_TRY(ps_buffer_create(self->device, &self->low_strip, strip, "the fine grid", error));
     }
     PS_TRY(ps_buffer_create(self->device, &self->tile_rows,
@@ -62,7 +70,11 @@ static pspec_status create_buffers(ps_nufft_grid *self, ps_error *error) {
 pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *layout,
                                   const ps_nufft_plan *plans, ps_nufft_places *places,
                                   ps_precision precision, ps_device *device, ps_error *error) {
-    *out = (ps_nufft_grid){.layout = layout, .plans = plans, .places = places, .device = device};
+    *out = (ps_nufft_grid){.layout = layout,
+                           .plans = plans,
+                           .places = places,
+                           .device = device,
+                           .is_alone = layout->choice.num_axes == 3 && ps_range_is_alone(device)};
     PS_TRY(create_kernels(out, precision, error));
     return create_buffers(out, error);
 }
@@ -91,46 +103,101 @@ void ps_nufft_grid_begin(ps_nufft_grid *grid) {
     grid->is_empty = true;
 }
 
-static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
-                              size_t num_points, ps_error *error) {
-    const unsigned axes = self->layout->choice.num_axes;
-    const ps_nufft_plan *block = &self->plans[axes - 2];
-    const ps_nufft_plan *last = &self->plans[axes - 1];
-    const ps_nufft_plan none = {.coefficients = block->coefficients,
-                                .axis = {.n = 1, .window = {.width = 1}}};
-    const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
+/* Kernels want a buffer in every place: where there are no pairs, one that is not touched there. */
+static const ps_buffer *low_of(const ps_nufft_grid *self, uint32_t slab) {
+    return self->layout->has_pairs ? &self->low[slab] : &self->high[slab];
+}
+
+static pspec_status spread_blocks(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
+                                  size_t num_points, ps_error *error) {
+    const ps_nufft_plan *block = &self->plans[0];
+    const ps_nufft_plan *last = &self->plans[1];
     const size_t block_rows = self->layout->block_rows;
-    const size_t across = ps_divide_up(block->axis.n, block_rows);
     const size_t rows = slab_rows(self->layout, slab);
-    const size_t num_blocks = axes == 3 ? rows * across : ps_divide_up(rows, block_rows);
     const size_t first_row = (size_t)slab * self->layout->slab_rows;
-    const size_t first_block = axes == 3 ? first_row * across : first_row / block_rows;
-    const double flops = 2.0 * (double)num_points * outer->axis.window.width *
-                         block->axis.window.width * last->bins * (double)rows /
-                         self->plans[0].axis.n;
-    const ps_range range = ps_nufft_group_range(self->device, num_blocks, 1, flops);
+    const double flops = 2.0 * (double)num_points * block->axis.window.width * last->bins *
+                         (double)rows / block->axis.n;
+    const ps_range range =
+        ps_nufft_group_range(self->device, ps_divide_up(rows, block_rows), 1, flops);
     const ps_nufft_local local = ps_nufft_grid_local(self->layout);
-    const grid_numbers numbers = {.outer = ps_nufft_window_numbers(outer),
-                                  .block = ps_nufft_window_numbers(block),
+    const grid_numbers numbers = {.block = ps_nufft_window_numbers(block),
                                   .last = ps_nufft_window_numbers(last),
                                   .num_parts = (uint32_t)num_parts,
-                                  .dimension = axes,
                                   .block_rows = self->layout->block_rows,
-                                  .first_block = (uint32_t)first_block,
+                                  .first_block = (uint32_t)(first_row / block_rows),
                                   .is_first = self->is_empty ? 1 : 0};
     return PS_LAUNCH(self->device, self->spread, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(self->places->places), PS_BUFFER(self->places->sorted),
                      PS_BUFFER(self->places->heights), PS_BUFFER(self->places->starts),
-                     PS_BUFFER(outer->coefficients), PS_BUFFER(block->coefficients),
-                     PS_BUFFER(last->coefficients), PS_BUFFER(self->high[slab]),
-                     PS_BUFFER(self->low[slab]), PS_LOCAL(local.rows), PS_LOCAL(local.windows),
+                     PS_BUFFER(block->coefficients), PS_BUFFER(last->coefficients),
+                     PS_BUFFER(self->high[slab]), PS_BUFFER(self->low[slab]), PS_LOCAL(local.rows),
+                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+}
+
+/* colour: of all axes, the last one's innermost. */
+static boxes_numbers numbers_of_colour(const ps_nufft_grid *self, uint32_t slab, size_t num_parts,
+                                       uint32_t colour) {
+    const ps_nufft_layout *layout = self->layout;
+    const ps_nufft_boxes *boxes = &layout->boxes;
+    boxes_numbers numbers = {.rows = boxes->sides[1],
+                             .pitch = boxes->sides[2],
+                             .num_parts = (uint32_t)num_parts,
+                             .first_row = slab * layout->slab_rows,
+                             .num_rows = (uint32_t)slab_rows(layout, slab)};
+    for (unsigned i = BOX_AXES; i-- > 0; colour /= boxes->colours[i]) {
+        numbers.axes[i] = (box_axis){.window = ps_nufft_window_numbers(&self->plans[i]),
+                                     .boxes = boxes->num[i],
+                                     .per_cell = boxes->per_cell[i],
+                                     .colours = boxes->colours[i],
+                                     .colour = colour % boxes->colours[i]};
+    }
+    return numbers;
+}
+
+static pspec_status spread_colour(ps_nufft_grid *self, uint32_t slab, size_t num_boxes,
+                                  const boxes_numbers *numbers, double flops, ps_error *error) {
+    const ps_nufft_plan *plans = self->plans;
+    const ps_nufft_local local = ps_nufft_grid_local(self->layout);
+    const ps_range range = self->is_alone ? ps_range_alone(num_boxes, 1, flops, 0)
+                                          : ps_nufft_group_range(self->device, num_boxes, 1, flops);
+    return PS_LAUNCH(self->device, self->spread, &range, error, PS_STRUCT(*numbers),
+                     PS_BUFFER(self->places->places), PS_BUFFER(self->places->sorted),
+                     PS_BUFFER(self->places->heights), PS_BUFFER(self->places->starts),
+                     PS_BUFFER(plans[0].coefficients), PS_BUFFER(plans[1].coefficients),
+                     PS_BUFFER(plans[2].coefficients), PS_BUFFER(self->high[slab]),
+                     PS_BUFFER(*low_of(self, slab)), PS_LOCAL(local.rows), PS_LOCAL(local.windows),
                      PS_LOCAL(local.cells));
+}
+
+static pspec_status clear(ps_nufft_grid *self, uint32_t slab, ps_error *error) {
+    PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));
+    return self->layout->has_pairs ? ps_buffer_clear(self->device, &self->low[slab], error)
+                                   : PSPEC_OK;
+}
+
+static pspec_status spread_boxes(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
+                                 size_t num_points, ps_error *error) {
+    const ps_nufft_boxes *boxes = &self->layout->boxes;
+    const ps_nufft_plan *plans = self->plans;
+    const uint32_t colours = boxes->colours[0] * boxes->colours[1] * boxes->colours[2];
+    const double flops = 2.0 * (double)num_points * plans[0].axis.window.width *
+                         plans[1].axis.window.width * plans[2].bins / colours;
+    if (self->is_empty) {
+        PS_TRY(clear(self, slab, error));
+    }
+    for (uint32_t colour = 0; colour < colours; colour++) {
+        const boxes_numbers numbers = numbers_of_colour(self, slab, num_parts, colour);
+        PS_TRY(spread_colour(self, slab, ps_nufft_boxes_of_colour(boxes), &numbers, flops, error));
+    }
+    return PSPEC_OK;
 }
 
 static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,
                            ps_error *error) {
+    const bool has_boxes = self->layout->choice.num_axes == 3;
     for (uint32_t slab = 0; slab < self->layout->num_slabs; slab++) {
-        PS_TRY(spread_on(self, slab, num_parts, num_points, error));
+        PS_TRY(
+            (has_boxes ? spread_boxes : spread_blocks)(self, slab, num_parts, num_points, error));
     }
     self->is_empty = false;
     return PSPEC_OK;
@@ -211,8 +278,10 @@ static pspec_status gather_strip(ps_nufft_grid *self, extent columns, ps_error *
         };
         PS_TRY(ps_buffer_copy_rectangle(self->device, &self->high[slab], &self->high_strip,
                                         &rectangle, error));
-        PS_TRY(ps_buffer_copy_rectangle(self->device, &self->low[slab], &self->low_strip,
-                                        &rectangle, error));
+        if (layout->has_pairs) {
+            PS_TRY(ps_buffer_copy_rectangle(self->device, &self->low[slab], &self->low_strip,
+                                            &rectangle, error));
+        }
     }
     return PSPEC_OK;
 }
@@ -221,6 +290,10 @@ static pspec_status transform_columns(ps_nufft_grid *self, const ps_buffer *mean
                                       extent tiles, ps_error *error) {
     const ps_nufft_plan *plan = &self->plans[0];
     const bool is_whole = self->layout->strip_columns == 0;
+    const ps_buffer *high = is_whole ? &self->high[0] : &self->high_strip;
+    const ps_buffer *low = !self->layout->has_pairs ? high
+                           : is_whole               ? &self->low[0]
+                                                    : &self->low_strip;
     const ps_range range = transform_range(self, plan, columns.num / (2 * self->layout->lanes));
     const first_numbers numbers = {.columns = columns.num,
                                    .first_column = columns.first,
@@ -228,12 +301,11 @@ static pspec_status transform_columns(ps_nufft_grid *self, const ps_buffer *mean
                                    .transform = ps_nufft_transform_numbers(plan),
                                    .first_tile = (uint32_t)tiles.first,
                                    .num_tiles = (uint32_t)tiles.num};
-    return PS_LAUNCH(self->device, self->first, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(*(is_whole ? &self->high[0] : &self->high_strip)),
-                     PS_BUFFER(*(is_whole ? &self->low[0] : &self->low_strip)), PS_BUFFER(*means),
-                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
-                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains),
-                     PS_BUFFER(self->tile_rows), PS_LOCAL(cells_bytes(self, plan)));
+    return PS_LAUNCH(self->device, self->first, &range, error, PS_STRUCT(numbers), PS_BUFFER(*high),
+                     PS_BUFFER(*low), PS_BUFFER(*means), PS_BUFFER(plan->fft.radices),
+                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+                     PS_BUFFER(plan->gains), PS_BUFFER(self->tile_rows),
+                     PS_LOCAL(cells_bytes(self, plan)));
 }
 
 static pspec_status transform_first(ps_nufft_grid *self, const ps_buffer *means, extent tiles,
@@ -298,8 +370,7 @@ static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nuff
 /* Clears a grid in which nothing was stored because there was no point. */
 static pspec_status clear_if_empty(ps_nufft_grid *self, ps_error *error) {
     for (uint32_t slab = 0; self->is_empty && slab < self->layout->num_slabs; slab++) {
-        PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));
-        PS_TRY(ps_buffer_clear(self->device, &self->low[slab], error));
+        PS_TRY(clear(self, slab, error));
     }
     return PSPEC_OK;
 }

@@ -109,11 +109,11 @@ static void measure_axes(ps_nufft_layout *layout) {
             (size_t)layout->num_tiles * last[0].n * (2 * (size_t)last[1].max_frequency + 1);
     }
     if (choice->is_gridded) {
-        layout->grid_reals = choice->axes[0].n;
-        for (unsigned i = 1; i < choice->num_axes; i++) {
+        layout->num_keys = choice->axes[0].n;
+        layout->grid_reals = 1;
+        for (unsigned i = 0; i < choice->num_axes; i++) {
             layout->grid_reals *= choice->axes[i].n;
         }
-        layout->num_keys = (uint32_t)(layout->grid_reals / choice->axes[choice->num_axes - 1].n);
     }
 }
 
@@ -164,10 +164,10 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uin
     const uint64_t strip = layout->strip_columns * n * layout->real_bytes;
     const unsigned dimension = problem->frequencies->dimension;
     const uint64_t part = part_bytes(layout, dimension);
+    const uint64_t grid = (layout->has_pairs ? 2 : 1) * (reals + strip);
     const size_t parts = ps_divide_up(problem->num_points, layout->part_points);
     layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
-    layout->fixed_bytes =
-        layout->parts * part + 2 * (reals + strip) + rows + transformed + table_bytes(layout);
+    layout->fixed_bytes = layout->parts * part + grid + rows + transformed + table_bytes(layout);
     const uint64_t buffers[] = {rows,
                                 slab,
                                 transformed,
@@ -285,6 +285,18 @@ static void measure_tiles(ps_nufft_layout *layout, const ps_problem *problem,
     }
 }
 
+/* Boxes as large as local memory has room for; false: it has no room for the smallest. Where edges
+ * are halved, sums round in another order. */
+static bool choose_boxes(ps_nufft_layout *layout, const ps_device_limits *limits) {
+    enum { MOST_HALVINGS = 3 };
+    unsigned halvings = 0;
+    do {
+        layout->boxes = ps_nufft_boxes_measure(&layout->choice, halvings++);
+    } while (halvings <= MOST_HALVINGS && ps_nufft_local_bytes(layout) > limits->local_bytes);
+    layout->num_keys = (uint32_t)ps_nufft_boxes_count(&layout->boxes);
+    return ps_nufft_local_bytes(layout) <= limits->local_bytes;
+}
+
 /* Rows of a block, as many as local memory has room for; false: it has no room for one. Bits and
  * choices do not depend on them, and not the cost by which engines are compared: where rows are so
  * long, transforms take most of the time. */
@@ -293,14 +305,22 @@ static bool choose_block_rows(ps_nufft_layout *layout, const ps_device_limits *l
     while (layout->block_rows > 0 && ps_nufft_local_bytes(layout) > limits->local_bytes) {
         layout->block_rows /= 2;
     }
-    layout->lanes = layout->block_rows > 0 ? layout->lanes : 0;
-    return layout->lanes > 0;
+    return layout->block_rows > 0;
 }
 
 static void measure_large(ps_nufft_layout *layout, const ps_problem *problem,
                           const ps_device_limits *limits) {
-    const uint64_t most = layout->choice.chunk / PS_NUFFT_MOST_PARTS;
-    if (measure_rows(layout, problem, limits) && choose_block_rows(layout, limits)) {
+    const bool has_boxes = layout->choice.num_axes == 3;
+    const uint64_t chunk =
+        layout->choice.chunk > 0 ? layout->choice.chunk : PS_NUFFT_MOST_CHUNK_POINTS;
+    const uint64_t most = chunk / PS_NUFFT_MOST_PARTS;
+    const bool has_rows = measure_rows(layout, problem, limits);
+    layout->has_pairs = layout->choice.chunk > 0;
+    layout->lanes =
+        has_rows && (has_boxes ? choose_boxes(layout, limits) : choose_block_rows(layout, limits))
+            ? layout->lanes
+            : 0;
+    if (layout->lanes > 0) {
         set_part_points(layout, problem->num_points < most ? problem->num_points : most);
         measure_grid(layout, problem, limits->max_allocation_bytes);
         layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;

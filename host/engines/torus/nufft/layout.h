@@ -2,6 +2,7 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 #define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 
+#include "engines/nufft/boxes.h"
 #include "engines/nufft/whole_sizes.h"
 
 /* Buffers of the grid of a large set. */
@@ -21,7 +22,9 @@ typedef struct ps_nufft_layout {
     size_t stride;       /* powers in a row */
     size_t grid_cells;   /* of a realization between two transforms, [..][re, im][lanes] */
     size_t grid_reals;   /* cells of the grid of a large set */
-    uint32_t block_rows; /* of a work-group that spreads points there */
+    uint32_t block_rows; /* of a work-group that spreads points there; in three dimensions boxes */
+    ps_nufft_boxes boxes;
+    bool has_pairs; /* of numbers, in which chunks are added up there */
     /* Cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
     uint32_t slab_rows;
     uint32_t num_slabs;

@@ -22,10 +22,15 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
                             "starts of cells", error);
 }
 
+static bool has_boxes(const ps_nufft_layout *layout) {
+    return layout->choice.is_gridded && layout->choice.num_axes == 3;
+}
+
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
     char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u",
-             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->dimension);
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DBOXES=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->dimension,
+             has_boxes(self->layout));
     return ps_kernel_create(self->device, &self->sort, "nufft/sort.cl", "nufft_sort", options,
                             error);
 }
@@ -71,23 +76,33 @@ pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *par
     return upload_places(places, parts, error);
 }
 
+/* The cells that tiles want points by, or boxes. */
+static void set_keys(const ps_nufft_layout *layout, sort_numbers *numbers) {
+    const ps_nufft_choice *choice = &layout->choice;
+    const bool are_boxes = has_boxes(layout);
+    const bool have_second = are_boxes || layout->num_keys > choice->axes[0].n;
+    const unsigned num = are_boxes ? PS_NUFFT_MAX_AXES : have_second ? 2 : 1;
+    numbers->factor = choice->axes[0].factor;
+    numbers->num_keys = layout->num_keys;
+    for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        numbers->axes[i] = i >= num
+                               ? (sort_axis){.n = 1, .keys = 1}
+                               : (sort_axis){.n = axis->n,
+                                             .width = axis->window.width,
+                                             .axis = axis->axis,
+                                             .keys = are_boxes ? layout->boxes.num[i] : axis->n,
+                                             .per_cell = layout->boxes.per_cell[i]};
+    }
+}
+
 pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_error *error) {
-    const ps_nufft_axis *axis = &places->layout->choice.axes[0];
-    static const ps_nufft_axis none = {.n = 1};
-    const ps_nufft_axis *second =
-        places->layout->num_keys > axis->n ? &places->layout->choice.axes[1] : &none;
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
     const ps_range range = ps_range_heavy(places->device, num_parts, 1, 1,
                                           (double)places->num_points * flops_per_point, 0);
-    const sort_numbers numbers = {.num_realizations = num_parts,
-                                  .factor = axis->factor,
-                                  .n = axis->n,
-                                  .width = axis->window.width,
-                                  .axis = axis->axis,
-                                  .second_n = second->n,
-                                  .second_width = second->window.width,
-                                  .second_axis = second->axis,
-                                  .has_weights = places->points.has_unit_weights ? 0 : 1};
+    sort_numbers numbers = {.num_realizations = num_parts,
+                            .has_weights = places->points.has_unit_weights ? 0 : 1};
+    set_keys(places->layout, &numbers);
     return PS_LAUNCH(places->device, places->sort, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(places->points.points), PS_BUFFER(places->points.weights),
                      PS_BUFFER(places->points.offsets), PS_BUFFER(places->places),

@@ -102,13 +102,17 @@ static void free_tiles(ps_nufft_state *self) {
     ps_nufft_places_free(&self->places);
 }
 
-/* Sorting and spreading of every chunk, then a launch for each axis. */
+/* Sorting and spreading of every chunk, in boxes a launch for each colour, then one for each axis.
+ * */
 static double count_large_launches(const ps_nufft_layout *layout, double num_points,
                                    double realizations) {
     unsigned num_last = 0;
     ps_nufft_last_axes(&layout->choice, &num_last);
     const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
-    return realizations * (2 * chunks + 1 + num_last);
+    const uint32_t *const colours = layout->boxes.colours;
+    const double spreading =
+        layout->choice.num_axes == 3 ? (double)(colours[0] * colours[1] * colours[2]) : 1;
+    return realizations * ((1 + spreading) * chunks + 1 + num_last);
 }
 
 static pspec_status create_large(ps_nufft_state *self, ps_error *error) {

@@ -1,0 +1,24 @@
+/* Boxes of cells in which points of a large set in three dimensions are spread
+ * (kernels/nufft/boxes.cl). */
+#ifndef PS_ENGINES_NUFFT_BOXES_H
+#define PS_ENGINES_NUFFT_BOXES_H
+
+#include "engines/nufft/choice.h"
+
+typedef struct ps_nufft_boxes {
+    uint32_t num[PS_NUFFT_MAX_AXES], per_cell[PS_NUFFT_MAX_AXES]; /* kernels/nufft/boxes.h */
+    /* Boxes of a colour share no cell; num is a multiple of them */
+    uint32_t colours[PS_NUFFT_MAX_AXES];
+    /* Numbers of the largest box with the cells behind it that windows touch */
+    uint32_t sides[PS_NUFFT_MAX_AXES];
+} ps_nufft_boxes;
+
+/* The boxes of a grid; halvings: of their edges, for less local memory. */
+ps_nufft_boxes ps_nufft_boxes_measure(const ps_nufft_choice *choice, unsigned halvings);
+
+size_t ps_nufft_boxes_count(const ps_nufft_boxes *boxes);
+/* Of one colour. */
+size_t ps_nufft_boxes_of_colour(const ps_nufft_boxes *boxes);
+size_t ps_nufft_boxes_reals(const ps_nufft_boxes *boxes);
+
+#endif
