@@ -47,10 +47,12 @@ static void copy_some_powers(void *payload, unsigned index, unsigned count) {
 
 static pspec_status copy_powers(pspec_spectrum *spectrum, const ps_spectrum *averages,
                                 ps_error *error) {
-    PS_TRY(PS_NEW(&spectrum->powers, averages->frequencies.num, "powers", error));
-    PS_TRY(PS_NEW(&spectrum->standard_errors, averages->frequencies.num, "standard errors", error));
+    ps_spares *const spares = spectrum->sums.spares;
+    const size_t num = averages->frequencies.num;
+    PS_TRY(PS_TAKE(spares, &spectrum->powers, num, "powers", error));
+    PS_TRY(PS_TAKE(spares, &spectrum->standard_errors, num, "standard errors", error));
     copying work = {spectrum, averages};
-    ps_workers_share(averages->frequencies.num, copy_some_powers, &work);
+    ps_workers_share(num, copy_some_powers, &work);
     return PSPEC_OK;
 }
 
@@ -102,10 +104,11 @@ pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan *plan) {
 
 void pspec_spectrum_destroy(pspec_spectrum *spectrum) {
     if (spectrum != NULL) {
+        const size_t bytes = spectrum->sums.frequencies.num * sizeof(double);
+        ps_spares_give(spectrum->sums.spares, spectrum->powers, bytes);
+        ps_spares_give(spectrum->sums.spares, spectrum->standard_errors, bytes);
         ps_spectrum_sums_free(&spectrum->sums);
         free(spectrum->bins);
-        free(spectrum->powers);
-        free(spectrum->standard_errors);
         free(spectrum);
     }
 }

@@ -50,6 +50,26 @@ static pspec_status check_room(uint64_t bytes, const char *what, ps_error *error
                                          ps_size_show(there, (double)room.bytes));
 }
 
+pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,
+                         ps_error *error) {
+    size_t bytes = 0;
+    *out = NULL;
+    if (ps_size_multiply(count, element_bytes, &bytes)) {
+        PS_TRY(check_room(bytes, what, error));
+        *out = calloc(count > 0 ? count : 1, element_bytes);
+    }
+    return *out != NULL ? PSPEC_OK : fail_memory(count, element_bytes, what, error);
+}
+
+/* A pointer of another type may not be written as a void *, but its bytes may be copied. */
+pspec_status ps_allocate_for(void *pointer, size_t count, size_t element_bytes, const char *what,
+                             ps_error *error) {
+    void *memory = NULL;
+    const pspec_status status = ps_allocate(&memory, count, element_bytes, what, error);
+    memcpy(pointer, &memory, sizeof memory);
+    return status;
+}
+
 void ps_memory_use_large_pages(void *memory, size_t bytes) {
 #ifdef MADV_HUGEPAGE
     /* whole pages inside; what calloc keeps before and behind them is its own */
@@ -63,33 +83,6 @@ void ps_memory_use_large_pages(void *memory, size_t bytes) {
     (void)memory;
     (void)bytes;
 #endif
-}
-
-/* Arrays from here on are given in large pages: the faults of small ones took a fifth of the time
- * of a spectrum of 2 million frequencies of one set (docs/developer/performance.md). */
-enum { LEAST_LARGE = 4 << 20 };
-
-pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,
-                         ps_error *error) {
-    size_t bytes = 0;
-    *out = NULL;
-    if (ps_size_multiply(count, element_bytes, &bytes)) {
-        PS_TRY(check_room(bytes, what, error));
-        *out = calloc(count > 0 ? count : 1, element_bytes);
-    }
-    if (*out != NULL && bytes >= LEAST_LARGE) {
-        ps_memory_use_large_pages(*out, bytes);
-    }
-    return *out != NULL ? PSPEC_OK : fail_memory(count, element_bytes, what, error);
-}
-
-/* A pointer of another type may not be written as a void *, but its bytes may be copied. */
-pspec_status ps_allocate_for(void *pointer, size_t count, size_t element_bytes, const char *what,
-                             ps_error *error) {
-    void *memory = NULL;
-    const pspec_status status = ps_allocate(&memory, count, element_bytes, what, error);
-    memcpy(pointer, &memory, sizeof memory);
-    return status;
 }
 
 pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t element_bytes,

@@ -69,7 +69,10 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->reference_points = options->normalization == PSPEC_NORMALIZATION_INTEGRAL
                                  ? (double)options->problem.num_points
                                  : 1;
-    pspec_status status = create_arrays(self, error);
+    pspec_status status = ps_spares_create(&self->spares, error);
+    if (status == PSPEC_OK) {
+        status = create_arrays(self, error);
+    }
     if (status == PSPEC_OK) {
         status = create_parts(self, error);
     }
@@ -93,6 +96,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     free(estimator->exponents);
     free(estimator->sums);
     ps_pair_sums_free(&estimator->c2);
+    ps_spares_leave(estimator->spares);
     free(estimator);
 }
 

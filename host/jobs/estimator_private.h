@@ -21,6 +21,7 @@ struct ps_estimator {
     bool leaves_checks;      /* of this batch's coordinates to the engine */
     ps_pattern_totals totals;
     ps_accuracy accuracy;
+    ps_spares *spares; /* of spectra */
 };
 
 /* Makes the engine anew, for half as many realizations as long as memory is refused. */

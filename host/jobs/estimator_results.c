@@ -76,7 +76,8 @@ pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means, ps_e
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
     const ps_estimator_options *options = &estimator->options;
     PS_TRY(require_realizations(estimator, error));
-    PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num, error));
+    PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num,
+                                   estimator->spares, error));
     out->normalization = options->normalization;
     out->reference_points = estimator->reference_points;
     out->totals = estimator->totals;

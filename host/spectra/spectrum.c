@@ -121,9 +121,10 @@ out:
 }
 
 void ps_spectrum_free(ps_spectrum *spectrum) {
+    ps_spares_give(spectrum->spares, spectrum->powers, spectrum->frequencies.num * sizeof(ps_mean));
+    ps_spares_leave(spectrum->spares);
     ps_frequencies_free(&spectrum->frequencies);
     free(spectrum->bins);
-    free(spectrum->powers);
     *spectrum = (ps_spectrum){0};
 }
 

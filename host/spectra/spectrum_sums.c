@@ -9,13 +9,13 @@
 
 static pspec_status allocate(ps_spectrum_sums *out, ps_error *error) {
     PS_TRY(PS_NEW(&out->bins, out->num_bins, "sums of bins", error));
-    PS_TRY(PS_NEW(&out->powers, out->frequencies.num, "sums of frequencies", error));
-    return PSPEC_OK;
+    return PS_TAKE(out->spares, &out->powers, out->frequencies.num, "sums of frequencies", error);
 }
 
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
-                                     size_t num_bins, ps_error *error) {
-    *out = (ps_spectrum_sums){.reference_points = 1, .num_bins = num_bins};
+                                     size_t num_bins, ps_spares *spares, ps_error *error) {
+    *out = (ps_spectrum_sums){
+        .reference_points = 1, .num_bins = num_bins, .spares = ps_spares_share(spares)};
     pspec_status status = ps_frequencies_copy(&out->frequencies, frequencies, error);
     if (status == PSPEC_OK) {
         status = allocate(out, error);
@@ -28,21 +28,23 @@ pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies
 
 pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
                                    ps_error *error) {
-    PS_TRY(ps_spectrum_sums_create(out, &original->frequencies, original->num_bins, error));
+    PS_TRY(ps_spectrum_sums_create(out, &original->frequencies, original->num_bins, NULL, error));
     const ps_spectrum_sums owned = *out;
     *out = *original;
     out->frequencies = owned.frequencies;
     out->bins = owned.bins;
     out->powers = owned.powers;
+    out->spares = NULL;
     memcpy(out->bins, original->bins, original->num_bins * sizeof(ps_sums));
     memcpy(out->powers, original->powers, original->frequencies.num * sizeof(ps_sums));
     return PSPEC_OK;
 }
 
 void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
+    ps_spares_give(sums->spares, sums->powers, sums->frequencies.num * sizeof(ps_sums));
+    ps_spares_leave(sums->spares);
     ps_frequencies_free(&sums->frequencies);
     free(sums->bins);
-    free(sums->powers);
     *sums = (ps_spectrum_sums){0};
 }
 
@@ -198,11 +200,14 @@ pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins
         ps_spectrum_factor(sums->normalization, &sums->totals, sums->reference_points);
     *out = (ps_spectrum){0};
     PS_TRY_OUT(status, PS_NEW(&bin_means, bins->num, "the bins", error));
-    PS_TRY_OUT(status, PS_NEW(&powers, sums->frequencies.num, "the powers", error));
+    PS_TRY_OUT(status, PS_TAKE(sums->spares, &powers, sums->frequencies.num, "the powers", error));
     finish_all(sums->bins, sums->num_bins, num, bin_means);
     finish_all(sums->powers, sums->frequencies.num, num, powers);
     status = ps_spectrum_from_means(out, &sums->frequencies, bins, bin_means, powers, factor,
                                     &sums->totals, error);
+    if (status == PSPEC_OK) {
+        out->spares = ps_spares_share(sums->spares);
+    }
     powers = NULL;
 out:
     free(powers);

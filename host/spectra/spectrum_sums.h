@@ -16,14 +16,16 @@ typedef struct ps_spectrum_sums {
     double reference_points; /* N_ref; 1 under the other normalizations */
     double error;            /* largest bound of the numerical error of S */
     ps_pattern_totals totals;
-    size_t num_bins; /* all, the unreported one included */
-    ps_sums *bins;   /* [num_bins] */
-    ps_sums *powers; /* [frequencies.num] */
+    size_t num_bins;   /* all, the unreported one included */
+    ps_sums *bins;     /* [num_bins] */
+    ps_sums *powers;   /* [frequencies.num] */
+    ps_spares *spares; /* where powers come from and go to, or NULL */
 } ps_spectrum_sums;
 
-/* Copies the frequencies; all sums are 0. */
+/* Copies the frequencies; all sums are 0, or with spares anything. */
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
-                                     size_t num_bins, ps_error *error) PS_MUST_CHECK;
+                                     size_t num_bins, ps_spares *spares,
+                                     ps_error *error) PS_MUST_CHECK;
 pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
                                    ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_sums_free(ps_spectrum_sums *sums);

@@ -36,7 +36,8 @@ typedef struct pspec_bin {
  * of higher precision then. #PSPEC_ERROR_CHECK when the powers are not finite numbers. The first
  * two do not harm the plan. */
 PSPEC_EXPORT pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan *plan);
-/** NULL is allowed. */
+/** NULL is allowed. Arrays of millions of frequencies stay with the plan, while there is one, for
+ * its next spectrum. */
 PSPEC_EXPORT void pspec_spectrum_destroy(pspec_spectrum *spectrum);
 
 /** Writes the sums over realizations, from which every number of the spectrum follows, into a file

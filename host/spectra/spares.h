@@ -1,0 +1,30 @@
+/* Large arrays of spectra that are no longer needed, for the next ones: fresh memory of a spectrum
+ * of millions of frequencies costs a fifth of the time of one set (docs/developer/performance.md).
+ * An estimator has them, and so has every spectrum made by it, which may outlive it: whoever leaves
+ * last frees them. Any thread may take and give.
+ */
+#ifndef PS_SPECTRA_SPARES_H
+#define PS_SPECTRA_SPARES_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+
+typedef struct ps_spares ps_spares;
+
+pspec_status ps_spares_create(ps_spares **out, ps_error *error) PS_MUST_CHECK;
+/* One owner more; NULL stays NULL. */
+ps_spares *ps_spares_share(ps_spares *spares);
+/* One owner less. */
+void ps_spares_leave(ps_spares *spares);
+
+/* Allocates as PS_NEW does, but with anything in it, where an array of this size was given. spares
+ * may be NULL. */
+#define PS_TAKE(spares, pointer, count, what, error)                                               \
+    ps_spares_take((spares), (pointer), (count), sizeof **(pointer), (what), (error))
+pspec_status ps_spares_take(ps_spares *spares, void *pointer, size_t count, size_t element_bytes,
+                            const char *what, ps_error *error) PS_MUST_CHECK;
+/* Takes over an array of so many bytes, or frees it. */
+void ps_spares_give(ps_spares *spares, void *array, size_t bytes);
+
+#endif
