@@ -6,7 +6,8 @@ import sys
 from report import LOOSE, OTHER_ENGINE, OURS, PEER, Entry, Result
 from timing import Contestant, alternate
 
-BATCH, BATCH_SECONDS = 64, 0.3  # pointspec computes sets together: so many, or as many as its plan says for this
+BATCH, BATCH_SECONDS = 64, 0.3  # pointspec computes sets together: so many, or as many as its plan says for this,
+BATCH_ALL = 10  # but all of a case with so few
 LOOSE_TOLERANCE = 1e-6  # single precision with eps as asked, whatever its error, is run down to here
 
 
@@ -37,9 +38,9 @@ def enter_plain(create, points, reference):
 class Contest:
     """Of a case: its points, reference, and what was found out about peers."""
 
-    def __init__(self, domain, points, reference, tuners, pointspec, arguments):
+    def __init__(self, domain, points, reference, tuners, pointspec, before, arguments):
         self.domain, self.points, self.reference = domain, points, reference
-        self.tuners, self.pointspec, self.arguments = tuners, pointspec, arguments
+        self.tuners, self.pointspec, self.before, self.arguments = tuners, pointspec, before, arguments
 
     def run(self, tolerance):
         entries = [entry for entry in self._entries(tolerance) if entry is not None]
@@ -70,15 +71,18 @@ class Contest:
         except RuntimeError as error:
             say(f"# {self.points.case} {tolerance:.0e}: pointspec left out: {error}")
             return
-        yield self._enter(tolerance, OURS, "pointspec", arguments.engine, plan.seconds[plan.chosen],
-                          arguments.skip_above)
+        yield self._enter(tolerance, OURS, self.pointspec, "pointspec", arguments.engine,
+                          plan.seconds[plan.chosen], arguments.skip_above)
+        if self.before is not None:
+            yield self._enter(tolerance, OTHER_ENGINE, self.before, "before", arguments.engine,
+                              plan.seconds[plan.chosen], arguments.skip_above)
         if arguments.engines_above > 0:
             for engine, seconds in plan.seconds.items():
                 if engine != plan.chosen:
-                    yield self._enter(tolerance, OTHER_ENGINE, engine, engine, seconds,
+                    yield self._enter(tolerance, OTHER_ENGINE, self.pointspec, engine, engine, seconds,
                                       arguments.engines_above)
 
-    def _enter(self, tolerance, role, name, engine, planned, longest):
+    def _enter(self, tolerance, role, pointspec, name, engine, planned, longest):
         """engine: a name to force, or None for the choice of the planner. None, which is said, for one that
         would take too long."""
         case = self.points.case
@@ -87,14 +91,22 @@ class Contest:
                 f"above {longest:g} s")
             return None
         try:
-            runner = self.pointspec.open(self.points, tolerance, engine)
-            magnitudes, claimed = runner.magnitudes(0)
+            runner = pointspec.open(self.points, tolerance, engine)
+            errors, claimed = self._errors(runner)
         except RuntimeError as error:
             say(f"# {case} {tolerance:.0e}: {name} left out: {error}")
             return None
-        batch = max(1, min(BATCH, int(BATCH_SECONDS / planned)))
-        return Entry(role, Contestant(name, runner, self.points.count, batch), self.pointspec.version,
-                     runner.text, *self.reference.errors_of_magnitudes(magnitudes), claimed)
+        all_sets = case.realizations if case.realizations <= BATCH_ALL else 1
+        batch = max(all_sets, min(BATCH, int(BATCH_SECONDS / planned)))
+        return Entry(role, Contestant(name, runner, self.points.count, batch), pointspec.version,
+                     runner.text, *errors, claimed)
+
+    def _errors(self, runner):
+        """((error, what it is at least), what pointspec claims)"""
+        magnitudes, claimed = runner.magnitudes(0)
+        if self.pointspec.question.gives_modes:
+            return (self.reference.error_of_modes(runner.modes(0)), math.nan), claimed
+        return self.reference.errors_of_magnitudes(magnitudes), claimed
 
 
 def has_loose(peer):

@@ -48,6 +48,8 @@ def parse_arguments():
                         help="for peers.csv, peers_sphere.csv and peers_pairs.csv")
     parser.add_argument("--folder", type=Path, default=Path("build/peers"), help="what is installed")
     parser.add_argument("--build", type=Path, default=Path("build/release"))
+    parser.add_argument("--before", type=Path, metavar="FOLDER",
+                        help="a release build of another version of pointspec, which runs in turn with this one")
     arguments = parser.parse_args()
     if arguments.budget is None:
         arguments.budget = QUICK_SECONDS if arguments.quick else SECONDS
@@ -72,15 +74,19 @@ def open_peers(domain, arguments):
 
 
 def open_pointspec(domain, arguments):
+    """(of this build or None, of the one before or None)"""
     if arguments.no_pointspec:
-        return None
+        return None, None
     pointspec = Pointspec(arguments.build.resolve(), domain.question)
     print(f"# pointspec {pointspec.version}")
-    return pointspec
+    before = Pointspec(arguments.before.resolve(), domain.question) if arguments.before else None
+    return pointspec, before
 
 
-def column_names(domain, peers, pointspec):
-    names = ["pointspec", domain.beside] if pointspec is not None else []
+def column_names(domain, peers, pointspec, before):
+    names = ["pointspec"] if pointspec is not None else []
+    names += ["before"] if before is not None else []
+    names += [domain.beside] if pointspec is not None else []
     for peer in peers:
         names += [peer.name] + ([peer.loose_name] if has_loose(peer) else [])
     return names + ["plain"] * (domain.plain is not None)
@@ -89,18 +95,18 @@ def column_names(domain, peers, pointspec):
 def run_domain(name, arguments):
     domain = DOMAINS[name]
     peers = open_peers(domain, arguments)
-    pointspec = open_pointspec(domain, arguments)
+    pointspec, before = open_pointspec(domain, arguments)
     if not any(peer.name in ("finufft", "ducc0") for peer in peers):
         sys.exit("peers: neither finufft nor ducc0 is there to compute a reference")
     csv_file = CsvFile(arguments.output / domain.csv_name)
-    table = Table(domain.heading, column_names(domain, peers, pointspec), any(map(has_loose, peers)))
+    table = Table(domain.heading, column_names(domain, peers, pointspec, before), any(map(has_loose, peers)))
     notes = []
     for case in [case for case in arguments.case or domain.cases if domain_of(case) == name]:
         points = domain.points(case)
         reference = domain.reference(points, peers, arguments.folder)
         notes.append(f"# {case}: {reference.note()}")
         tuners = [Tuner(peer, points, reference) for peer in peers]
-        contest = Contest(domain, points, reference, tuners, pointspec, arguments)
+        contest = Contest(domain, points, reference, tuners, pointspec, before, arguments)
         for tolerance in arguments.tol or domain.tolerances:
             results = contest.run(tolerance)
             csv_file.add(case, tolerance, results)

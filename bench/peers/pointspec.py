@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from loops_sphere import num_coefficients
+
 
 class Planned(NamedTuple):
     chosen: str
@@ -114,6 +116,14 @@ class PointspecRunner:
             return np.sqrt(powers * case.points), self.library.pspec_spectrum_error(spectrum)
 
         return self.average(realization, 1, use)
+
+    def modes(self, realization):
+        """The conjugate c_lm, as those of the peers."""
+        found = np.empty(num_coefficients(self.points.case.degree), np.complex128)
+        pattern = ctypes.byref(self.patterns, realization * ctypes.sizeof(Pattern))
+        self.peer.check(self.library.pspec_plan_coefficients(
+            self.plan, pattern, 0, ctypes.c_void_p(found.ctypes.data)))
+        return np.conj(found)
 
     def close(self):
         self.library.pspec_plan_destroy(self.plan)

@@ -49,6 +49,8 @@ PAIRS = 2  # PSPEC_NORMALIZATION_PAIRS
 
 
 class TorusQuestion:
+    gives_modes = False
+
     def arguments(self, case):
         return ["power", "--sampler", "white", "-d", case.dimension, "-k", case.max_frequency]
 
@@ -61,6 +63,8 @@ class TorusQuestion:
 
 
 class SphereQuestion:
+    gives_modes = True  # the coefficients that powers are made of
+
     def arguments(self, case):
         return ["angular", "--sampler", "white-sphere", "-l", case.degree]
 
@@ -72,6 +76,8 @@ class SphereQuestion:
 
 
 class PairsQuestion:
+    gives_modes = False
+
     def arguments(self, case):
         return ["pairs", "--sampler", "white-sphere", "-l", case.degree]
 

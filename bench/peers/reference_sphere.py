@@ -54,7 +54,6 @@ class SphereReference:
         else:
             self.modes = fast
             self.error = self._check(points)
-        self.norms = self._norms(self.modes)
 
     def note(self):
         if self.is_exact:
@@ -114,12 +113,3 @@ class SphereReference:
     def _norms(self, modes):
         """Of the 2l + 1 coefficients of the degrees 1 .. L."""
         return np.sqrt(np.bincount(self.degrees, self.counts * np.abs(modes) ** 2))[1:]
-
-    def errors_of_magnitudes(self, magnitudes):
-        """(error, what it is at least). Magnitudes are sqrt(Q(l)) of the degrees 1 .. L. The norm of a degree shows
-        one of the 2l + 1 components of an error, the one along the coefficients: that one alone is the
-        least that the error can be, and 2l + 1 times its square what it is when none is special."""
-        orders = 2 * np.arange(1, self.case.degree + 1) + 1
-        shown = (magnitudes * np.sqrt(orders / (4 * np.pi)) - self.norms) ** 2
-        return (self._relative(np.sum(orders * shown), np.sum(orders)),
-                self._relative(np.sum(shown), np.sum(orders)))

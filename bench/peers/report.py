@@ -74,7 +74,7 @@ class Table:
         for name in names:
             title += f" | {name:>13} {'':5}"
             units += f" | {'us/R':>11} {'error':>7}"
-        last = " | best peer, ratio" + "    as asked" * has_loose
+        last = " | best peer, ratio" + "    as asked" * has_loose + " | sets"
         print(f"{title}{last}\n{units} |", flush=True)
 
     def add(self, case, tolerance, results):
@@ -83,7 +83,9 @@ class Table:
         for name in self.names:
             line += " | " + self._cell(by_name.get(name), tolerance)
         best, ratio, loose_ratio = ratios(results)
+        counts = [by_name[name].count for name in ("pointspec", best) if name in by_name]
         line += f" | {best or '-':<8} {show(ratio):>9}" + f" {show(loose_ratio):>10}" * self.has_loose
+        line += " | " + ", ".join(map(str, counts))
         print(line, flush=True)
 
     def _cell(self, result, tolerance):
