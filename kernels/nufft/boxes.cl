@@ -1,14 +1,15 @@
-/* Points of one large set in three dimensions spread on the whole fine grid, as real numbers, a box
- * of cells by each work-group, in local memory with the cells behind it that windows touch. A
- * launch has the boxes of one colour, which share no cell; others come before or after it, so that
- * every cell is added to in the same order. Launch: (work-items of one group, boxes of the colour).
+/* Points of one large set in two or three dimensions spread on the whole fine grid, as real
+ * numbers, a box of cells by each work-group, in local memory with the cells behind it that windows
+ * touch. A launch has the boxes of one colour, which share no cell; others come before or after it,
+ * so that every cell is added to in the same order. Launch: (work-items of one group, boxes of the
+ * colour).
  *
  *   places, sorted, heights  of nufft/sort.cl, in parts
  *   starts    [part][box + 2]: places in the order of boxes
- *   numbers   boxes_numbers of nufft/boxes.h
+ *   numbers   boxes_numbers of nufft/boxes.h: in two dimensions axes 1 and 2 are those of the points
  *   windows_0, windows_1, windows_2  coefficients of nufft/window.h
  *   high, low [cell of axis 0][cell of axis 1][cell of axis 2]: numbers, with PAIRS pairs of them;
- *             without, low is not touched
+ *             without, low is not touched; in this launch some cells of the first axis
  *   box       local, [..][rows][pitch], where windows of axis 2 end within the pitch
  *   windows, cells  local, of a chunk
  */
@@ -22,13 +23,20 @@
 typedef PS_JOIN(REAL, 2) real2;
 typedef real2 unaligned_real2 __attribute__((aligned(sizeof(real))));
 
+#ifndef DIMENSION
+#define DIMENSION 3
+#endif
+
+/* The first axis that there is. */
+#define FIRST (BOX_AXES - DIMENSION)
+
 /* Sums of chunks are added up in pairs of numbers. */
 #ifndef PAIRS
 #define PAIRS 0
 #endif
 
 /* Local memory of a chunk: windows of axes 0 and 1 [bins][CHUNK], the first times the weights, and
- * of axis 2 [CHUNK][bins]. */
+ * of axis 2 [CHUNK][bins]. In two dimensions the first are the weights. */
 typedef struct box_chunk {
     __local real *window[BOX_AXES];
     __local real *centres; /* [axis][CHUNK]: where windows are made */
@@ -57,16 +65,16 @@ static inline void place_in_box(const box_chunk to, const uint part, __global co
                                 const boxes_numbers numbers) {
     uintv cells = 0;
 #pragma unroll
-    for (uint axis = 0; axis < BOX_AXES; axis++) {
+    for (uint axis = FIRST; axis < BOX_AXES; axis++) {
         const window_numbers window = numbers.axes[axis].window;
         const uint apart = axis == 0 ? 1 : axis == 1 ? numbers.rows : numbers.pitch;
+        const ulongv x = load_some_coordinates(from, DIMENSION, axis - FIRST, num);
         wordv fractions;
-        const uintv first = first_cells(load_some_coordinates(from, BOX_AXES, axis, num), window.n,
-                                        window.width, &fractions);
+        const uintv first = first_cells(x, window.n, window.width, &fractions);
         cells = cells * (uintv)apart + first - (uintv)place.begin[axis];
         store_local(to.centres + axis * CHUNK, part, centred_fractions(fractions));
     }
-    store_local(to.weights, part, weights);
+    store_local(FIRST == 0 ? to.weights : to.window[0], part, weights);
     *(__local unaligned_uintv *)(to.cells + part * LANES) = cells;
 }
 
@@ -74,7 +82,7 @@ static inline void place_in_box(const box_chunk to, const uint part, __global co
 static inline void make_box_windows(const box_chunk to, const uint count,
                                     const window_axis axes[BOX_AXES]) {
     const uint parts = (count + LANES - 1) / LANES;
-    for (uint axis = 0; axis < BOX_AXES - 1; axis++) {
+    for (uint axis = FIRST; axis < BOX_AXES - 1; axis++) {
         const uint jobs = (axes[axis].width + 3) / 4 * parts; /* two pairs of bins */
         for (uint job = own_item(); job < jobs; job += num_items()) {
             const uint part = job % parts;
@@ -96,7 +104,7 @@ static inline void fill_box_chunk(const box_chunk to, __global const ulong *poin
         const uint begin = part * LANES, num = count - begin;
         const realv few =
             num >= LANES ? load_global(weights + begin, 0) : load_few_weights(weights + begin, num);
-        place_in_box(to, part, points + (size_t)begin * BOX_AXES, num, few, place, numbers);
+        place_in_box(to, part, points + (size_t)begin * DIMENSION, num, few, place, numbers);
     }
     GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
     make_box_windows(to, count, axes);
@@ -228,14 +236,29 @@ static inline void add_row(__global real *high, __global real *low, __local real
     add_numbers(high, low, row + before, kept - before);
 }
 
+/* Where a cell of axis 0 and one of axis 1 have their row in this launch; false: nowhere. */
+static inline bool find_row(size_t *row, const uint cell, const uint next,
+                            const boxes_numbers numbers) {
+    const uint at = (FIRST == 0 ? cell : next) - numbers.first_row;
+    *row = FIRST == 0 ? (size_t)at * numbers.axes[1].window.n + next : at;
+    return at < numbers.num_rows;
+}
+
 static inline void add_box(__global real *high, __global real *low, __local real *box,
                            const box_place place, const boxes_numbers numbers) {
     const window_numbers first = numbers.axes[0].window, second = numbers.axes[1].window;
     const window_numbers last = numbers.axes[2].window;
     for (uint i = 0; i < place.size[0] + first.width - 1; i++) {
-        const uint at = (place.begin[0] + i) % first.n - numbers.first_row;
-        for (uint j = 0; at < numbers.num_rows && j < place.size[1] + second.width - 1; j++) {
-            const size_t row = ((size_t)at * second.n + (place.begin[1] + j) % second.n) * last.n;
+        for (uint j = 0; j < place.size[1] + second.width - 1; j++) {
+            size_t row;
+            if (!find_row(&row, (place.begin[0] + i) % first.n, (place.begin[1] + j) % second.n,
+                          numbers)) {
+                continue;
+            }
+            row *= last.n;
+            for (uint k = 0; k < numbers.pitch; k += 64 / sizeof(real)) {
+                will_write(high + row + AHEAD_ROWS * last.n + place.begin[2] + k);
+            }
             add_row(high + row, low + row, box + (i * numbers.rows + j) * numbers.pitch,
                     place.begin[2], place.size[2] + last.width - 1, last.n);
         }
@@ -247,7 +270,9 @@ static inline void add_box(__global real *high, __global real *low, __local real
 /* The own box, and its number among all. */
 static inline uint find_box(box_place *place, const boxes_numbers numbers) {
     uint rest = (uint)get_global_id(1), number = 0, each = 1;
-    for (uint i = BOX_AXES; i-- > 0;) {
+    place->begin[0] = 0;
+    place->size[0] = 1;
+    for (uint i = BOX_AXES; i-- > FIRST;) {
         const box_axis axis = numbers.axes[i];
         const uint num = axis.boxes / axis.colours;
         const uint box = rest % num * axis.colours + axis.colour;
@@ -260,11 +285,11 @@ static inline uint find_box(box_place *place, const boxes_numbers numbers) {
     return number;
 }
 
-/* Does a window that begins in the box touch the cells of axis 0 that are there? */
+/* Does a window that begins in the box touch the cells of the first axis that are there? */
 static inline bool is_there(const box_place place, const boxes_numbers numbers) {
-    const window_numbers window = numbers.axes[0].window;
-    for (uint i = 0; i < place.size[0] + window.width - 1; i++) {
-        if ((place.begin[0] + i) % window.n - numbers.first_row < numbers.num_rows) {
+    const window_numbers window = numbers.axes[FIRST].window;
+    for (uint i = 0; i < place.size[FIRST] + window.width - 1; i++) {
+        if ((place.begin[FIRST] + i) % window.n - numbers.first_row < numbers.num_rows) {
             return true;
         }
     }
@@ -279,8 +304,8 @@ nufft_boxes(const boxes_numbers numbers, __global const ulong *restrict places,
             __global real *restrict high, __global real *restrict low, __local real *box,
             __local real *windows, __local uint *cells) {
     const window_axis axes[BOX_AXES] = {make_chunk_window(windows_0, numbers.axes[0].window, 0),
-                                        make_chunk_window(windows_1, numbers.axes[1].window, 1),
-                                        make_chunk_window(windows_2, numbers.axes[2].window, 2)};
+                                        make_chunk_window(windows_1, numbers.axes[1].window, 0),
+                                        make_chunk_window(windows_2, numbers.axes[2].window, 0)};
     const box_chunk chunk = make_box_chunk(windows, cells, numbers);
     const size_t num_boxes =
         (size_t)numbers.axes[0].boxes * numbers.axes[1].boxes * numbers.axes[2].boxes;
@@ -299,7 +324,7 @@ nufft_boxes(const boxes_numbers numbers, __global const ulong *restrict places,
         const size_t end = places[part] + start[1];
         for (size_t at = places[part] + start[0]; at < end; at += CHUNK) {
             const uint count = (uint)min((size_t)CHUNK, end - at);
-            fill_box_chunk(chunk, sorted + at * BOX_AXES, heights + at, count, place, axes,
+            fill_box_chunk(chunk, sorted + at * DIMENSION, heights + at, count, place, axes,
                            numbers);
             if (num_items() == 1) {
                 add_points_alone(box, chunk, count, numbers);

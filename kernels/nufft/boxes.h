@@ -1,5 +1,5 @@
-/* Boxes of cells, by which points of a large set in three dimensions are sorted and spread: what
- * kernels/nufft/sort.cl and boxes.cl agree on with the host.
+/* Boxes of cells, by which points of a large set are sorted and spread: what kernels/nufft/sort.cl
+ * and boxes.cl agree on with the host.
  *
  * An axis of n cells is cut into `boxes` of nearly equal length. per_cell is 2^32 boxes / n,
  * rounded up: box_of(n - 1) is boxes - 1 and box_begin(boxes) is n where n (n - 1) < 2^32 boxes.
@@ -30,7 +30,7 @@ typedef struct boxes_numbers {
     box_axis axes[BOX_AXES];
     ps_u32 rows, pitch; /* of a box in local memory: along axis 1, and numbers along axis 2 */
     ps_u32 num_parts;
-    ps_u32 first_row, num_rows; /* cells of axis 0 that the grid in this launch has */
+    ps_u32 first_row, num_rows; /* cells of the first axis that the grid in this launch has */
     ps_u32 unused;              /* fills the size up to whole numbers of eight bytes */
 } boxes_numbers;
 

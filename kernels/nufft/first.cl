@@ -1,4 +1,4 @@
-/* The transform along axis 0 of a grid of real numbers (nufft/grid.cl). Launch: (work-items of one
+/* The transform along axis 0 of a grid of real numbers (nufft/boxes.cl). Launch: (work-items of one
  * group, groups of 2 LANES columns).
  *
  * Lanes are neighbouring columns here (nufft/halves.h). The result is turned, so that lanes are

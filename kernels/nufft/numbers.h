@@ -52,12 +52,6 @@ typedef struct rows_numbers {
     ps_u32 base, num_tiles, group, K;
 } rows_numbers;
 
-typedef struct grid_numbers {
-    window_numbers block, last;
-    ps_u32 num_parts, first_block, is_first;
-    ps_u32 block_rows; /* of a work-group */
-} grid_numbers;
-
 typedef struct first_numbers {
     ps_u64 columns, first_column, all_columns; /* that are there, in the grid, of the grid */
     transform_numbers transform;
@@ -76,7 +70,6 @@ typedef struct powers_numbers {
 SAME_SIZE(sort_numbers, 88);
 SAME_SIZE(tile_numbers, 64);
 SAME_SIZE(rows_numbers, 80);
-SAME_SIZE(grid_numbers, 48);
 SAME_SIZE(first_numbers, 40);
 SAME_SIZE(powers_numbers, 32);
 

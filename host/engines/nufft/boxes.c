@@ -3,13 +3,17 @@
 #include "base/round.h"
 #include "nufft/boxes.h"
 
-/* Cells of a box along each axis: with windows of 6 to 12 cells a prototype was slower in boxes of
- * 8 x 8 x 64 (Zen 4, 2026-11: 69 ms for a million points, against 39 to 45); they stay in the
- * second cache. */
-static const uint32_t edges[PS_NUFFT_MAX_AXES] = {16, 32, 32};
+/* Cells of a box along the axes of the kernel. With what windows touch behind them they are to stay
+ * in the second cache of a core; where points are few for their cells, larger boxes are better, for
+ * each is added to the grid (Zen 4, 2026-11, a million points, K = 64, at 1e-6: 16 x 16 x 32 take
+ * 1.16 times as long as 16 x 32 x 32). */
+static const uint32_t edges_of_plane[PS_NUFFT_MAX_AXES] = {1, 64, 128};
+static const uint32_t edges_of_space[PS_NUFFT_MAX_AXES] = {16, 32, 32};
+enum { LEAST_EDGE = 4 };
 
-/* Small grids have smaller boxes, so that all cores have some of a colour. */
-enum { LEAST_OF_COLOUR = 8 };
+/* Small grids have smaller boxes, so that all cores have some of a colour; in space what is added
+ * behind them soon outweighs that. */
+enum { LEAST_OF_COLOUR = 8, HALVINGS_OF_PLANE = 3, HALVINGS_OF_SPACE = 1 };
 
 static void cut_axis(ps_nufft_boxes *boxes, unsigned i, const ps_nufft_axis *axis, uint32_t edge) {
     const uint32_t behind = axis->window.width - 1;
@@ -28,17 +32,25 @@ static void cut_axis(ps_nufft_boxes *boxes, unsigned i, const ps_nufft_axis *axi
 }
 
 static ps_nufft_boxes cut(const ps_nufft_choice *choice, unsigned halvings) {
-    ps_nufft_boxes boxes;
-    for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
-        cut_axis(&boxes, i, &choice->axes[i], edges[i] >> halvings);
+    const bool is_plane = choice->num_axes == 2;
+    const uint32_t *const edges = is_plane ? edges_of_plane : edges_of_space;
+    const unsigned first = PS_NUFFT_MAX_AXES - choice->num_axes;
+    ps_nufft_boxes boxes = {.num = {1}, .colours = {1}, .sides = {1}};
+    for (unsigned i = first; i < PS_NUFFT_MAX_AXES; i++) {
+        const uint32_t edge = edges[i] >> halvings;
+        cut_axis(&boxes, i, &choice->axes[i - first], edge > LEAST_EDGE ? edge : LEAST_EDGE);
     }
     return boxes;
 }
 
 ps_nufft_boxes ps_nufft_boxes_measure(const ps_nufft_choice *choice, unsigned halvings) {
-    const ps_nufft_boxes boxes = cut(choice, halvings);
-    return halvings == 0 && ps_nufft_boxes_of_colour(&boxes) < LEAST_OF_COLOUR ? cut(choice, 1)
-                                                                               : boxes;
+    const unsigned most = choice->num_axes == 2 ? HALVINGS_OF_PLANE : HALVINGS_OF_SPACE;
+    unsigned own = 0;
+    ps_nufft_boxes boxes = cut(choice, 0);
+    while (own < most && ps_nufft_boxes_of_colour(&boxes) < LEAST_OF_COLOUR) {
+        boxes = cut(choice, ++own);
+    }
+    return halvings == 0 ? boxes : cut(choice, own + halvings);
 }
 
 size_t ps_nufft_boxes_count(const ps_nufft_boxes *boxes) {

@@ -21,7 +21,7 @@
 enum { PS_NUFFT_MAX_AXES = 3 };
 
 /* Points of a large set that are sorted and spread at a time. */
-enum { PS_NUFFT_MOST_CHUNK_POINTS = 1 << 20 };
+enum { PS_NUFFT_MOST_CHUNK_POINTS = 1 << 21 };
 
 typedef struct ps_nufft_choice {
     unsigned lanes; /* whose cost counts: those of the device, nominal ones where it has none */

@@ -223,26 +223,38 @@ static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_
     }
 }
 
-/* Points added up before their sums go into pairs: so that what the mean of the cells rounds off
- * stays small (about so many windows on a cell), without going over the grid too often. */
-static uint64_t choose_chunk(const ps_nufft_choice *choice) {
-    const double windows_on_a_cell = 16;
-    const double least = 4096;
-    const double most = PS_NUFFT_MOST_CHUNK_POINTS;
+/* Points that put so many windows on a cell. */
+static double points_for(const ps_nufft_choice *choice, double windows_on_a_cell) {
     double points = windows_on_a_cell;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         points *= (double)choice->axes[i].n / choice->axes[i].window.width;
     }
-    return (uint64_t)fmin(fmax(points, least), most);
+    return points;
 }
 
-/* A choice with lengths and windows. In three dimensions, where windows of few points touch a cell,
- * sums may do without pairs. */
+/* Points added up before their sums go into pairs: so that what the mean of the cells rounds off
+ * stays small, without going over the grid too often. */
+static uint64_t choose_chunk(const ps_nufft_choice *choice) {
+    const double windows_on_a_cell = 16;
+    const double least = 4096;
+    const double most = PS_NUFFT_MOST_CHUNK_POINTS;
+    return (uint64_t)fmin(fmax(points_for(choice, windows_on_a_cell), least), most);
+}
+
+/* Roundings of plain sums of more windows on a cell may be in step beyond what the bound allows
+ * for: whole realizations were tried to thousands, large sets were not. */
+static bool can_be_plain(const ps_nufft_choice *choice, double num_points) {
+    const double windows_on_a_cell = 256;
+    return num_points <= points_for(choice, windows_on_a_cell);
+}
+
+/* A choice with lengths and windows. Where windows of few points touch a cell, sums may do without
+ * pairs. */
 static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
                           ps_precision precision) {
     const bool is_large = choice->is_gridded && !choice->is_whole;
     choice->chunk = 0;
-    if (is_large ? choice->num_axes == 3
+    if (is_large ? can_be_plain(choice, ps_planned_points(problem))
                  : !choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
         consider(best, choice, problem, precision);
     }

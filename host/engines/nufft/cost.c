@@ -119,25 +119,16 @@ static double polynomials_of(const ps_nufft_choice *choice) {
     return sum;
 }
 
-/* Spreading in blocks of rows, in two dimensions. */
-static void count_blocks(ps_nufft_counts *counts, const ps_nufft_choice *choice,
-                         ps_precision precision, double num_points) {
-    enum { STRIP = 8 };
-    const double width = choice->axes[0].window.width;
-    const double blocks = (PS_NUFFT_BLOCK_ROWS + width - 1.0) / PS_NUFFT_BLOCK_ROWS;
-    const double strips = cells_of_row(&choice->axes[1], precision) / STRIP;
-    add(counts, PS_NUFFT_GRID_BLOCK, num_points * blocks);
-    add(counts, PS_NUFFT_GRID_ROW, num_points * width * strips);
-}
-
-/* Spreading in boxes, in three. */
+/* Spreading in boxes. */
 static void count_boxes(ps_nufft_counts *counts, const ps_nufft_choice *choice,
                         ps_precision precision, double num_points) {
     enum { ROW_BYTES = 32 };
     const ps_nufft_axis *axes = choice->axes;
     const ps_nufft_boxes boxes = ps_nufft_boxes_measure(choice, 0);
     const double real_bytes = (double)ps_real_bytes(precision);
-    const double rows = (double)axes[0].window.width * axes[1].window.width;
+    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
+    const double rows = choice->num_axes == 3 ? (double)axes[0].window.width * axes[1].window.width
+                                              : axes[0].window.width;
     const double cells =
         (double)ps_nufft_boxes_reals(&boxes) * (double)ps_nufft_boxes_count(&boxes);
     const uint64_t chunk = choice->chunk > 0 ? choice->chunk : PS_NUFFT_MOST_CHUNK_POINTS;
@@ -145,7 +136,7 @@ static void count_boxes(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     add(counts, PS_NUFFT_BOX_POINT, num_points);
     add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials_of(choice));
     add(counts, PS_NUFFT_BOX_ROW,
-        num_points * rows * cells_of_row(&axes[2], precision) * real_bytes / ROW_BYTES);
+        num_points * rows * cells_of_row(last, precision) * real_bytes / ROW_BYTES);
     add(counts, PS_NUFFT_BOX_CELL, cells * real_bytes / (double)word_bytes * chunks);
 }
 
@@ -156,11 +147,7 @@ static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     const double columns =
         (choice->num_axes == 3 ? (double)axes[1].n : 1) * axes[choice->num_axes - 1].n;
     const double words = columns * axes[0].n * (double)(ps_real_bytes(precision) / word_bytes);
-    if (choice->num_axes == 3) {
-        count_boxes(counts, choice, precision, num_points);
-    } else {
-        count_blocks(counts, choice, precision, num_points);
-    }
+    count_boxes(counts, choice, precision, num_points);
     add_transforms(counts, columns / (2 * choice->lanes), axes[0].n);
     add(counts, PS_NUFFT_GRID_CELL, words);
     if (choice->chunk > 0) {

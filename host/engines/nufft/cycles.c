@@ -18,15 +18,13 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     [PS_NUFFT_TOUCHED] = 1,
     [PS_NUFFT_CLEARED] = 2.3,
     [PS_NUFFT_POWER] = 12,
-    /* grids of large sets: a point on its way to a block of rows, and a row of the block; four
-     * bytes of a cell cleared and fetched by the transform, and taken into pairs for every chunk */
-    [PS_NUFFT_GRID_BLOCK] = 40,
-    [PS_NUFFT_GRID_ROW] = 4,
+    /* grids of large sets: four bytes of a cell cleared and fetched by the transform, and taken
+     * into pairs for every chunk */
     [PS_NUFFT_GRID_CELL] = 5,
     [PS_NUFFT_GRID_PAIR] = 1,
-    /* boxes of large sets in three dimensions (Zen 4, where tiles take 1.6 times what the table
-     * says; so much less is here than was measured): a point on its way to a box, 32 bytes of a row
-     * of it, and four bytes of a cell cleared and added to the grid for every chunk */
+    /* boxes of large sets (Zen 4, where tiles take 1.6 times what the table says; so much less is
+     * here than was measured): a point on its way to a box, 32 bytes of a row of it, and four bytes
+     * of a cell cleared and added to the grid for every chunk */
     [PS_NUFFT_BOX_POINT] = 30,
     [PS_NUFFT_BOX_ROW] = 1.4,
     [PS_NUFFT_BOX_CELL] = 0.6,

@@ -5,8 +5,7 @@
 enum {
     PS_NUFFT_PLACE_UNIT = 16, /* place.h: a realization fills whole units of places */
     PS_NUFFT_GAP = 4,         /* place.h: zeros on either side of a window */
-    PS_NUFFT_CHUNK = 16,      /* spread.h: points that are spread together */
-    PS_NUFFT_BLOCK_ROWS = 8   /* grid.cl: rows of a work-group, at most */
+    PS_NUFFT_CHUNK = 16       /* spread.h: points that are spread together */
 };
 
 #endif

@@ -10,15 +10,14 @@
 
 static pspec_status create_kernels(ps_nufft_grid *self, ps_precision precision, ps_error *error) {
     char options[96];
-    const bool has_boxes = self->layout->choice.num_axes == 3;
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DPAIRS=%u -DALONE=%u",
+    snprintf(options, sizeof options,
+             "-DPRECISION=%u -DLANES=%u -DPAIRS=%u -DALONE=%u -DDIMENSION=%u",
              precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->layout->has_pairs,
-             self->is_alone);
+             self->is_alone, self->layout->choice.num_axes);
     const struct {
         cl_kernel *kernel;
         const char *source, *name;
-    } all[] = {{&self->spread, has_boxes ? "nufft/boxes.cl" : "nufft/grid.cl",
-                has_boxes ? "nufft_boxes" : "nufft_grid"},
+    } all[] = {{&self->spread, "nufft/boxes.cl", "nufft_boxes"},
                {&self->first, "nufft/first.cl", "nufft_first"},
                {&self->tile, "nufft/finish.cl", "nufft_finish_tile"},
                {&self->rows, "nufft/finish.cl", "nufft_finish_rows"},
@@ -74,7 +73,7 @@ pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *lay
                            .plans = plans,
                            .places = places,
                            .device = device,
-                           .is_alone = layout->choice.num_axes == 3 && ps_range_is_alone(device)};
+                           .is_alone = ps_range_is_alone(device)};
     PS_TRY(create_kernels(out, precision, error));
     return create_buffers(out, error);
 }
@@ -108,32 +107,6 @@ static const ps_buffer *low_of(const ps_nufft_grid *self, uint32_t slab) {
     return self->layout->has_pairs ? &self->low[slab] : &self->high[slab];
 }
 
-static pspec_status spread_blocks(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
-                                  size_t num_points, ps_error *error) {
-    const ps_nufft_plan *block = &self->plans[0];
-    const ps_nufft_plan *last = &self->plans[1];
-    const size_t block_rows = self->layout->block_rows;
-    const size_t rows = slab_rows(self->layout, slab);
-    const size_t first_row = (size_t)slab * self->layout->slab_rows;
-    const double flops = 2.0 * (double)num_points * block->axis.window.width * last->bins *
-                         (double)rows / block->axis.n;
-    const ps_range range =
-        ps_nufft_group_range(self->device, ps_divide_up(rows, block_rows), 1, flops);
-    const ps_nufft_local local = ps_nufft_grid_local(self->layout);
-    const grid_numbers numbers = {.block = ps_nufft_window_numbers(block),
-                                  .last = ps_nufft_window_numbers(last),
-                                  .num_parts = (uint32_t)num_parts,
-                                  .block_rows = self->layout->block_rows,
-                                  .first_block = (uint32_t)(first_row / block_rows),
-                                  .is_first = self->is_empty ? 1 : 0};
-    return PS_LAUNCH(self->device, self->spread, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->places->places), PS_BUFFER(self->places->sorted),
-                     PS_BUFFER(self->places->heights), PS_BUFFER(self->places->starts),
-                     PS_BUFFER(block->coefficients), PS_BUFFER(last->coefficients),
-                     PS_BUFFER(self->high[slab]), PS_BUFFER(self->low[slab]), PS_LOCAL(local.rows),
-                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
-}
-
 /* colour: of all axes, the last one's innermost. */
 static boxes_numbers numbers_of_colour(const ps_nufft_grid *self, uint32_t slab, size_t num_parts,
                                        uint32_t colour) {
@@ -144,8 +117,12 @@ static boxes_numbers numbers_of_colour(const ps_nufft_grid *self, uint32_t slab,
                              .num_parts = (uint32_t)num_parts,
                              .first_row = slab * layout->slab_rows,
                              .num_rows = (uint32_t)slab_rows(layout, slab)};
-    for (unsigned i = BOX_AXES; i-- > 0; colour /= boxes->colours[i]) {
-        numbers.axes[i] = (box_axis){.window = ps_nufft_window_numbers(&self->plans[i]),
+    const unsigned first = BOX_AXES - layout->choice.num_axes;
+    numbers.axes[0] = (box_axis){.window = {.n = 1, .width = 1, .bins = 1}, /* in the plane */
+                                 .boxes = 1,
+                                 .colours = 1};
+    for (unsigned i = BOX_AXES; i-- > first; colour /= boxes->colours[i]) {
+        numbers.axes[i] = (box_axis){.window = ps_nufft_window_numbers(&self->plans[i - first]),
                                      .boxes = boxes->num[i],
                                      .per_cell = boxes->per_cell[i],
                                      .colours = boxes->colours[i],
@@ -156,15 +133,18 @@ static boxes_numbers numbers_of_colour(const ps_nufft_grid *self, uint32_t slab,
 
 static pspec_status spread_colour(ps_nufft_grid *self, uint32_t slab, size_t num_boxes,
                                   const boxes_numbers *numbers, double flops, ps_error *error) {
-    const ps_nufft_plan *plans = self->plans;
+    const unsigned axes = self->layout->choice.num_axes;
+    const ps_nufft_plan *last = &self->plans[axes - 1];
+    const ps_nufft_plan *before = &self->plans[axes - 2];
+    const ps_nufft_plan *first = &self->plans[0]; /* not looked at in the plane */
     const ps_nufft_local local = ps_nufft_grid_local(self->layout);
     const ps_range range = self->is_alone ? ps_range_alone(num_boxes, 1, flops, 0)
                                           : ps_nufft_group_range(self->device, num_boxes, 1, flops);
     return PS_LAUNCH(self->device, self->spread, &range, error, PS_STRUCT(*numbers),
                      PS_BUFFER(self->places->places), PS_BUFFER(self->places->sorted),
                      PS_BUFFER(self->places->heights), PS_BUFFER(self->places->starts),
-                     PS_BUFFER(plans[0].coefficients), PS_BUFFER(plans[1].coefficients),
-                     PS_BUFFER(plans[2].coefficients), PS_BUFFER(self->high[slab]),
+                     PS_BUFFER(first->coefficients), PS_BUFFER(before->coefficients),
+                     PS_BUFFER(last->coefficients), PS_BUFFER(self->high[slab]),
                      PS_BUFFER(*low_of(self, slab)), PS_LOCAL(local.rows), PS_LOCAL(local.windows),
                      PS_LOCAL(local.cells));
 }
@@ -175,29 +155,35 @@ static pspec_status clear(ps_nufft_grid *self, uint32_t slab, ps_error *error) {
                                    : PSPEC_OK;
 }
 
-static pspec_status spread_boxes(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
-                                 size_t num_points, ps_error *error) {
+/* Of a colour. */
+static double spread_flops(const ps_nufft_grid *self, size_t num_points, uint32_t num_colours) {
+    const unsigned axes = self->layout->choice.num_axes;
+    double flops = 2.0 * (double)num_points * self->plans[axes - 1].bins / num_colours;
+    for (unsigned i = 0; i + 1 < axes; i++) {
+        flops *= self->plans[i].axis.window.width;
+    }
+    return flops;
+}
+
+static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
+                              size_t num_points, ps_error *error) {
     const ps_nufft_boxes *boxes = &self->layout->boxes;
-    const ps_nufft_plan *plans = self->plans;
     const uint32_t colours = boxes->colours[0] * boxes->colours[1] * boxes->colours[2];
-    const double flops = 2.0 * (double)num_points * plans[0].axis.window.width *
-                         plans[1].axis.window.width * plans[2].bins / colours;
     if (self->is_empty) {
         PS_TRY(clear(self, slab, error));
     }
     for (uint32_t colour = 0; colour < colours; colour++) {
         const boxes_numbers numbers = numbers_of_colour(self, slab, num_parts, colour);
-        PS_TRY(spread_colour(self, slab, ps_nufft_boxes_of_colour(boxes), &numbers, flops, error));
+        PS_TRY(spread_colour(self, slab, ps_nufft_boxes_of_colour(boxes), &numbers,
+                             spread_flops(self, num_points, colours), error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,
                            ps_error *error) {
-    const bool has_boxes = self->layout->choice.num_axes == 3;
     for (uint32_t slab = 0; slab < self->layout->num_slabs; slab++) {
-        PS_TRY(
-            (has_boxes ? spread_boxes : spread_blocks)(self, slab, num_parts, num_points, error));
+        PS_TRY(spread_on(self, slab, num_parts, num_points, error));
     }
     self->is_empty = false;
     return PSPEC_OK;

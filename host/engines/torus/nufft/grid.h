@@ -1,5 +1,5 @@
 /* One very large set on a grid of all axes: spread chunk by chunk, then transformed into powers
- * (kernels/nufft/grid.cl, first.cl, finish.cl, columns.cl). Memory does not grow with the points.
+ * (kernels/nufft/boxes.cl, first.cl, finish.cl, columns.cl). Memory does not grow with the points.
  */
 #ifndef PS_ENGINES_TORUS_NUFFT_GRID_H
 #define PS_ENGINES_TORUS_NUFFT_GRID_H

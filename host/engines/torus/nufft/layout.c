@@ -133,13 +133,12 @@ static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
     enum { STRIPS = 16 };
     const uint64_t n = layout->choice.axes[0].n;
     const uint64_t columns = layout->grid_reals / n;
-    const uint64_t unit = layout->choice.num_axes == 2 ? layout->block_rows : 1;
     const uint64_t lanes = 2 * layout->lanes;
     const uint64_t tile_rows = columns * lanes * layout->real_bytes;
     const uint64_t tile_transformed =
         layout->grid_cells / layout->num_tiles * lanes * layout->real_bytes;
     const uint64_t tile = tile_rows > tile_transformed ? tile_rows : tile_transformed;
-    layout->slab_rows = (uint32_t)share_out(n, limit / (columns * layout->real_bytes), unit);
+    layout->slab_rows = (uint32_t)share_out(n, limit / (columns * layout->real_bytes), 1);
     layout->num_slabs = (uint32_t)ps_divide_up(n, layout->slab_rows);
     layout->tiles_at_once = (uint32_t)share_out(layout->num_tiles, limit / tile, 1);
     if (layout->num_slabs > 1) {
@@ -288,7 +287,7 @@ static void measure_tiles(ps_nufft_layout *layout, const ps_problem *problem,
 /* Boxes as large as local memory has room for; false: it has no room for the smallest. Where edges
  * are halved, sums round in another order. */
 static bool choose_boxes(ps_nufft_layout *layout, const ps_device_limits *limits) {
-    enum { MOST_HALVINGS = 3 };
+    enum { MOST_HALVINGS = 4 };
     unsigned halvings = 0;
     do {
         layout->boxes = ps_nufft_boxes_measure(&layout->choice, halvings++);
@@ -297,29 +296,14 @@ static bool choose_boxes(ps_nufft_layout *layout, const ps_device_limits *limits
     return ps_nufft_local_bytes(layout) <= limits->local_bytes;
 }
 
-/* Rows of a block, as many as local memory has room for; false: it has no room for one. Bits and
- * choices do not depend on them, and not the cost by which engines are compared: where rows are so
- * long, transforms take most of the time. */
-static bool choose_block_rows(ps_nufft_layout *layout, const ps_device_limits *limits) {
-    layout->block_rows = PS_NUFFT_BLOCK_ROWS;
-    while (layout->block_rows > 0 && ps_nufft_local_bytes(layout) > limits->local_bytes) {
-        layout->block_rows /= 2;
-    }
-    return layout->block_rows > 0;
-}
-
 static void measure_large(ps_nufft_layout *layout, const ps_problem *problem,
                           const ps_device_limits *limits) {
-    const bool has_boxes = layout->choice.num_axes == 3;
     const uint64_t chunk =
         layout->choice.chunk > 0 ? layout->choice.chunk : PS_NUFFT_MOST_CHUNK_POINTS;
     const uint64_t most = chunk / PS_NUFFT_MOST_PARTS;
     const bool has_rows = measure_rows(layout, problem, limits);
     layout->has_pairs = layout->choice.chunk > 0;
-    layout->lanes =
-        has_rows && (has_boxes ? choose_boxes(layout, limits) : choose_block_rows(layout, limits))
-            ? layout->lanes
-            : 0;
+    layout->lanes = has_rows && choose_boxes(layout, limits) ? layout->lanes : 0;
     if (layout->lanes > 0) {
         set_part_points(layout, problem->num_points < most ? problem->num_points : most);
         measure_grid(layout, problem, limits->max_allocation_bytes);

@@ -24,27 +24,15 @@ size_t ps_nufft_fitting_tiles(const ps_nufft_layout *layout, uint64_t local_byte
 
 static const size_t cells_bytes = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t);
 
-static ps_nufft_local boxes_local(const ps_nufft_layout *layout) {
-    size_t windows = PS_NUFFT_MAX_AXES + 1; /* centres and weights */
-    for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
-        windows += ps_nufft_bins(&layout->choice.axes[i]);
-    }
-    return (ps_nufft_local){.rows = ps_nufft_boxes_reals(&layout->boxes) * layout->real_bytes,
-                            .windows = PS_NUFFT_CHUNK * windows * layout->real_bytes,
-                            .cells = cells_bytes};
-}
-
 ps_nufft_local ps_nufft_grid_local(const ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
-    const ps_nufft_axis *block = &choice->axes[choice->num_axes - 2];
-    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
-    const size_t bins = ps_nufft_bins(last);
-    if (choice->num_axes == 3) {
-        return boxes_local(layout);
+    size_t windows = PS_NUFFT_MAX_AXES + 1; /* centres and weights */
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        windows += ps_nufft_bins(&choice->axes[i]);
     }
-    return (ps_nufft_local){.rows = layout->block_rows * (last->n + bins) * layout->real_bytes,
-                            .windows = PS_NUFFT_CHUNK * (ps_nufft_bins(block) + bins + 3) *
-                                       layout->real_bytes,
+    windows += choice->num_axes == 2 ? 1 : 0; /* in the place of an axis weights */
+    return (ps_nufft_local){.rows = ps_nufft_boxes_reals(&layout->boxes) * layout->real_bytes,
+                            .windows = PS_NUFFT_CHUNK * windows * layout->real_bytes,
                             .cells = cells_bytes};
 }
 

@@ -18,8 +18,7 @@ typedef struct ps_nufft_local {
     size_t rows, windows, cells;
 } ps_nufft_local;
 
-/* Of kernels/nufft/grid.cl and boxes.cl, whose rows are those of a box, and of whole.cl, which has
- * none. */
+/* Of kernels/nufft/boxes.cl, whose rows are those of a box, and of whole.cl, which has none. */
 ps_nufft_local ps_nufft_grid_local(const ps_nufft_layout *layout);
 ps_nufft_local ps_nufft_whole_local(const ps_nufft_layout *layout);
 

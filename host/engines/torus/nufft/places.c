@@ -23,7 +23,7 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
 }
 
 static bool has_boxes(const ps_nufft_layout *layout) {
-    return layout->choice.is_gridded && layout->choice.num_axes == 3;
+    return layout->choice.is_gridded;
 }
 
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
@@ -81,18 +81,19 @@ static void set_keys(const ps_nufft_layout *layout, sort_numbers *numbers) {
     const ps_nufft_choice *choice = &layout->choice;
     const bool are_boxes = has_boxes(layout);
     const bool have_second = are_boxes || layout->num_keys > choice->axes[0].n;
-    const unsigned num = are_boxes ? PS_NUFFT_MAX_AXES : have_second ? 2 : 1;
+    const unsigned num = are_boxes ? choice->num_axes : have_second ? 2 : 1;
+    const unsigned first = PS_NUFFT_MAX_AXES - choice->num_axes; /* of boxes */
     numbers->factor = choice->axes[0].factor;
     numbers->num_keys = layout->num_keys;
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
-        numbers->axes[i] = i >= num
-                               ? (sort_axis){.n = 1, .keys = 1}
-                               : (sort_axis){.n = axis->n,
-                                             .width = axis->window.width,
-                                             .axis = axis->axis,
-                                             .keys = are_boxes ? layout->boxes.num[i] : axis->n,
-                                             .per_cell = layout->boxes.per_cell[i]};
+        numbers->axes[i] =
+            i >= num ? (sort_axis){.n = 1, .keys = 1}
+                     : (sort_axis){.n = axis->n,
+                                   .width = axis->window.width,
+                                   .axis = axis->axis,
+                                   .keys = are_boxes ? layout->boxes.num[i + first] : axis->n,
+                                   .per_cell = are_boxes ? layout->boxes.per_cell[i + first] : 0};
     }
 }
 

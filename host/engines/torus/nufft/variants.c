@@ -102,7 +102,7 @@ static void free_tiles(ps_nufft_state *self) {
     ps_nufft_places_free(&self->places);
 }
 
-/* Sorting and spreading of every chunk, in boxes a launch for each colour, then one for each axis.
+/* Sorting and spreading of every chunk, a launch for each colour of boxes, then one for each axis.
  * */
 static double count_large_launches(const ps_nufft_layout *layout, double num_points,
                                    double realizations) {
@@ -110,8 +110,7 @@ static double count_large_launches(const ps_nufft_layout *layout, double num_poi
     ps_nufft_last_axes(&layout->choice, &num_last);
     const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
     const uint32_t *const colours = layout->boxes.colours;
-    const double spreading =
-        layout->choice.num_axes == 3 ? (double)(colours[0] * colours[1] * colours[2]) : 1;
+    const double spreading = (double)(colours[0] * colours[1] * colours[2]);
     return realizations * ((1 + spreading) * chunks + 1 + num_last);
 }
 
