@@ -68,7 +68,7 @@ if (ulimit -v 1000000) 2>/dev/null; then
     says 1 'not enough memory for points: they take 7.451G, but ulimit -v leaves' \
         bash -c 'ulimit -v 1000000; "$1" sample --sampler white -n 5e8 -o points.npy' _ "$program"
     # shellcheck disable=SC2016
-    says 1 'needs 8.[0-9]+G of memory, but ulimit -v leaves .* kept for the OpenCL driver' \
+    says 1 'needs 7.[0-9]+G of memory, but ulimit -v leaves .* kept for the OpenCL driver' \
         bash -c 'ulimit -v 1000000; "$1" power --sampler white -n 1000000 -k 5000' _ "$program"
 fi
 
@@ -120,9 +120,9 @@ engine_of() { sed -n 's/^# engine: //p' "$1"; }
 has_limit() { # RECORD NAME LIMIT
     sed -n "/\"name\": \"$2\"/,/}/p" "$1" | grep -q "\"memory\": \[\"$3\"\]"
 }
-job=(power --sampler white -n 100000 -k 300 --no-self-check)
+job=(power --sampler white -n 300000 -k 100 --no-self-check)
 "$program" "${job[@]}" >free 2>err || complain "${job[*]}: $(<err)"
-"$program" "${job[@]}" --memory 36M >typed 2>err || complain "36M: $(<err)"
+"$program" "${job[@]}" --memory 32M >typed 2>err || complain "32M: $(<err)"
 [[ $(engine_of free) == *torus_nufft* && $(engine_of typed) == *torus_direct* ]] ||
     complain "engines: $(engine_of free), $(engine_of typed)"
 
