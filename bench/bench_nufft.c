@@ -108,8 +108,9 @@ static void run_case(const char *text, ps_device *device) {
     if (!parse_case(text, &what)) {
         bench_die(text);
     }
-    if (why_not(&what, device) != NULL) {
-        printf("%-28s %s\n", text, why_not(&what, device));
+    const char *const refusal = why_not(&what, device);
+    if (refusal != NULL) {
+        printf("%-28s %s\n", text, refusal);
         return;
     }
     create(&fast, &ps_torus_nufft, &what, what.num_realizations, device);

@@ -248,18 +248,26 @@ static bool can_be_plain(const ps_nufft_choice *choice, double num_points) {
     return num_points <= points_for(choice, windows_on_a_cell);
 }
 
-/* A choice with lengths and windows. Where windows of few points touch a cell, sums may do without
- * pairs. */
-static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
-                          ps_precision precision) {
-    const bool is_large = choice->is_gridded && !choice->is_whole;
+/* Where windows of few points touch a cell, sums may do without pairs. */
+static void consider_large(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
+                           ps_precision precision) {
     choice->chunk = 0;
-    if (is_large ? can_be_plain(choice, ps_planned_points(problem))
-                 : !choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
+    if (can_be_plain(choice, ps_planned_points(problem))) {
         consider(best, choice, problem, precision);
     }
-    if (is_large) {
-        choice->chunk = choose_chunk(choice);
+    choice->chunk = choose_chunk(choice);
+    consider(best, choice, problem, precision);
+}
+
+/* A choice with lengths and windows. */
+static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
+                          ps_precision precision) {
+    if (ps_nufft_way_of(choice) == PS_NUFFT_LARGE) {
+        consider_large(best, choice, problem, precision);
+        return;
+    }
+    choice->chunk = 0;
+    if (!choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
         consider(best, choice, problem, precision);
     }
 }

@@ -102,8 +102,7 @@ static void free_tiles(ps_nufft_state *self) {
     ps_nufft_places_free(&self->places);
 }
 
-/* Sorting and spreading of every chunk, a launch for each colour of boxes, then one for each axis.
- * */
+/* Sorting of every chunk and a launch for each colour of boxes, then one for each axis. */
 static double count_large_launches(const ps_nufft_layout *layout, double num_points,
                                    double realizations) {
     unsigned num_last = 0;
