@@ -4,17 +4,21 @@
 #include "base/workers.h"
 #include "sets/ahead.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sets that take less time are made where they are wanted: a kept set is read and
- * handed over in 50 us (two cores of an EPYC, 2026-11), and where processors are busy in more. */
+/* A kept set is read and handed over in 50 us (two cores of an EPYC, 2026-11), and where processors
+ * are busy in more: sets that take less time than this are not kept, and handed over in blocks that
+ * take BLOCK_SECONDS, by one thread. */
 static const double LEAST_SECONDS = 2e-4;
+static const double BLOCK_SECONDS = 1e-3;
 
 /* Sets made ahead: as many as a device takes in a batch, but not more than a hundredth of the
- * memory of a small machine; algorithms take some times as much while they work. */
-enum { MOST_SLOTS = 256, ROOM_BYTES = 1 << 24, SHARE_OF_LIMIT = 16 };
+ * memory of a small machine; algorithms take some times as much while they work. Of blocks a few:
+ * one is taken from, one made, and others level out what either does now and then. */
+enum { MOST_SLOTS = 256, MOST_BLOCKS = 4, ROOM_BYTES = 1 << 24, SHARE_OF_LIMIT = 16 };
 
 struct ps_sets {
     ps_sampler_request request;
@@ -24,10 +28,12 @@ struct ps_sets {
     ps_set_store *store; /* NULL: nothing is kept */
     ps_error no_store;   /* why, where something should be */
     ps_ahead *ahead;     /* NULL: sets are made where they are wanted */
-    uint64_t first;      /* realization that is the first thing of ahead */
-    size_t stride;       /* numbers of a slot */
-    double *room;        /* [num_slots][stride] */
-    size_t *num_points;  /* [num_slots] */
+    uint64_t first;      /* realization that is the first of the first thing of ahead */
+    uint64_t block;      /* realizations of a thing */
+    unsigned slot;       /* of the thing that they are taken from */
+    size_t stride;       /* numbers of a realization */
+    double *room;        /* [num_slots][block][stride] */
+    size_t *num_points;  /* [num_slots][block] */
     char trouble[PS_MESSAGE_BYTES + PS_MAX_SAMPLER_VALUE];
 };
 
@@ -46,8 +52,15 @@ static pspec_status make(const ps_sets *sets, uint64_t realization, double *poin
 static pspec_status make_ahead(void *payload, uint64_t index, unsigned slot, const ps_watch *watch,
                                ps_error *error) {
     const ps_sets *const sets = payload;
-    return make(sets, sets->first + index, sets->room + slot * sets->stride,
-                &sets->num_points[slot], watch, error);
+    for (uint64_t i = 0; i < sets->block; i++) {
+        const uint64_t realization = sets->first + index * sets->block + i;
+        const uint64_t at = slot * sets->block + i;
+        if (realization < sets->end) {
+            PS_TRY(make(sets, realization, sets->room + at * sets->stride, &sets->num_points[at],
+                        watch, error));
+        }
+    }
+    return PSPEC_OK;
 }
 
 /* ---- all of them --------------------------------------------------------------------------- */
@@ -71,24 +84,38 @@ unsigned ps_sets_makers(const ps_sampler_request *request, uint64_t num) {
     return most > 0 && ps_sampler_seconds(request) >= LEAST_SECONDS ? most : 1;
 }
 
-static unsigned count_slots(const ps_sets *sets) {
-    const uint64_t fit = find_room(sets) / (sets->stride * sizeof(double));
-    const uint64_t left = sets->end - sets->next;
-    const uint64_t most = left < MOST_SLOTS ? left : MOST_SLOTS;
-    return (unsigned)(fit < most ? fit : most);
+static uint64_t least(uint64_t a, uint64_t b) {
+    return a < b ? a : b;
+}
+
+/* Dear sets come one by one. */
+static uint64_t count_block(const ps_sets *sets, uint64_t fit) {
+    const double seconds = ps_sampler_seconds(&sets->request);
+    if (seconds >= LEAST_SECONDS) {
+        return 1;
+    }
+    const double wanted = seconds > 0 ? ceil(BLOCK_SECONDS / seconds) : HUGE_VAL;
+    const uint64_t most = fit / MOST_BLOCKS;
+    return wanted < (double)most ? (uint64_t)wanted : most;
+}
+
+static unsigned count_slots(const ps_sets *sets, uint64_t fit) {
+    const uint64_t things = (sets->end - sets->next + sets->block - 1) / sets->block;
+    return (unsigned)least(sets->block > 1 ? MOST_BLOCKS : MOST_SLOTS,
+                           least(things, fit / sets->block));
 }
 
 static pspec_status begin_ahead(ps_sets *sets, unsigned num_slots, ps_error *error) {
     const ps_ahead_plan plan = {
         .make = make_ahead,
         .payload = sets,
-        .num_things = sets->end - sets->next,
+        .num_things = (sets->end - sets->next + sets->block - 1) / sets->block,
         .num_slots = num_slots,
         .num_threads = ps_sets_makers(&sets->request, num_slots),
     };
-    PS_TRY(ps_allocate_for(&sets->room, num_slots * sets->stride, sizeof *sets->room,
-                           "sets made ahead", error));
-    PS_TRY(PS_NEW(&sets->num_points, num_slots, "sets made ahead", error));
+    const size_t num = (size_t)(num_slots * sets->block);
+    PS_TRY(PS_NEW(&sets->room, num * sets->stride, "sets made ahead", error));
+    PS_TRY(PS_NEW(&sets->num_points, num, "sets made ahead", error));
     sets->first = sets->next;
     return ps_ahead_create(&sets->ahead, &plan, error);
 }
@@ -105,12 +132,12 @@ static void end_ahead(ps_sets *sets) {
 
 /* A single slot would make nobody wait less. */
 static pspec_status begin(ps_sets *sets, ps_error *error) {
+    const uint64_t fit = find_room(sets) / (sets->stride * sizeof(double));
     open_store(sets);
     sets->has_begun = true;
-    const unsigned num_slots = count_slots(sets);
-    return num_slots > 1 && ps_sampler_seconds(&sets->request) >= LEAST_SECONDS
-               ? begin_ahead(sets, num_slots, error)
-               : PSPEC_OK;
+    sets->block = count_block(sets, fit);
+    const unsigned num_slots = sets->block > 0 ? count_slots(sets, fit) : 0;
+    return num_slots > 1 ? begin_ahead(sets, num_slots, error) : PSPEC_OK;
 }
 
 pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
@@ -144,16 +171,19 @@ void ps_sets_rewind(ps_sets *sets) {
 
 pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,
                           ps_error *error) {
-    unsigned slot = 0;
     if (!sets->has_begun) {
         PS_TRY(begin(sets, error));
     }
     if (sets->ahead == NULL) {
         PS_TRY(make(sets, sets->next, points, num_points, watch, error));
     } else {
-        PS_TRY(ps_ahead_next(sets->ahead, watch, &slot, error));
-        *num_points = sets->num_points[slot];
-        memcpy(points, sets->room + slot * sets->stride,
+        const uint64_t in_block = (sets->next - sets->first) % sets->block;
+        if (in_block == 0) {
+            PS_TRY(ps_ahead_next(sets->ahead, watch, &sets->slot, error));
+        }
+        const uint64_t at = sets->slot * sets->block + in_block;
+        *num_points = sets->num_points[at];
+        memcpy(points, sets->room + at * sets->stride,
                *num_points * sets->request.dimension * sizeof(double));
     }
     sets->next++;

@@ -185,6 +185,40 @@ static void sets_may_begin_later(void **state) {
     assert_int_equal(take(state, &request).num_read, NUM_SETS - FIRST);
 }
 
+/* Cheap sets are made ahead in blocks, which nobody sees: whether they end with the sets or not, of
+ * whatever memory, begun anew within one, and after a question that ends what is made ahead. */
+static void blocks_change_no_bit(void **state) {
+    (void)state;
+    enum { MANY = 3500, MIDDLE = 1234, LATER = 2345, FIRST = 5 };
+    static const uint64_t limits[] = {0, 1 << 20, 1 << 22};
+    static set expected, found;
+    const ps_sampler_request request = ask("white", 2);
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
+        const ps_sets_options options = {{NULL, 0}, limits[i], FIRST};
+        ps_sets *sets = NULL;
+        assert_int_equal(ps_sets_create(&sets, &request, MANY, &options, NULL), PSPEC_OK);
+        for (uint64_t r = 0; r < MIDDLE; r++) {
+            assert_int_equal(ps_sets_next(sets, found.points, &found.num_points, NULL, NULL),
+                             PSPEC_OK);
+        }
+        ps_sets_rewind(sets);
+        for (uint64_t r = 0; r < MANY; r++) {
+            if (r == LATER) {
+                assert_string_equal(ps_sets_trouble(sets), "");
+            }
+            assert_int_equal(ps_sets_next(sets, found.points, &found.num_points, NULL, NULL),
+                             PSPEC_OK);
+            assert_int_equal(ps_sampler_generate(&request, FIRST + r, expected.points,
+                                                 &expected.num_points, NULL, NULL),
+                             PSPEC_OK);
+            assert_int_equal(found.num_points, expected.num_points);
+            assert_memory_equal(found.points, expected.points,
+                                found.num_points * request.dimension * sizeof(double));
+        }
+        ps_sets_destroy(sets);
+    }
+}
+
 /* Memory that was limited holds fewer sets, or none, and the points are the same. */
 static void a_limit_of_memory_changes_no_bit(void **state) {
     (void)state;
@@ -327,6 +361,7 @@ static void names_are_counted(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_change_no_bit),
         IN_A_FOLDER(kept_sets_are_those_of_the_sampler),
         IN_A_FOLDER(one_set_serves_all_places),
         IN_A_FOLDER(nothing_is_kept_without_a_place),
