@@ -9,9 +9,14 @@
 
 #include "shared/real.h"
 
+/* Lanes of the kernel that writes them. */
+#ifndef VALUE_LANES
+#define VALUE_LANES LANES
+#endif
+
 /* Numbers from order to order. */
 static inline size_t order_pitch(const uint value_sets, const size_t parity_apart) {
-    return value_sets * 2 * parity_apart + 2 * LANES;
+    return value_sets * 2 * parity_apart + 2 * VALUE_LANES;
 }
 
 #endif

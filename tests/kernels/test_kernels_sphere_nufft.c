@@ -20,6 +20,7 @@ typedef struct sphere_case {
     ps_precision precision;
     double tolerance;
     bool only_even;
+    uint64_t expected; /* realizations: one alone has a kernel of its own */
 } sphere_case;
 
 static pspec_pattern make_pattern(void) {
@@ -68,7 +69,7 @@ static void check_case(const ps_engine *engine, const sphere_case *what) {
     ps_frequencies degrees = test_degrees(what->max_degree, what->only_even);
     const ps_problem problem = {.frequencies = &degrees,
                                 .num_points = NUM_POINTS,
-                                .num_realizations = REALIZATIONS,
+                                .num_realizations = what->expected,
                                 .has_weights = true,
                                 .tolerance = what->tolerance};
     const size_t L = (size_t)what->max_degree;
@@ -107,13 +108,18 @@ static void check_case(const ps_engine *engine, const sphere_case *what) {
 }
 
 static void single(void **state) {
-    check_case(*state, &(sphere_case){5, PS_SINGLE, 1e-3, false});
-    check_case(*state, &(sphere_case){6, PS_SINGLE, 1e-5, true});
+    check_case(*state, &(sphere_case){5, PS_SINGLE, 1e-3, false, REALIZATIONS});
+    check_case(*state, &(sphere_case){6, PS_SINGLE, 1e-5, true, REALIZATIONS});
 }
 
 static void double_precision(void **state) {
-    check_case(*state, &(sphere_case){4, PS_DOUBLE, 1e-9, false});
-    check_case(*state, &(sphere_case){6, PS_DOUBLE, 1e-6, true});
+    check_case(*state, &(sphere_case){4, PS_DOUBLE, 1e-9, false, REALIZATIONS});
+    check_case(*state, &(sphere_case){6, PS_DOUBLE, 1e-6, true, REALIZATIONS});
+}
+
+static void one_by_one(void **state) {
+    check_case(*state, &(sphere_case){40, PS_SINGLE, 1e-4, false, 1});
+    check_case(*state, &(sphere_case){7, PS_DOUBLE, 1e-9, true, 1});
 }
 
 int main(void) {
@@ -121,6 +127,7 @@ int main(void) {
     void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
     const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(single, nufft),
                                        cmocka_unit_test_prestate(double_precision, nufft),
+                                       cmocka_unit_test_prestate(one_by_one, nufft),
                                        cmocka_unit_test_prestate(single, grid),
                                        cmocka_unit_test_prestate(double_precision, grid)};
     device = test_open_device();

@@ -72,6 +72,16 @@ static pspec_status open_files(ps_power_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* On the sphere a set alone has a kernel of its own. */
+static pspec_status count_sets(ps_power_job *job, ps_error *error) {
+    bool is_last = false;
+    if (job->question->on_sphere && job->num_realizations == 0) {
+        PS_TRY(ps_power_sets_is_last(&job->sets, &is_last, error));
+        job->num_realizations = is_last ? 1 : 0;
+    }
+    return PSPEC_OK;
+}
+
 /* The shape of the first set: a sampler's is known, a file is read. */
 static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
@@ -92,7 +102,7 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     job->dimension = job->sets.next.dimension;
     job->num_points = ps_power_sets_next_points(&job->sets);
     job->most_points = job->num_points;
-    return PSPEC_OK;
+    return count_sets(job, error);
 }
 
 /* ---- plan -------------------------------------------------------------------------------- */
@@ -140,13 +150,11 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
-    const bool has_only_set =
-        question->on_sphere && question->harmonics != PS_NO_HARMONICS && !question->keeps_sets;
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->most_points,
         .planned_points = job->num_points,
-        .num_realizations = has_only_set ? 1 : ps_power_needs_realizations(job),
+        .num_realizations = ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
         .keeps_coefficients = question->keeps_sets || question->harmonics == PS_EXPONENTIALS,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,

@@ -19,7 +19,8 @@ static void free_batch(ps_power_sets *sets) {
 
 void ps_power_sets_release(ps_power_sets *sets) {
     ps_point_set_free(&sets->next);
-    sets->has_next = false;
+    ps_point_set_free(&sets->after);
+    sets->has_next = sets->has_after = false;
     free_batch(sets);
 }
 
@@ -51,18 +52,41 @@ pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_err
 }
 
 pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) {
-    sets->has_next = false;
+    sets->has_next = sets->has_after = false;
     sets->has_looked = false;
     sets->first_cells = (ps_axis_cells){0};
     return ps_source_rewind(sets->source, error);
 }
 
+static void exchange(ps_point_set *a, ps_point_set *b) {
+    const ps_point_set kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) {
+    if (!sets->has_next && sets->has_after) {
+        exchange(&sets->next, &sets->after);
+        ps_point_set_free(&sets->after);
+        sets->part = sets->after_part;
+        sets->used = 0;
+        sets->has_next = true;
+        sets->has_after = false;
+    }
     if (!sets->has_next) {
         sets->used = 0;
         PS_TRY(ps_source_next(sets->source, &sets->next, &sets->part, &sets->has_next, error));
     }
     *has_set = sets->has_next;
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_sets_is_last(ps_power_sets *sets, bool *is_last, ps_error *error) {
+    if (sets->part.is_whole && !sets->has_after) {
+        PS_TRY(
+            ps_source_next(sets->source, &sets->after, &sets->after_part, &sets->has_after, error));
+    }
+    *is_last = sets->part.is_whole && !sets->has_after;
     return PSPEC_OK;
 }
 
@@ -94,12 +118,6 @@ static void look_at(ps_power_sets *sets, const pspec_pattern *block, bool ends_s
         ps_axis_cells_add(&sets->first_cells, block);
         sets->has_looked = ends_set;
     }
-}
-
-static void exchange(ps_point_set *a, ps_point_set *b) {
-    const ps_point_set kept = *a;
-    *a = *b;
-    *b = kept;
 }
 
 /* The next set becomes number `at` of the batch. */

@@ -17,6 +17,9 @@ typedef struct ps_power_sets {
     ps_point_set next; /* read, but not yet taken: a set or the first block of one */
     ps_source_part part;
     bool has_next;
+    ps_point_set after; /* next, where it was read to learn whether there is one */
+    ps_source_part after_part;
+    bool has_after;
     ps_point_set *sets; /* [capacity] a batch */
     pspec_pattern *patterns;
     size_t capacity;
@@ -40,6 +43,9 @@ pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) PS_MUST_
 
 /* Reads ahead: *has_set tells whether sets->next is a set, which sets->part describes. */
 pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) PS_MUST_CHECK;
+/* Whether no set comes after sets->next, which is one. Of a set that is not whole nobody knows. */
+pspec_status ps_power_sets_is_last(ps_power_sets *sets, bool *is_last,
+                                   ps_error *error) PS_MUST_CHECK;
 uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
 
 /* Fills patterns[*num] with the next sets, `most` at most. The batch ends before a set that comes

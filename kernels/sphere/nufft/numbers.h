@@ -7,7 +7,7 @@
 
 /* Rings on which Lambda_lm is made. */
 typedef struct ring_numbers {
-    ps_u32 polar, crossing, equatorial; /* ring_angles of orders_table.h */
+    ps_u32 polar, crossing, equatorial; /* ring_angles of orders_states.h */
     ps_u32 L, only_even;                /* even degrees only */
     ps_u32 num_rings, ring_pitch;
     ps_u32 block; /* rings of a block, a multiple of RING_UNIT */

@@ -13,8 +13,8 @@
  * The bracket is A_l (1 - D_l) - A_l sin^2(theta) towards the pole, so that it keeps its digits
  * there. At the pole and at the equator themselves, where it is close to 2 and to -2, errors of it
  * still grow with L^2: the first and the last rings have the recurrence of differences
- * (orders_table.h). At L = 2000 Lambda_lm would be off by 4e-14 to 1e-13 without them, depending on
- * the order, in the mean over rings of white sets; by differences everywhere by 3e-14.
+ * (orders_states.h). At L = 2000 Lambda_lm would be off by 4e-14 to 1e-13 without them, depending
+ * on the order, in the mean over rings of white sets; by differences everywhere by 3e-14.
  *
  * In double precision, whatever is summed: in single precision the recurrence is off by 6e-5 at l =
  * 512. A number stands for p 2^(-100 s), s >= 0, since sin^m(theta) underflows. Where s > 0 it is
@@ -45,10 +45,12 @@
 
 /* Rings are done in units of so many vectors: each step of the recurrence waits for the one before,
  * and in single precision a vector of its doubles is two of the processor's. */
+#ifndef RING_VECTORS
 #if PRECISION == 64
 #define RING_VECTORS 2
 #else
 #define RING_VECTORS 1
+#endif
 #endif
 #define RING_UNIT (RING_VECTORS * LANES)
 
@@ -67,7 +69,7 @@
 #define OF_POLE (1 * RUN_DEGREES)    /* A_l (1 - D_l) */
 #define OF_EQUATOR (2 * RUN_DEGREES) /* -A_l D_l */
 #define OF_DIFFERENCE                                                                              \
-    (3 * RUN_DEGREES) /* a_{l+1}, b_{l+1}, g_{l+1} of orders_table.h, and 1 / alpha_l */
+    (3 * RUN_DEGREES) /* a_{l+1}, b_{l+1}, g_{l+1} of orders_states.h, and 1 / alpha_l */
 #define OF_INVERSE (6 * RUN_DEGREES)
 #define OF_ALPHA (7 * RUN_DEGREES) /* alpha_l of even l - m, then of odd */
 #define OF_CHAIN                                                                                   \

@@ -11,7 +11,7 @@
  *   steps, step_scales    [ring_pitch]: sin^groups(theta)
  *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
  *   cosines    [ring_pitch]: cos(theta)
- *   distances, squares  ring_angles of orders_table.h
+ *   distances, squares  ring_angles of orders_states.h
  *   states, scales  [group][2][even, odd l - m][ring_pitch], [group][2][ring_pitch]: scratch
  *   diagonal, diagonal_scales  [group][ring_pitch]: scratch
  *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one

@@ -65,7 +65,7 @@ static void sweep_shapes(const sweep *what, double *slack) {
     for (int i = 0; pow(10, -2 - i / (double)STEPS_PER_DECADE) > what->least_tolerance; i++) {
         const ps_problem problem = {.frequencies = &set,
                                     .num_points = what->num_points,
-                                    .num_realizations = 1,
+                                    .num_realizations = 1 + (uint64_t)i % 2, /* two kernels */
                                     .has_weights = true,
                                     .tolerance = pow(10, -2 - i / (double)STEPS_PER_DECADE)};
         measure(&problem, what->precision, TEST_SPHERE_SHAPES, patterns, expected, slack);

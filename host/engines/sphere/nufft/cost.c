@@ -60,6 +60,9 @@ static double more_ring_cycles(const ps_sphere_shape *shape, double lanes, doubl
     const double cycles_of_table = 0.33; /* of a number of Lambda_lm, made in double precision */
     const double cycles_of_coefficients = 16; /* of a degree and an order */
     const double cycles_of_product = 1.6;     /* of a vector of it and one realization */
+    /* of a number and one realization without a table: 0.75 on a Zen 4, whose vectors take twice
+     * the cycles (2026-11, N = 4096, L = 2000) */
+    const double cycles_of_one = 0.38;
     const double cycles_per_ring =
         12; /* of a value on a circle, on its way to rings of both hemispheres */
     const double cycles_per_order = 250; /* whatever the degrees */
@@ -70,9 +73,10 @@ static double more_ring_cycles(const ps_sphere_shape *shape, double lanes, doubl
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
                          (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
-    return rings + vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
-           cycles_of_coefficients * (L + 1) * L / 2 / sharing + cycles_per_order * (L + 1) +
-           (shape->is_sorted ? cycles_per_sorted * num_points : 0);
+    const double sums = shape->is_one_set ? cycles_of_one * lanes
+                                          : cycles_of_table * lanes / sharing + cycles_of_product;
+    return rings + vectors * sums + cycles_of_coefficients * (L + 1) * L / 2 / sharing +
+           cycles_per_order * (L + 1) + (shape->is_sorted ? cycles_per_sorted * num_points : 0);
 }
 
 static double no_more_cycles(const ps_sphere_shape *shape, double lanes, double num_points,

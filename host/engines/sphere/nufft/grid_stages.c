@@ -4,15 +4,15 @@
 #include "engines/nufft/fft.h"
 
 /* One kernel sums powers, another coefficients. */
-static const char sums_file[] = "sphere/nufft/grid_sums.cl";
-static const char sums_name[] = "sphere_grid_sums";
+static const ps_sphere_source sums = {"sphere/nufft/grid_sums.cl", "sphere_grid_sums", false};
 
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_sphere_grid_stages *self, ps_error *error) {
-    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->make, "sphere/nufft/grid_values.cl",
-                                   "sphere_grid_values", false, error));
-    return ps_sphere_kernel_create(&self->powers, &self->sum, sums_file, sums_name, false, error);
+    static const ps_sphere_source values = {"sphere/nufft/grid_values.cl", "sphere_grid_values",
+                                            false};
+    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->make, &values, false, error));
+    return ps_sphere_kernel_create(&self->powers, &self->sum, &sums, false, error);
 }
 
 static pspec_status create_buffers(ps_sphere_grid_stages *self, ps_error *error) {
@@ -126,6 +126,5 @@ pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num, doubl
 
 pspec_status ps_sphere_grid_keep(ps_sphere_grid_stages *stages, double *coefficients,
                                  ps_error *error) {
-    return ps_sphere_keep(&stages->powers, sums_file, sums_name, sum_cells, stages, coefficients,
-                          error);
+    return ps_sphere_keep(&stages->powers, &sums, sum_cells, stages, coefficients, error);
 }

@@ -98,8 +98,8 @@ static void measure_grid(ps_sphere_shape *shape, uint32_t unit) {
  * equator; the error formula allows 3e-13 for all together. */
 enum { POLAR_RINGS = 16, EQUATORIAL_RINGS = 12 };
 
-static void choose_recurrences(ps_sphere_shape *shape, ps_precision precision) {
-    const uint32_t unit = (precision == PS_DOUBLE ? PS_SPHERE_RING_VECTORS : 1) * shape->lanes;
+/* In units of rings. */
+static void choose_recurrences(ps_sphere_shape *shape, uint32_t unit) {
     const uint32_t last =
         shape->num_rings > EQUATORIAL_RINGS ? shape->num_rings - EQUATORIAL_RINGS : 0;
     shape->polar = (uint32_t)ps_round_up(POLAR_RINGS, unit);
@@ -134,13 +134,32 @@ static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
     shape->value_bytes = 4 * ps_round_up(shape->num_angles, shape->lanes) * num_orders * real_bytes;
 }
 
+/* A realization alone needs no table that others would share. Not on GPUs, whose work-items would
+ * each have rings, and sums of all of them to add up. */
+static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
+                        const ps_device_limits *limits) {
+    const unsigned lanes = ps_engine_lanes(limits, PS_DOUBLE);
+    if (problem->num_realizations == 1 && !limits->has_dedicated_local_memory && lanes > 1) {
+        shape->is_one_set = true;
+        shape->sum_lanes = lanes;
+        choose_recurrences(shape, ps_sphere_one_vectors(shape) * lanes);
+    }
+}
+
+/* Of orders_sum_one.cl the table has sums of each degree of a run. */
+static size_t table_bytes(const ps_sphere_shape *shape, size_t run, size_t real_bytes) {
+    return shape->is_one_set ? run * 2 * shape->sum_lanes * sizeof(double)
+                             : shape->block * run * real_bytes;
+}
+
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
-    const size_t run = 2 * (size_t)shape->run_vectors * shape->lanes;
+    const unsigned lanes = shape->is_one_set ? shape->sum_lanes : shape->lanes;
+    const size_t run = 2 * (size_t)shape->run_vectors * lanes;
     const size_t bins = ps_nufft_bins(&shape->axis);
     return (ps_sphere_local){
         .windows = PS_NUFFT_CHUNK * (2 * bins + 3) * real_bytes,
         .cells = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t),
-        .table = shape->block * run * real_bytes,
+        .table = table_bytes(shape, run, real_bytes),
         .coefficients = (PS_SPHERE_COEFFICIENTS * run + PS_SPHERE_CHAIN_AHEAD) * sizeof(double),
         .begins = shape->block / shape->lanes * sizeof(uint32_t)};
 }
@@ -159,10 +178,12 @@ bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *l
 
 /* ---- the two routes ---------------------------------------------------------------------- */
 
-static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits, double points,
-                          size_t real_bytes) {
+static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits,
+                          const ps_problem *problem, size_t real_bytes) {
     const uint32_t unit = 2 * shape->lanes;
+    const double points = ps_planned_points(problem);
     measure_grid(shape, unit);
+    choose_sums(shape, problem, limits);
     choose_bands(shape, points, real_bytes);
     choose_strip(shape, limits, real_bytes);
     shape->grid_rows = shape->bands * shape->band_rows;
@@ -174,12 +195,12 @@ static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits
 }
 
 /* The table is made of rings in double precision. */
-static bool measure_cells(ps_sphere_shape *shape, const ps_device_limits *limits, double points,
-                          size_t real_bytes) {
+static bool measure_cells(ps_sphere_shape *shape, const ps_device_limits *limits,
+                          const ps_problem *problem, size_t real_bytes) {
     const ps_sphere_shape rings = ps_sphere_rings_shape(shape->max_degree, limits, PS_DOUBLE);
     const bool is_whole =
         shape->lanes % rings.lanes == 0 && rings.run_vectors * rings.lanes % shape->lanes == 0;
-    (void)points;
+    (void)problem;
     measure_grid(shape, shape->lanes);
     measure_table(shape, real_bytes);
     shape->grid_rows = shape->band_rows;
@@ -189,7 +210,7 @@ static bool measure_cells(ps_sphere_shape *shape, const ps_device_limits *limits
 }
 
 /* Each returns false where local memory is too small. */
-static bool (*const measures[])(ps_sphere_shape *, const ps_device_limits *, double points,
+static bool (*const measures[])(ps_sphere_shape *, const ps_device_limits *, const ps_problem *,
                                 size_t real_bytes) = {
     [PS_SPHERE_BY_RINGS] = measure_rings, [PS_SPHERE_BY_CELLS] = measure_cells};
 
@@ -202,7 +223,7 @@ ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits
     shape.num_rings = shape.rings / 4 + 1;
     shape.run_vectors = choose_run_vectors(&shape, limits, real_bytes);
     measure_sums(&shape, real_bytes);
-    choose_recurrences(&shape, precision);
+    choose_recurrences(&shape, (precision == PS_DOUBLE ? PS_SPHERE_RING_VECTORS : 1) * shape.lanes);
     return shape;
 }
 
@@ -217,7 +238,7 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
         ps_sphere_rings_shape(problem->frequencies->max_frequency, limits, precision);
     shape.axis = axis;
     shape.route = route;
-    const bool fits = measures[route](&shape, limits, ps_planned_points(problem), real_bytes) &&
+    const bool fits = measures[route](&shape, limits, problem, real_bytes) &&
                       spreading_fits(&shape, limits, real_bytes);
     if (!fits) {
         shape.lanes = 0;

@@ -35,12 +35,14 @@ typedef struct ps_sphere_shape {
     uint32_t pole;       /* cells in front of the north pole */
     uint32_t half_poles; /* halves of cells in front of it: by cells it lies between two, so that
                             no angle is its own mirror image but for one at the equator */
-    uint32_t pitch, grid_rows;            /* of a grid */
-    uint32_t columns;                     /* with cells in them, whole groups */
-    uint32_t pairs;                       /* of tiles of orders */
-    uint32_t ring_pitch;                  /* rings up to whole vectors */
-    uint32_t run_vectors;                 /* RUN_VECTORS of orders_table.h */
-    uint32_t polar, crossing, equatorial; /* ring_angles of orders_table.h */
+    uint32_t pitch, grid_rows; /* of a grid */
+    uint32_t columns;          /* with cells in them, whole groups */
+    uint32_t pairs;            /* of tiles of orders */
+    uint32_t ring_pitch;       /* rings up to whole vectors */
+    uint32_t run_vectors;      /* RUN_VECTORS of orders_chains.h */
+    bool is_one_set;           /* one realization is expected: sums by orders_sum_one.cl, */
+    unsigned sum_lanes;        /* whose LANES these are */
+    uint32_t polar, crossing, equatorial; /* ring_angles of orders_states.h */
     uint32_t block;                       /* rings of a block of orders_sum.cl */
     uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
     uint32_t bands, band_rows;            /* of a grid (kernels/sphere/bands.h) */
@@ -86,6 +88,12 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 
 /* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
+
+/* RING_VECTORS of orders_sum_one.cl: registers hold three vectors and two of values for each. */
+static inline unsigned ps_sphere_one_vectors(const ps_sphere_shape *shape) {
+    const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
+    return shape->sum_lanes * sizeof(double) >= bytes_of_32 ? 4 : 2;
+}
 
 /* Its parts, of memory.c, axis.c and cost.c. How many realizations at once, and what all of it
  * takes, for a shape with a grid. */

@@ -2,13 +2,20 @@
 
 #include <stdio.h>
 
-pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out, const char *file,
-                                     const char *name, bool keeps, ps_error *error) {
-    char options[96];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u%s",
-             self->precision == PS_SINGLE ? 32u : 64u, self->shape->lanes, self->shape->run_vectors,
-             self->is_alone ? 1u : 0u, keeps ? " -DKEEP=1" : "");
-    return ps_kernel_create(self->device, out, file, name, options, error);
+pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out,
+                                     const ps_sphere_source *source, bool keeps, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const unsigned precision = self->precision == PS_SINGLE ? 32 : 64;
+    char options[192], of_values[96] = "";
+    if (source->sums_one) {
+        snprintf(of_values, sizeof of_values,
+                 " -DVALUE_PRECISION=%u -DVALUE_LANES=%u -DRING_VECTORS=%u", precision,
+                 shape->lanes, ps_sphere_one_vectors(shape));
+    }
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u%s%s",
+             source->sums_one ? 64u : precision, source->sums_one ? shape->sum_lanes : shape->lanes,
+             shape->run_vectors, self->is_alone ? 1u : 0u, of_values, keeps ? " -DKEEP=1" : "");
+    return ps_kernel_create(self->device, out, source->file, source->name, options, error);
 }
 
 pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shape *shape,
@@ -18,8 +25,9 @@ pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shap
                               .precision = precision,
                               .is_alone = ps_range_is_alone(device),
                               .shape = shape};
-    PS_TRY(ps_sphere_kernel_create(out, &out->fold, "sphere/nufft/orders_fold.cl",
-                                   "sphere_orders_fold", false, error));
+    static const ps_sphere_source fold = {"sphere/nufft/orders_fold.cl", "sphere_orders_fold",
+                                          false};
+    PS_TRY(ps_sphere_kernel_create(out, &out->fold, &fold, false, error));
     return ps_buffer_create(device, &out->sums, shape->at_once * each, "powers of orders", error);
 }
 
@@ -63,11 +71,11 @@ static pspec_status keep_with(const ps_sphere_powers *self, cl_kernel kernel,
     return status;
 }
 
-pspec_status ps_sphere_keep(const ps_sphere_powers *self, const char *file, const char *name,
+pspec_status ps_sphere_keep(const ps_sphere_powers *self, const ps_sphere_source *source,
                             ps_sphere_launch_sums launch, void *stages, double *coefficients,
                             ps_error *error) {
     cl_kernel kernel = NULL;
-    PS_TRY(ps_sphere_kernel_create(self, &kernel, file, name, true, error));
+    PS_TRY(ps_sphere_kernel_create(self, &kernel, source, true, error));
     const pspec_status status = keep_with(self, kernel, launch, stages, coefficients, error);
     clReleaseKernel(kernel);
     return status;

@@ -21,9 +21,16 @@ pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shap
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_powers_free(ps_sphere_powers *powers);
 
+/* A kernel of kernels/sphere/nufft. */
+typedef struct ps_sphere_source {
+    const char *file, *name;
+    bool sums_one; /* orders_sum_one.cl: in double precision, with sum_lanes */
+} ps_sphere_source;
+
 /* A kernel for this precision, these lanes and work-groups; keeps: with -DKEEP=1. */
-pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out, const char *file,
-                                     const char *name, bool keeps, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out,
+                                     const ps_sphere_source *source, bool keeps,
+                                     ps_error *error) PS_MUST_CHECK;
 
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
@@ -38,7 +45,7 @@ typedef pspec_status (*ps_sphere_launch_sums)(void *stages, cl_kernel kernel, co
                                               size_t num, ps_error *error);
 /* The conjugates of c_lm of the first to [order][even, odd l - m][re, im][half_pitch]. Kernel and
  * room are there only as long as they are needed. */
-pspec_status ps_sphere_keep(const ps_sphere_powers *self, const char *file, const char *name,
+pspec_status ps_sphere_keep(const ps_sphere_powers *self, const ps_sphere_source *source,
                             ps_sphere_launch_sums launch, void *stages, double *coefficients,
                             ps_error *error) PS_MUST_CHECK;
 

@@ -8,20 +8,25 @@
 /* Bits of kernels/sphere/nufft/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
-/* One kernel sums powers, another coefficients. */
-static const char sums_file[] = "sphere/nufft/orders_sum.cl";
-static const char sums_name[] = "sphere_orders_sum";
+static const ps_sphere_source sources_of_sums[] = {
+    {"sphere/nufft/orders_sum.cl", "sphere_orders_sum", false},
+    {"sphere/nufft/orders_sum_one.cl", "sphere_orders_sum_one", true}};
+
+static const ps_sphere_source *source_of_sums(const ps_sphere_stages *self) {
+    return &sources_of_sums[self->shape->is_one_set];
+}
 
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
-    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->orders, "sphere/nufft/orders.cl",
-                                   "sphere_orders", false, error));
+    static const ps_sphere_source orders = {"sphere/nufft/orders.cl", "sphere_orders", false};
+    static const ps_sphere_source bands = {"sphere/nufft/orders_bands.cl", "sphere_orders_bands",
+                                           false};
+    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->orders, &orders, false, error));
     if (self->shape->is_sorted) {
-        PS_TRY(ps_sphere_kernel_create(&self->powers, &self->bands, "sphere/nufft/orders_bands.cl",
-                                       "sphere_orders_bands", false, error));
+        PS_TRY(ps_sphere_kernel_create(&self->powers, &self->bands, &bands, false, error));
     }
-    return ps_sphere_kernel_create(&self->powers, &self->sum, sums_file, sums_name, false, error);
+    return ps_sphere_kernel_create(&self->powers, &self->sum, source_of_sums(self), false, error);
 }
 
 static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
@@ -237,6 +242,6 @@ pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *
 
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
                                    ps_error *error) {
-    return ps_sphere_keep(&stages->powers, sums_file, sums_name, sum_rings, stages, coefficients,
+    return ps_sphere_keep(&stages->powers, source_of_sums(stages), sum_rings, stages, coefficients,
                           error);
 }
