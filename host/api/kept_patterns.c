@@ -50,6 +50,11 @@ void ps_kept_patterns_free(ps_kept_patterns *kept) {
     *kept = (ps_kept_patterns){0};
 }
 
+uint64_t ps_kept_patterns_bytes(const ps_kept_patterns *kept) {
+    return (uint64_t)kept->room * sizeof *kept->numbers +
+           (uint64_t)kept->capacity * sizeof *kept->patterns;
+}
+
 static const double *copy_numbers(ps_kept_patterns *kept, const double *numbers, size_t count) {
     double *const copy = kept->numbers + kept->used;
     memcpy(copy, numbers, count * sizeof(double));

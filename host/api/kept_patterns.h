@@ -27,6 +27,8 @@ typedef struct ps_kept_patterns {
 pspec_status ps_kept_patterns_create(ps_kept_patterns *kept, const ps_kept_shape *shape,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_kept_patterns_free(ps_kept_patterns *kept);
+/* Of the room, used or not. */
+uint64_t ps_kept_patterns_bytes(const ps_kept_patterns *kept);
 
 /* Patterns that were checked before. */
 void ps_kept_patterns_add(ps_kept_patterns *kept, const pspec_pattern *patterns, size_t num);

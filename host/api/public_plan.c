@@ -67,6 +67,13 @@ static pspec_status choose_engine(void *payload, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* What a limit that was set leaves beside the plan and the patterns that it keeps. */
+static uint64_t room_for_spares(const pspec_plan *plan) {
+    const double taken = plan->choice.chosen->bytes + (double)ps_kept_patterns_bytes(&plan->kept);
+    const double rest = (double)plan->context->memory_limit - taken;
+    return plan->context->memory_limit == 0 ? UINT64_MAX : rest > 0 ? (uint64_t)rest : 0;
+}
+
 static ps_estimator_options choose_options(void *payload) {
     const pspec_plan *const plan = payload;
     return (ps_estimator_options){
@@ -74,6 +81,7 @@ static ps_estimator_options choose_options(void *payload) {
         .want_c2 = plan->request.want_c2,
         .self_check = !plan->request.no_self_check,
         .normalization = plan->request.normalization,
+        .spare_bytes = room_for_spares(plan),
         .should_stop = should_stop,
         .payload = payload,
         .log = plan->context->log,
@@ -188,8 +196,9 @@ static pspec_status fill_plan(pspec_plan *plan, ps_error *error) {
                                .plan = &plan->choice,
                                .device = context->device};
     PS_TRY(choose_engine(plan, error));
-    PS_TRY(ps_runner_start(&plan->runner, error));
-    return make_room_to_keep(plan, error);
+    PS_TRY(ps_plan_require(&plan->choice, &plan->problem, error)); /* the better sentence first */
+    PS_TRY(make_room_to_keep(plan, error));
+    return ps_runner_start(&plan->runner, error);
 }
 
 /* Takes over the frequencies of the request. */

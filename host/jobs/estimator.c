@@ -69,7 +69,7 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->reference_points = options->normalization == PSPEC_NORMALIZATION_INTEGRAL
                                  ? (double)options->problem.num_points
                                  : 1;
-    pspec_status status = ps_spares_create(&self->spares, error);
+    pspec_status status = ps_spares_create(&self->spares, options->spare_bytes, error);
     if (status == PSPEC_OK) {
         status = create_arrays(self, error);
     }
@@ -96,7 +96,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     free(estimator->exponents);
     free(estimator->sums);
     ps_pair_sums_free(&estimator->c2);
-    ps_spares_leave(estimator->spares);
+    ps_spares_close(estimator->spares);
     free(estimator);
 }
 

@@ -37,7 +37,8 @@ typedef struct pspec_bin {
  * two do not harm the plan. */
 PSPEC_EXPORT pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan *plan);
 /** NULL is allowed. Arrays of millions of frequencies stay with the plan, while there is one, for
- * its next spectrum. */
+ * its next spectrum: up to 64 bytes for each frequency, but under a memory limit of the context no
+ * more than it leaves beside the plan. */
 PSPEC_EXPORT void pspec_spectrum_destroy(pspec_spectrum *spectrum);
 
 /** Writes the sums over realizations, from which every number of the spectrum follows, into a file
