@@ -17,7 +17,7 @@ static const double in_step = 2;
  * windows and phases, of each pass of the transforms on both axes, of sums in dense cells (root of
  * the number of terms; where axis 0 has frequency 0, terms are in step and it is the number of
  * points in a cell that counts, and columns of equal terms round the same way every time), of
- * coincident points. */
+ * lattices in space, of coincident points. */
 static const double point_roundings = 2;
 static const double window_roundings = 7;
 static const double roundings_per_pass = 1;
@@ -26,6 +26,7 @@ static const double dense_roundings = 1;
 static const double dense_roundings_at_zero = 2;
 static const double column_roundings = 0.3;
 static const double grid_roundings_at_zero = 0.08;
+static const double lattice_roundings = 0.28;
 static const double coherent_roundings = 0.45;
 
 double ps_nufft_modes(const ps_problem *problem) {
@@ -34,7 +35,7 @@ double ps_nufft_modes(const ps_problem *problem) {
 
 /* What all axes lose together. */
 typedef struct whole_loss {
-    double aliasing, worst, amplification, passes;
+    double aliasing, worst, amplification, edge, passes;
     double density;  /* points in a cell, */
     double touching; /* those whose windows touch it, */
     double dense;    /* and the root of their product: what they add up to */
@@ -46,6 +47,7 @@ static whole_loss add_axes(const ps_nufft_choice *choice, uint64_t num_points) {
     const bool has_chunks = choice->chunk > 0 && choice->chunk < num_points;
     const double at_once = fmax(1, (double)(has_chunks ? choice->chunk : num_points));
     whole_loss sum = {.amplification = 1,
+                      .edge = 1,
                       .density = at_once,
                       .touching = at_once,
                       .widths = 1,
@@ -55,6 +57,7 @@ static whole_loss add_axes(const ps_nufft_choice *choice, uint64_t num_points) {
         sum.aliasing += axis->loss.aliasing;
         sum.worst += axis->loss.worst;
         sum.amplification *= axis->loss.amplification;
+        sum.edge *= axis->loss.edge;
         sum.passes += axis->passes * roundings_per_pass;
         sum.density /= axis->n;
         sum.touching *= (double)axis->window.width / axis->n;
@@ -72,6 +75,19 @@ static double aliasing_of(const ps_nufft_choice *choice, const ps_problem *probl
     const double peaks = choice->stride != 0 ? 4 : pow(2, problem->frequencies->dimension);
     const double points_per_mode = ps_planned_points(problem) / ps_nufft_modes(problem);
     return sqrt(loss->aliasing + loss->worst * (in_step * power + peaks * points_per_mode));
+}
+
+/* Plain sums of large sets in space: lattices that are finer than K round the same way in every
+ * period of lattice and grid, and do so at frequencies up to K; their points may lie together, as
+ * many as there are for a mode. */
+static bool has_lattices(const ps_nufft_choice *choice) {
+    return ps_nufft_way_of(choice) == PS_NUFFT_LARGE && choice->num_axes == 3 && choice->chunk == 0;
+}
+
+static double rounding_of_lattices(const ps_problem *problem, const whole_loss *loss) {
+    const double points_per_mode = (double)problem->num_points / ps_nufft_modes(problem);
+    return lattice_roundings * loss->edge *
+           sqrt(loss->touching * points_per_mode * (1 + points_per_mode));
 }
 
 /* Rounding at frequency 0, where terms are in step, counts in units of roundoff. */
@@ -93,8 +109,10 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
         PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
     const double each =
         hypot(window_roundings + loss.passes, dense_roundings * sqrt(loss.touching));
-    const double rounding =
-        unit * loss.amplification * hypot(each * sqrt(power), rounding_at_zero(choice, &loss));
+    const double lattices = has_lattices(choice)
+                                ? rounding_of_lattices(problem, &loss)
+                                : loss.amplification * rounding_at_zero(choice, &loss);
+    const double rounding = unit * hypot(loss.amplification * each * sqrt(power), lattices);
     const double coherent = unit * coherent_roundings * power * sqrt(power);
     const double given = unit * point_roundings * sqrt(power);
     return hypot(hypot(aliasing, polynomials), hypot(rounding, given)) + coherent;

@@ -109,6 +109,8 @@ ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_fr
             fmax(loss.worst, aliases_at(window, (1 - at * at) * max_frequency / n).in_step);
     }
     loss.amplification = sqrt(grid * loss.amplification);
+    loss.edge =
+        relative_transform(window, 0) / relative_transform(window, (double)max_frequency / n);
     return loss;
 }
 

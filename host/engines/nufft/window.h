@@ -28,6 +28,7 @@ typedef struct ps_nufft_loss {
     double aliasing;      /* mean over |k| <= K of |error / S|^2 from frequencies k + m n, m != 0 */
     double worst;         /* the same at the frequency where it is largest */
     double amplification; /* of white errors of the grid: root mean square, grid and frequencies */
+    double edge;          /* what K is amplified by when the window is undone, beside frequency 0 */
 } ps_nufft_loss;
 /* No more than `worst` can be, at a hundredth of the cost. */
 double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,

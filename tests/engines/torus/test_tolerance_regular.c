@@ -1,6 +1,7 @@
 /* The error formula of torus_nufft for the sets that harm it most: regular along an axis, with
  * peaks where aliases are strongest for the fine grid that is chosen; and for larger sets of the
- * kinds of test_tolerance_sweep.c.
+ * kinds of test_tolerance_sweep.c; and lattices in space, made for the grid, whose points may lie
+ * together, where sums of a large set are plain.
  *
  * Of a comb of m points along the last axis, frequencies k and k + m are the same. With m = n - K
  * all that it has at k = 0, be that a peak or the power of all its rows, comes back at K and -K;
@@ -167,6 +168,103 @@ static void dense_columns(void **state) {
     }
 }
 
+/* ---- lattices of large sets ----------------------------------------------------------------- */
+
+/* Points on top of each other follow one another. */
+static pspec_pattern make_lattice(const size_t sides[3], size_t copies) {
+    const double shift = 0.3;
+    const size_t num = sides[0] * sides[1] * sides[2] * copies;
+    double *points = calloc(3 * num, sizeof(double));
+    for (size_t i = 0; i < num; i++) {
+        size_t rest = i / copies;
+        for (unsigned axis = 3; axis-- > 0; rest /= sides[axis]) {
+            points[3 * i + axis] = ((double)(rest % sides[axis]) + shift) / (double)sides[axis];
+        }
+    }
+    return (pspec_pattern){3, num, points, NULL};
+}
+
+static ps_nufft_choice choose_single(const ps_frequencies *grid, size_t num_points,
+                                     double tolerance) {
+    const ps_problem problem = {.frequencies = grid,
+                                .num_points = num_points,
+                                .num_realizations = 1,
+                                .tolerance = tolerance};
+    return ps_nufft_choose(&problem, ps_device_get_limits(device), PS_SINGLE);
+}
+
+static bool is_plain(const ps_nufft_choice *choice) {
+    return ps_nufft_way_of(choice) == PS_NUFFT_LARGE && choice->chunk == 0;
+}
+
+/* Lattices that are finer than K have no power: what is found is the error. HUGE_VAL: there is none
+ * of so many points, or its sums are not plain. */
+static double slack_of_lattice(const ps_frequencies *grid, const size_t sides[3], size_t num_points,
+                               double tolerance) {
+    const size_t places = sides[0] * sides[1] * sides[2];
+    const size_t copies = num_points > places ? num_points / places : 1;
+    const ps_nufft_choice choice = choose_single(grid, places * copies, tolerance);
+    for (unsigned axis = 0; axis < 3; axis++) {
+        if (sides[axis] <= (size_t)grid->max_frequency || !is_plain(&choice)) {
+            return HUGE_VAL;
+        }
+    }
+    pspec_pattern pattern = make_lattice(sides, copies);
+    const ps_problem problem = {.frequencies = grid,
+                                .num_points = pattern.num_points,
+                                .num_realizations = 1,
+                                .tolerance = tolerance};
+    double *found =
+        test_run_engine_to(&ps_torus_nufft, PS_SINGLE, tolerance, device, grid, &pattern, 1, 1);
+    double sum = 0;
+    for (size_t i = 0; i < grid->num; i++) {
+        sum += found[i];
+    }
+    const double error = sqrt(sum / (double)grid->num / (double)pattern.num_points);
+    free(found);
+    test_free_pattern(&pattern);
+    return test_engine_error(&ps_torus_nufft, &problem, PS_SINGLE, device, 0) / error;
+}
+
+static double least_slack_of_lattices(const ps_frequencies *grid, size_t num_points,
+                                      double tolerance) {
+    static const double of_cells[] = {1.0 / 4, 1.0 / 3, 2.0 / 5, 1.0 / 2,
+                                      3.0 / 5, 3.0 / 4, 4.0 / 5, 1};
+    const ps_nufft_choice choice = choose_single(grid, num_points, tolerance);
+    const size_t coarsest = (size_t)grid->max_frequency + 2;
+    const size_t many[3] = {coarsest, coarsest, coarsest};
+    double least = slack_of_lattice(grid, many, num_points, tolerance);
+    for (size_t i = 0; is_plain(&choice) && i < sizeof of_cells / sizeof of_cells[0]; i++) {
+        size_t sides[3];
+        for (unsigned axis = 0; axis < 3; axis++) {
+            sides[axis] = (size_t)lround(of_cells[i] * choice.axes[axis].n);
+        }
+        least = fmin(least, slack_of_lattice(grid, sides, num_points, tolerance));
+    }
+    return least;
+}
+
+/* The same numbers are added up in every period of lattice and grid, and round the same way. */
+static void lattices_of_large_sets(void **state) {
+    (void)state;
+    static const struct {
+        int32_t k;
+        size_t num_points;
+        double tolerance;
+    } sets[] = {{16, 100000, 1e-6},  {16, 200000, 1e-4},  {16, 700000, 1e-5},
+                {16, 1500000, 2e-5}, {16, 1500000, 1e-4}, {32, 700000, 1e-6}};
+    for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
+        ps_frequencies grid = test_make_grid(3, sets[i].k);
+        const double least = least_slack_of_lattices(&grid, sets[i].num_points, sets[i].tolerance);
+        print_message("lattices: K=%d N=%zu single, tolerance %.0e: smallest slack %.2f\n",
+                      (int)sets[i].k, sets[i].num_points, sets[i].tolerance, least);
+        ps_frequencies_free(&grid);
+        assert_true(least >= 1 && least < HUGE_VAL);
+    }
+}
+
+/* ---- larger sets ---------------------------------------------------------------------------- */
+
 static void check_larger(unsigned dimension, int32_t k, size_t num_points, ps_precision precision,
                          double last) {
     ps_frequencies grid = test_make_grid(dimension, k);
@@ -208,6 +306,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(combs),
         cmocka_unit_test(dense_columns),
+        cmocka_unit_test(lattices_of_large_sets),
         cmocka_unit_test(larger),
     };
     device = test_open_device();
