@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # threads are asked for, not taken
+os.environ.setdefault("DUCC0_NUM_THREADS", "2")  # what may be asked for, of ducc0 and of FINUFFT with its FFT
 
 import loops
 import yardstick
