@@ -1,6 +1,7 @@
 #include "api/kept_patterns.h"
 
 #include "base/memory.h"
+#include "base/workers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -55,9 +56,30 @@ uint64_t ps_kept_patterns_bytes(const ps_kept_patterns *kept) {
            (uint64_t)kept->capacity * sizeof *kept->patterns;
 }
 
+/* Numbers that are worth threads: 8 MiB. */
+static const size_t least_shared = 1 << 20;
+
+typedef struct copying {
+    double *to;
+    const double *from;
+    size_t count;
+} copying;
+
+static void copy_some(void *payload, unsigned index, unsigned count) {
+    const copying *work = payload;
+    const size_t first = ps_share_begin(work->count, index, count);
+    const size_t end = ps_share_begin(work->count, index + 1, count);
+    memcpy(work->to + first, work->from + first, (end - first) * sizeof(double));
+}
+
 static const double *copy_numbers(ps_kept_patterns *kept, const double *numbers, size_t count) {
     double *const copy = kept->numbers + kept->used;
-    memcpy(copy, numbers, count * sizeof(double));
+    copying all = {copy, numbers, count};
+    if (count >= least_shared) {
+        ps_workers_share(count, copy_some, &all);
+    } else {
+        copy_some(&all, 0, 1);
+    }
     kept->used += count;
     return copy;
 }

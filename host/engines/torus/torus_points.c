@@ -1,6 +1,7 @@
 #include "engines/torus/torus_points.h"
 
 #include "base/memory.h"
+#include "base/workers.h"
 #include "device/reals.h"
 #include "math/divisor.h"
 
@@ -155,16 +156,23 @@ static uint64_t convert_coordinates(uint64_t *out, const pspec_pattern *pattern,
     }
 }
 
-/* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. The
- * sign bit of *inside stays where all are in [0,1). */
-static size_t convert_pattern(ps_torus_points *points, uint64_t *out, size_t at,
-                              const pspec_pattern *pattern, int exponent, size_t first,
-                              uint64_t *inside) {
+/* Points from `first` on that there is room for. */
+static size_t count_points(const ps_torus_points *points, const pspec_pattern *pattern,
+                           size_t first) {
+    const size_t rest = pattern->num_points > first ? pattern->num_points - first : 0;
+    return rest < points->slab ? rest : points->slab;
+}
+
+/* Points first .. of a pattern, in the order of steps, to place `at` on. The sign bit of *inside
+ * stays where all are in [0,1). */
+static void convert_pattern(ps_torus_points *points, uint64_t *out, size_t at,
+                            const pspec_pattern *pattern, int exponent, size_t first,
+                            uint64_t *inside) {
     const uint64_t n = pattern->num_points;
-    if (first >= n) {
-        return 0;
+    const size_t count = count_points(points, pattern, first);
+    if (count == 0) {
+        return;
     }
-    const size_t count = n - first < points->slab ? (size_t)(n - first) : points->slab;
     const uint64_t step = points->far_apart ? ps_torus_point_step(n) : 1;
     uint64_t j = (uint64_t)((wide)first * step % n);
     *inside &= convert_coordinates(out + at * points->dimension, pattern, count, j, step);
@@ -173,24 +181,56 @@ static size_t convert_pattern(ps_torus_points *points, uint64_t *out, size_t at,
         j += step;
         j -= j >= n ? n : 0;
     }
-    return count;
 }
+
+typedef struct conversion {
+    ps_torus_points *points;
+    uint64_t *out;
+    const ps_batch *batch;
+    size_t first;
+    uint64_t inside[PS_WORKERS_MOST];
+} conversion;
+
+static void convert_some(void *payload, unsigned index, unsigned count) {
+    conversion *work = payload;
+    const ps_batch *batch = work->batch;
+    const size_t end = ps_share_begin(batch->num_patterns, index + 1, count);
+    uint64_t inside = UINT64_MAX;
+    for (size_t r = ps_share_begin(batch->num_patterns, index, count); r < end; r++) {
+        convert_pattern(work->points, work->out, work->points->host_offsets[r], &batch->patterns[r],
+                        batch->exponents != NULL ? batch->exponents[r] : 0, work->first, &inside);
+    }
+    work->inside[index] = inside;
+}
+
+/* Parts of a large set, for which the device waits, are worth threads; batches of small ones are
+ * converted while it has others. */
+static const size_t least_shared = 1 << 19;
 
 /* All patterns, to memory of the host or of a buffer. */
 static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_batch *batch,
                             size_t first, size_t *num_points, ps_error *error) {
-    size_t at = 0;
+    conversion all = {points, out, batch, first, {0}};
     uint64_t inside = UINT64_MAX;
+    size_t at = 0;
+    memset(all.inside, 0xff, sizeof all.inside); /* of threads that are not there */
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
     }
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->host_offsets[r] = at;
-        at += convert_pattern(points, out, at, &batch->patterns[r],
-                              batch->exponents != NULL ? batch->exponents[r] : 0, first, &inside);
+        at += count_points(points, &batch->patterns[r], first);
     }
     points->host_offsets[batch->num_patterns] = at;
     *num_points = at;
+    if (at >= least_shared) {
+        ps_workers_share(at, convert_some, &all);
+    } else {
+        convert_some(&all, 0, 1);
+    }
+    for (size_t i = 0; i < PS_WORKERS_MOST; i++) {
+        inside &= all.inside[i];
+    }
     return inside >> 63 != 0 ? PSPEC_OK
                              : ps_fail(error, PSPEC_ERROR_INPUT, "a coordinate is outside [0,1)");
 }

@@ -149,10 +149,16 @@ static pspec_status spread_colour(ps_nufft_grid *self, uint32_t slab, size_t num
                      PS_LOCAL(local.cells));
 }
 
-static pspec_status clear(ps_nufft_grid *self, uint32_t slab, ps_error *error) {
-    PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));
-    return self->layout->has_pairs ? ps_buffer_clear(self->device, &self->low[slab], error)
-                                   : PSPEC_OK;
+/* Clears a grid that nothing was added to. One thread of a device does it, while the host converts
+ * points. */
+static pspec_status clear_once(ps_nufft_grid *self, ps_error *error) {
+    for (uint32_t slab = 0; self->is_empty && slab < self->layout->num_slabs; slab++) {
+        PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));
+        PS_TRY(self->layout->has_pairs ? ps_buffer_clear(self->device, &self->low[slab], error)
+                                       : PSPEC_OK);
+    }
+    self->is_empty = false;
+    return PSPEC_OK;
 }
 
 /* Of a colour. */
@@ -169,9 +175,6 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
                               size_t num_points, ps_error *error) {
     const ps_nufft_boxes *boxes = &self->layout->boxes;
     const uint32_t colours = boxes->colours[0] * boxes->colours[1] * boxes->colours[2];
-    if (self->is_empty) {
-        PS_TRY(clear(self, slab, error));
-    }
     for (uint32_t colour = 0; colour < colours; colour++) {
         const boxes_numbers numbers = numbers_of_colour(self, slab, num_parts, colour);
         PS_TRY(spread_colour(self, slab, ps_nufft_boxes_of_colour(boxes), &numbers,
@@ -185,7 +188,6 @@ static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_poi
     for (uint32_t slab = 0; slab < self->layout->num_slabs; slab++) {
         PS_TRY(spread_on(self, slab, num_parts, num_points, error));
     }
-    self->is_empty = false;
     return PSPEC_OK;
 }
 
@@ -210,6 +212,7 @@ pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch, ps_er
     pspec_pattern parts[PS_NUFFT_MOST_PARTS];
     int exponents[PS_NUFFT_MOST_PARTS];
     size_t num_points = 0;
+    PS_TRY(clear_once(grid, error));
     for (size_t i = 0; i < PS_NUFFT_MOST_PARTS; i++) {
         exponents[i] = batch->exponents != NULL ? batch->exponents[0] : 0;
     }
@@ -353,18 +356,10 @@ static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nuff
                      PS_BUFFER(*target->power), PS_LOCAL(cells_bytes(self, across)));
 }
 
-/* Clears a grid in which nothing was stored because there was no point. */
-static pspec_status clear_if_empty(ps_nufft_grid *self, ps_error *error) {
-    for (uint32_t slab = 0; self->is_empty && slab < self->layout->num_slabs; slab++) {
-        PS_TRY(clear(self, slab, error));
-    }
-    return PSPEC_OK;
-}
-
 pspec_status ps_nufft_grid_finish(ps_nufft_grid *grid, const ps_buffer *means,
                                   const ps_nufft_target *target, ps_error *error) {
     const ps_nufft_layout *layout = grid->layout;
-    PS_TRY(clear_if_empty(grid, error));
+    PS_TRY(clear_once(grid, error)); /* of a set without points */
     for (size_t first = 0; first < layout->num_tiles; first += layout->tiles_at_once) {
         const extent tiles = cut_extent(first, layout->tiles_at_once, layout->num_tiles);
         PS_TRY(transform_first(grid, means, tiles, error));

@@ -13,7 +13,7 @@ typedef struct ps_nufft_grid {
     ps_nufft_places *places;
     ps_device *device;
     bool is_alone; /* work-groups of one item: kernels/shared/group.h */
-    bool is_empty; /* whatever the buffers hold: the first chunk is stored, not added */
+    bool is_empty; /* whatever the buffers hold */
     cl_kernel spread, first, tile, rows, columns;
     ps_buffer high[PS_NUFFT_MOST_SLABS], low[PS_NUFFT_MOST_SLABS]; /* [num_slabs] */
     ps_buffer high_strip, low_strip;                               /* of more than one slab */
