@@ -196,7 +196,7 @@ static pspec_status fill_plan(pspec_plan *plan, ps_error *error) {
                                .plan = &plan->choice,
                                .device = context->device};
     PS_TRY(choose_engine(plan, error));
-    PS_TRY(ps_plan_require(&plan->choice, &plan->problem, error)); /* the better sentence first */
+    PS_TRY(ps_plan_require(&plan->choice, &plan->problem, error)); /* what follows needs a choice */
     PS_TRY(make_room_to_keep(plan, error));
     return ps_runner_start(&plan->runner, error);
 }

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A kept set is read and handed over in 50 us (two cores of an EPYC, 2026-11), and where processors
- * are busy in more: sets that take less time than this are not kept, and handed over in blocks that
- * take BLOCK_SECONDS, by one thread. */
+/* A thing is handed over in 50 us (two cores of an EPYC, 2026-11), and where processors are busy in
+ * more: sets that take less time than this are handed over in blocks that take BLOCK_SECONDS, by
+ * one thread. */
 static const double LEAST_SECONDS = 2e-4;
 static const double BLOCK_SECONDS = 1e-3;
 

@@ -109,6 +109,19 @@ for engine in host_direct sphere_direct sphere_nufft sphere_grid; do
     done
 done
 
+# A set alone is known to be alone, whatever else is in the file, and as text or array.
+"$program" sample --sampler white-sphere -n 40 -m 2 -o both.npy
+"$program" sample --sampler white-sphere -n 40 -m 2 -o both.txt
+"$program" sample --sampler white-sphere -n 40 -o alone.npy
+runs 0 --engine sphere_nufft -l 250 alone.npy
+alone=$(grep -v '^#' out)
+for file in both.npy both.txt; do
+    runs 0 --engine sphere_nufft -l 250 $file --select-sets 1
+    [[ $(grep -v '^#' out) == "$alone" ]] || complain "$file: the first set alone has other powers"
+    runs 0 --engine sphere_nufft -l 250 $file
+    grep -q '^# .*realizations.* 2' out || complain "$file: not two realizations"
+done
+
 # The title of a picture tells of all sets.
 if command -v gnuplot >/dev/null; then
     runs 0 --engine host_direct --sampler healpix:nside=1 --sampler fibonacci --sampler zphi -l 2 --plot picture.svg

@@ -83,7 +83,10 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
                             error));
     PS_TRY(
         ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets", error));
-    return upload_unit_weights(out, device, error);
+    PS_TRY(upload_unit_weights(out, device, error));
+    /* Before all launches, so that the first points do not wait for one, either. */
+    return out->is_unified ? ps_mapping_begin(device, &out->mapping, &out->buffers[0], error)
+                           : PSPEC_OK;
 }
 
 void ps_torus_points_free(ps_torus_points *points) {
@@ -203,9 +206,9 @@ static void convert_some(void *payload, unsigned index, unsigned count) {
     work->inside[index] = inside;
 }
 
-/* Parts of a large set, for which the device waits, are worth threads; batches of small ones are
- * converted while it has others. */
-static const size_t least_shared = 1 << 19;
+/* Parts of a large set of so many points, for which the device waits, are worth threads; batches of
+ * small sets are converted while it has others. */
+static const size_t least_part = 1 << 17;
 
 /* All patterns, to memory of the host or of a buffer. */
 static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_batch *batch,
@@ -223,7 +226,7 @@ static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_bat
     }
     points->host_offsets[batch->num_patterns] = at;
     *num_points = at;
-    if (at >= least_shared) {
+    if (batch->num_patterns > 1 && batch->patterns[0].num_points >= least_part) {
         ps_workers_share(at, convert_some, &all);
     } else {
         convert_some(&all, 0, 1);

@@ -68,11 +68,13 @@ PSPEC_EXPORT pspec_status pspec_plan_create(pspec_plan **out, pspec_context *con
                                             const pspec_power_request *request);
 /** What to compute on the sphere. Begin with #PSPEC_ANGULAR_REQUEST_INIT and set what differs. */
 typedef struct pspec_angular_request {
-    size_t struct_size;        /**< set by #PSPEC_ANGULAR_REQUEST_INIT; lets the struct grow */
-    size_t num_points;         /**< of the largest pattern expected; more are taken; default 1024 */
-    uint64_t num_realizations; /**< patterns that are expected; default 0: not known */
-    int32_t max_degree;        /**< L: degrees 1..L, at most 32768 */
-    int hemisphere;            /**< even degrees only */
+    size_t struct_size; /**< set by #PSPEC_ANGULAR_REQUEST_INIT; lets the struct grow */
+    size_t num_points;  /**< of the largest pattern expected; more are taken; default 1024 */
+    /** patterns that are expected; default 0: not known. 1: kernels for one, where the last digits
+     * may differ from those for several */
+    uint64_t num_realizations;
+    int32_t max_degree;                /**< L: degrees 1..L, at most 32768 */
+    int hemisphere;                    /**< even degrees only */
     pspec_normalization normalization; /**< which power */
     /** numerical error of the coefficients relative to white noise; default 1e-6 */
     double tolerance;

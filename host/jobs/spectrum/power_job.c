@@ -72,10 +72,13 @@ static pspec_status open_files(ps_power_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* On the sphere a set alone has a kernel of its own. */
+/* On the sphere a set alone has a kernel of its own. Nobody waits for a second set of a stream, nor
+ * for a second file. */
 static pspec_status count_sets(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
     bool is_last = false;
-    if (job->question->on_sphere && job->num_realizations == 0) {
+    if (question->on_sphere && job->num_realizations == 0 && question->source == NULL &&
+        question->num_paths == 1 && ps_source_can_rewind(job->sets.source)) {
         PS_TRY(ps_power_sets_is_last(&job->sets, &is_last, error));
         job->num_realizations = is_last ? 1 : 0;
     }
@@ -150,11 +153,15 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
+    /* One is all that is read, and in blocks nothing tells beforehand. */
+    const bool has_only_block_set = question->on_sphere && !question->keeps_sets &&
+                                    question->harmonics != PS_NO_HARMONICS &&
+                                    question->sampler == NULL && !job->sets.part.is_whole;
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->most_points,
         .planned_points = job->num_points,
-        .num_realizations = ps_power_needs_realizations(job),
+        .num_realizations = has_only_block_set ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
         .keeps_coefficients = question->keeps_sets || question->harmonics == PS_EXPONENTIALS,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,

@@ -149,17 +149,15 @@ static inline bool add_difference_run(const ring_states states, const ring_angle
     return is_more_than_zeros(state);
 }
 
-/* Parity of l - m; BOTH of them. */
-enum { BOTH = 2 };
-
 /* A run of RING_UNIT rings from `ring` on, of the parities that are wanted; whether there is more
- * than zeros in it. values: of the even ones of the first ring, those of the odd ones
+ * than zeros in it, by that of even degrees alone, so that rings go on or not whether others are
+ * wanted or not. values: of the even ones of the first ring, those of the odd ones
  * `values_apart` numbers behind; num: of rings that are left. */
 static inline bool add_run(const ring_states states, const ring_angles angles, const uint ring,
                            const uint num, __local const double *coefficients,
                            __global const value_real *values, const size_t values_apart,
-                           __local double *sums, const size_t apart, const uint only,
-                           const uint vectors) {
+                           __local double *sums, const size_t apart, const uint even,
+                           const bool has_both, const uint vectors) {
     ring_values both[2];
     bool is_there = false;
     load_values(&both[0], values, num);
@@ -168,10 +166,10 @@ static inline bool add_run(const ring_states states, const ring_angles angles, c
         return add_difference_run(states, angles, ring, coefficients, both, sums, apart, vectors);
     }
     for (uint parity = 0; parity < 2; parity++) {
-        if (only == BOTH || only == parity) {
-            is_there = add_chain_run(states, angles, parity, ring, coefficients, &both[parity],
-                                     sums + parity * apart, vectors) ||
-                       is_there;
+        if (has_both || parity == even) {
+            const bool has_more = add_chain_run(states, angles, parity, ring, coefficients,
+                                                &both[parity], sums + parity * apart, vectors);
+            is_there = parity == even ? has_more : is_there;
         }
     }
     return is_there;

@@ -20,14 +20,16 @@ typedef struct sphere_case {
     bool only_even;
 } sphere_case;
 
-/* Degrees at and beside whole vectors and runs of orders_table.h; the smallest there are. */
+/* Degrees at and beside whole vectors and runs of orders_chains.h; the smallest there are; two
+ * whose rings are not all by differences where a set is alone. */
 static const sphere_case cases[] = {
-    {1, PS_SINGLE, 1e-4, false},  {2, PS_SINGLE, 1e-3, false},   {3, PS_SINGLE, 1e-6, false},
-    {2, PS_SINGLE, 1e-5, true},   {7, PS_SINGLE, 1e-2, false},   {15, PS_SINGLE, 1e-5, false},
-    {32, PS_SINGLE, 1e-5, false}, {33, PS_SINGLE, 1e-4, true},   {61, PS_SINGLE, 1e-6, false},
-    {1, PS_DOUBLE, 1e-12, false}, {16, PS_DOUBLE, 1e-9, false},  {31, PS_DOUBLE, 1e-12, true},
-    {64, PS_DOUBLE, 1e-6, false}, {67, PS_DOUBLE, 1e-13, false}, {130, PS_DOUBLE, 1e-12, false},
+    {1, PS_SINGLE, 1e-4, false},   {2, PS_SINGLE, 1e-3, false},   {3, PS_SINGLE, 1e-6, false},
+    {2, PS_SINGLE, 1e-5, true},    {7, PS_SINGLE, 1e-2, false},   {15, PS_SINGLE, 1e-5, false},
+    {32, PS_SINGLE, 1e-5, false},  {33, PS_SINGLE, 1e-4, true},   {61, PS_SINGLE, 1e-6, false},
+    {1, PS_DOUBLE, 1e-12, false},  {16, PS_DOUBLE, 1e-9, false},  {31, PS_DOUBLE, 1e-12, true},
+    {64, PS_DOUBLE, 1e-6, false},  {67, PS_DOUBLE, 1e-13, false}, {130, PS_DOUBLE, 1e-12, false},
     {150, PS_SINGLE, 1e-5, true}, /* grids in strips */
+    {300, PS_DOUBLE, 1e-10, true}, {301, PS_SINGLE, 1e-4, false},
 };
 
 enum { NUM_CASES = sizeof cases / sizeof cases[0] };
@@ -44,11 +46,12 @@ static ps_frequencies degrees_of(const sphere_case *what) {
     return set;
 }
 
+/* A set alone and sets among others have kernels of their own. */
 static ps_problem problem_of(const sphere_case *what, const ps_frequencies *set,
                              size_t num_points) {
     return (ps_problem){.frequencies = set,
                         .num_points = num_points,
-                        .num_realizations = 100,
+                        .num_realizations = what->max_degree % 3 == 0 ? 1 : 100,
                         .has_weights = true,
                         .tolerance = what->tolerance};
 }

@@ -97,9 +97,8 @@ static void copies_add_up(void **state) {
     ps_frequencies_free(&set);
 }
 
-/* Alone, in a batch, and by work-groups of several items. */
-static void same_bits(void **state) {
-    (void)state;
+/* Alone, in a batch, and by work-groups of several items, whether one is expected or several. */
+static void check_bits(uint64_t num_expected) {
     enum { NUM = 100000 };
     static const size_t ways[][2] = {{2, 0}, {2, 32}};
     ps_frequencies set = {0};
@@ -110,7 +109,8 @@ static void same_bits(void **state) {
     assert_ok(ps_frequencies_enumerate(&set, error));
     pspec_pattern patterns[2] = {test_make_sphere_pattern(&test_sphere_shapes[0], NUM, 1),
                                  test_make_sphere_pattern(&test_sphere_shapes[1], NUM - 7, 2)};
-    const ps_problem problem = problem_of(&set, NUM, 1e-5);
+    ps_problem problem = problem_of(&set, NUM, 1e-5);
+    problem.num_realizations = num_expected;
     double *expected =
         test_run_problem(&ps_sphere_nufft, &problem, PS_SINGLE, device, patterns, 2, 1);
     for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++) {
@@ -125,6 +125,12 @@ static void same_bits(void **state) {
     test_free_sphere_pattern(&patterns[0]);
     test_free_sphere_pattern(&patterns[1]);
     ps_frequencies_free(&set);
+}
+
+static void same_bits(void **state) {
+    (void)state;
+    check_bits(2);
+    check_bits(1);
 }
 
 int main(void) {

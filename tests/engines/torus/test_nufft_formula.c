@@ -113,6 +113,18 @@ static const formula_case cases[] = {
      .num_points = 289,
      .power = 1,
      .aliasing = 0.3872983346207417},
+    {.name = "lattices in space: 8 points touch a cell, two for a mode",
+     .choice = {.num_axes = 3,
+                .is_gridded = true,
+                .axes = {AXIS(68, 17, .amplification = 2, .edge = 3),
+                         AXIS(578, 34, .amplification = 1, .edge = 2),
+                         AXIS(34, 2, .amplification = 1, .edge = 1)}},
+     .num_points = 2 * 17 * 17 * 17,
+     .power = 1,
+     .rounding = 2 * 7.582875444051551, /* hypot(7, sqrt(T)), T = 9826 / 4 / 17 / 17 = 8.5 */
+     .at_zero = 11.99759975995199,      /* 0.28 * 6 * sqrt(6 T) */
+     .given = 2,
+     .coherent = 0.45},
     {.name = "polynomials",
      .choice = {.num_axes = 2,
                 .span = 1,
@@ -127,9 +139,11 @@ static const formula_case cases[] = {
 static void check(const formula_case *one, ps_precision precision) {
     static const double units[2] = {0x1p-24, 0x1p-53};
     const double u = units[precision];
-    const ps_frequencies plane = {.kind = PS_FREQUENCIES_BOX, .dimension = 2, .max_frequency = K};
+    const unsigned dimension = one->choice.num_axes > 2 ? one->choice.num_axes : 2;
+    const ps_frequencies box = {
+        .kind = PS_FREQUENCIES_BOX, .dimension = dimension, .max_frequency = K};
     const ps_problem problem = {
-        .frequencies = &plane, .num_points = one->num_points, .tolerance = one->tolerance};
+        .frequencies = &box, .num_points = one->num_points, .tolerance = one->tolerance};
     const double rounding = hypot(hypot(one->rounding, one->at_zero), one->given);
     const double expected =
         hypot(hypot(one->aliasing, one->polynomials), u * rounding) + u * one->coherent;

@@ -132,7 +132,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .values = shape->value_bytes,
         .gaps = ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes,
         .powers = groups * 2 * shape->half_pitch * sizeof(double),
-        .sums = pitch > 0 ? groups * 4 * run * real_bytes : 0,
+        .sums = pitch > 0 && !shape->is_one_set ? groups * 4 * run * real_bytes : 0,
         .states = groups * 4 * pitch * sizeof(double),
         .scales = groups * 2 * pitch * sizeof(int32_t),
         .diagonals = groups * pitch * sizeof(double),

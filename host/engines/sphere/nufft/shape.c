@@ -135,11 +135,13 @@ static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
 }
 
 /* A realization alone needs no table that others would share. Not on GPUs, whose work-items would
- * each have rings, and sums of all of them to add up. */
+ * each have rings, and sums of all of them to add up; nor of a set that comes in blocks, after
+ * which nobody knows whether others follow. */
 static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
                         const ps_device_limits *limits) {
     const unsigned lanes = ps_engine_lanes(limits, PS_DOUBLE);
-    if (problem->num_realizations == 1 && !limits->has_dedicated_local_memory && lanes > 1) {
+    if (problem->num_realizations == 1 && problem->block_points == 0 &&
+        !limits->has_dedicated_local_memory) {
         shape->is_one_set = true;
         shape->sum_lanes = lanes;
         choose_recurrences(shape, ps_sphere_one_vectors(shape) * lanes);

@@ -89,10 +89,11 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* RING_VECTORS of orders_sum_one.cl: registers hold three vectors and two of values for each. */
+/* RING_VECTORS of orders_sum_one.cl: registers hold three vectors and two of values for each. At
+ * most 32 rings in all, to whose multiples ring_pitch is rounded. */
 static inline unsigned ps_sphere_one_vectors(const ps_sphere_shape *shape) {
     const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
-    return shape->sum_lanes * sizeof(double) >= bytes_of_32 ? 4 : 2;
+    return shape->sum_lanes * sizeof(double) == bytes_of_32 ? 4 : 2;
 }
 
 /* Its parts, of memory.c, axis.c and cost.c. How many realizations at once, and what all of it
