@@ -8,9 +8,9 @@
 #include "engines/engine.h"
 #include "engines/nufft/axis.h"
 
-/* Groups of orders in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds
- * up those of its own. There are so many whatever the device, since sums depend on it; enough that
- * all cores have work to the end. */
+/* Groups of orders in kernels/sphere/nufft/orders_sum.cl, orders_sum_one.cl, grid_sums.cl and
+ * grid_table.cl: each adds up those of its own. There are so many whatever the device, since sums
+ * depend on it; enough that all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
 /* How c_lm is made of the grid. */
@@ -154,7 +154,7 @@ enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
 /* Numbers that kernels/sphere/ agrees on, as it names them. */
 enum {
     PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
-    PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: the most, in double precision */
+    PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: in double precision, with a table */
     PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
     PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */
     PS_SPHERE_CHAIN_AHEAD = 4,  /* orders_chains.h: and these */

@@ -1,5 +1,5 @@
 /* From points on the device to values on rings (kernels/sphere/nufft/orders.cl), and from these to
- * powers or coefficients (kernels/sphere/nufft/orders_sum.cl).
+ * powers or coefficients (kernels/sphere/nufft/orders_sum.cl, of a set alone orders_sum_one.cl).
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_STAGES_H
 #define PS_ENGINES_SPHERE_NUFFT_STAGES_H
