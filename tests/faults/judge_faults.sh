@@ -17,14 +17,16 @@ reset() {
     is_clean=yes
 }
 
-# Runs the program; sets code, failed, leaks, and said, the lines on standard error.
+# Runs the program; sets code, failed, leaks, and said, the lines on standard error. Temporary files have a folder of
+# their own: the program takes away what others left behind, and its calls would be counted with that.
 run_program() { # CASE FAULT
     local key value words
     mapfile -t words <"$1/words"
     code=0 failed=none leaks=
-    rm -f "$run/report"
+    rm -rf "$run/report" "$run/tmp"
+    mkdir "$run/tmp"
     (cd "$run/folder" &&
-        POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report exec timeout 600 env \
+        TMPDIR=$run/tmp POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report exec timeout 600 env \
             "${words[@]}" <"$(<"$1/stdin")" >"$run/stdout" 2>"$run/stderr") || code=$?
     mapfile -t said <"$run/stderr"
     [[ -f $run/report ]] || return 0

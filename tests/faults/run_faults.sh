@@ -57,14 +57,15 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
     { printf 'standard (in|out)put|temporary file|gnuplot|kernel source|/dev/null'
         printf '%s\n' "${words[@]}" | sed -nE 's/^([a-zA-Z_:]*=)?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"
     for round in expected again; do
-        mkdir "$run"
+        mkdir "$run" "$run/tmp"
         cp -r "$scratch/initial" "$run/folder"
         code=0
-        (cd "$run/folder" && POINTSPEC_FAULT_REPORT=$case/$round.report \
+        (cd "$run/folder" && TMPDIR=$run/tmp POINTSPEC_FAULT_REPORT=$case/$round.report \
             env "${words[@]}" <"$(<"$case/stdin")" >"$run/stdout" 2>"$case/$round.stderr") || code=$?
         # 3: a verdict, with all output
         [[ $code == 0 || $code == 3 ]] ||
             { echo "run_faults: $name fails without faults: $(<"$case/$round.stderr")" >&2; return 1; }
+        rmdir "$run/tmp"
         mv "$run" "$case/$round"
         echo $code >"$case/$round.code"
     done
