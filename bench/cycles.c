@@ -16,10 +16,13 @@
 
 /* What a problem is there for. Three dimensions in tiles are made of the same parts, but what their
  * many short rows cost beside is in none of them: they are measured, and not fitted. */
-typedef enum kind { LINES, TILES, ROWS, GRIDS, BOXES, WHOLE, NUM_KINDS } kind;
+typedef enum kind { LINES, TILES, ROWS, GRIDS, BOXES, WHOLE, STRIPS, NUM_KINDS } kind;
 static const char *const kind_names[NUM_KINDS] = {
-    "tiles, 1 dimension", "tiles, 2", "tiles, 3 (not fitted)",
-    "grids, 2",           "grids, 3", "whole, 1 and 2"};
+    "tiles, 1 dimension", "tiles, 2", "tiles, 3 (not fitted)", "grids, 2", "grids, 3",
+    "whole, 1 and 2",     "strips, 2"};
+static const ps_nufft_way ways[NUM_KINDS] = {PS_NUFFT_TILES, PS_NUFFT_TILES, PS_NUFFT_TILES,
+                                             PS_NUFFT_LARGE, PS_NUFFT_LARGE, PS_NUFFT_WHOLE,
+                                             PS_NUFFT_STRIPS};
 
 /* Points planned for: 0 as many as there are, so that many in few cells are done whole; NOT_WHOLE
  * more than are ever done whole; FOR_GRIDS a large set's. */
@@ -70,6 +73,11 @@ static const struct {
     {WHOLE, 2, 16384, 30, 0},
     {WHOLE, 2, 16384, 120, 0},
     {WHOLE, 2, 65536, 64, 0},
+    {STRIPS, 2, 4096, 250, 0},
+    {STRIPS, 2, 16384, 250, 0},
+    {STRIPS, 2, 16384, 500, 0},
+    {STRIPS, 2, 65536, 500, 0},
+    {STRIPS, 2, 65536, 1000, 0},
 };
 static const struct {
     ps_precision precision;
@@ -131,8 +139,7 @@ static size_t enough_realizations(double cycles_of_one, double cycles_per_second
 
 /* Is it chosen as the shape wants it? */
 static bool is_of_kind(const ps_nufft_choice *choice, kind wanted) {
-    return choice->is_whole == (wanted == WHOLE) &&
-           (ps_nufft_way_of(choice) == PS_NUFFT_LARGE) == (wanted == GRIDS || wanted == BOXES);
+    return ps_nufft_way_of(choice) == ways[wanted];
 }
 
 static double measure_cycles(ps_device *device, const ps_problem *problem, ps_precision precision,
@@ -258,7 +265,7 @@ static const char *const names[NUM] = {
     NAME(PS_NUFFT_WHOLE_ROW),     NAME(PS_NUFFT_WHOLE_FAR_ROW),
     NAME(PS_NUFFT_WHOLE_CELL),    NAME(PS_NUFFT_WHOLE_TURNED),
     NAME(PS_NUFFT_WHOLE_SHARED),  NAME(PS_NUFFT_WHOLE_POWER),
-    NAME(PS_NUFFT_WHOLE_CLEARED),
+    NAME(PS_NUFFT_WHOLE_CLEARED), NAME(PS_NUFFT_STRIP_FAR),
 };
 
 /* The share of the cycles of all problems, each counting the same, that a part has. */

@@ -28,6 +28,8 @@ static const contract_case cases[] = {
     {"whole plane of 20", 2, 20, false, false, PS_OF_AMPLITUDES, {0, 1e-6, 0}, 4000, "whole="},
     {"whole plane of 33", 2, 33, false, false, PS_OF_AMPLITUDES, {1e-2, 0, 0}, 9000, "whole="},
     {"whole plane of 63", 2, 63, false, false, PS_OF_AMPLITUDES, {0, 1e-9, 0}, 20000, "whole="},
+    {"strips of 130", 2, 130, false, false, PS_OF_AMPLITUDES, {0, 1e-9, 0}, 20000, "strips="},
+    {"strips of 159", 2, 159, false, false, PS_OF_AMPLITUDES, {1e-6, 0, 0}, 20000, "strips="},
     {"grid of the plane", 2, 9, false, false, PS_OF_AMPLITUDES, {1e-6, 0, 0}, 5000000, "gridded"},
     {"grid of space", 3, 5, false, false, PS_OF_AMPLITUDES, {2e-6, 0, 0}, 5000000, "gridded"},
     {"degree 1", 0, 1, false, false, PS_OF_AMPLITUDES, {1e-4, 1e-12, 1}, 0, NULL},

@@ -10,7 +10,8 @@
  *
  * One very large set is spread on all axes instead, as real numbers, chunk by chunk; a transform
  * along axis 0 makes the tiles, and the rest is the same. So are, on CPUs, realizations with many
- * points for their frequencies, in one and two dimensions, each in one go by one work-group, whole.
+ * points for their frequencies, in one and two dimensions, each in one go by one work-group, whole;
+ * where grids in two dimensions are larger than the cache of a core, in strips.
  */
 #ifndef PS_ENGINES_NUFFT_CHOICE_H
 #define PS_ENGINES_NUFFT_CHOICE_H
@@ -29,6 +30,7 @@ typedef struct ps_nufft_choice {
     uint32_t span;       /* frequencies of axis 0 by direct phases */
     uint32_t stride;     /* the same where axis 0 has a transform, else 0 */
     bool is_gridded;     /* axis 0 is the first of the axes, spread like the others */
+    bool is_in_strips;   /* gridded, kernels/nufft/strips.cl */
     bool is_whole;       /* gridded, kernels/nufft/whole.cl: */
     uint32_t lengths[2]; /* of its two transforms; in one dimension the grid is their product */
     /* Points whose numbers are added up in working precision, before pairs of numbers; 0: all,
@@ -37,16 +39,20 @@ typedef struct ps_nufft_choice {
     ps_nufft_axis axes[PS_NUFFT_MAX_AXES];
 } ps_nufft_choice;
 
-/* The three ways of a choice: variants of the engine, which keeps a table of functions by them. */
+/* The ways of a choice: variants of the engine, which keeps a table of functions by them. */
 typedef enum ps_nufft_way {
-    PS_NUFFT_TILES, /* sorted points are spread on rows of tiles */
-    PS_NUFFT_LARGE, /* one set at a time is spread on a grid, chunk by chunk */
-    PS_NUFFT_WHOLE, /* each realization is done in one go */
+    PS_NUFFT_TILES,  /* sorted points are spread on rows of tiles */
+    PS_NUFFT_LARGE,  /* one set at a time is spread on a grid, chunk by chunk */
+    PS_NUFFT_WHOLE,  /* each realization is done in one go */
+    PS_NUFFT_STRIPS, /* the same, on strips of a grid */
     PS_NUFFT_NUM_WAYS
 } ps_nufft_way;
 
 static inline ps_nufft_way ps_nufft_way_of(const ps_nufft_choice *choice) {
-    return choice->is_whole ? PS_NUFFT_WHOLE : choice->is_gridded ? PS_NUFFT_LARGE : PS_NUFFT_TILES;
+    return choice->is_whole       ? PS_NUFFT_WHOLE
+           : choice->is_in_strips ? PS_NUFFT_STRIPS
+           : choice->is_gridded   ? PS_NUFFT_LARGE
+                                  : PS_NUFFT_TILES;
 }
 
 /* The axes whose transforms make powers of tiles: all, but for axis 0 of a grid. */

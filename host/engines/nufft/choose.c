@@ -4,6 +4,7 @@
 #include "engines/nufft/cost.h"
 #include "engines/nufft/error.h"
 #include "engines/nufft/fft.h"
+#include "engines/nufft/sizes/strips.h"
 #include "engines/nufft/whole_shape.h"
 
 #include <math.h>
@@ -170,17 +171,14 @@ static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
     return best;
 }
 
-/* Cells of a grid's last axis fill whole vectors, twice. */
+/* Cells of a grid's last axis fill whole vectors, twice, or strips. */
 static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least) {
-    const uint32_t unit = 2 * whole->lanes;
-    if (least > MOST_CELLS) {
-        return 0;
-    }
-    uint32_t n = ps_fft_good_length(least);
-    if (whole->is_gridded && !whole->is_whole && which + 1 == whole->num_axes) {
-        n = ps_fft_good_length(ps_divide_up(least, unit)) * unit;
-    }
-    return n;
+    const bool is_last = which + 1 == whole->num_axes;
+    const bool has_vectors = ps_nufft_way_of(whole) == PS_NUFFT_LARGE && is_last;
+    const uint32_t unit = whole->is_in_strips ? ps_nufft_strip_columns(whole->lanes)
+                          : has_vectors       ? 2 * whole->lanes
+                                              : 1;
+    return least > MOST_CELLS ? 0 : ps_fft_good_length(ps_divide_up(least, unit)) * unit;
 }
 
 /* The lengths of an axis, one after the other, beginning with n = 0; 0: there are no more. */
@@ -302,12 +300,13 @@ static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_
         num[i] = list_candidates(&search, candidates[i]);
         total *= num[i];
     }
-    total = choice->is_whole ? num[0] : total; /* the same on both axes */
+    const bool are_alike = choice->is_whole || choice->is_in_strips; /* both axes */
+    total = are_alike ? num[0] : total;
     for (size_t combination = 0; combination < total; combination++) {
         size_t rest = combination;
         for (unsigned i = 0; i < choice->num_axes; i++) {
             choice->axes[i] = candidates[i][rest % num[i]];
-            rest /= choice->is_whole ? 1 : num[i];
+            rest /= are_alike ? 1 : num[i];
         }
         consider_grid(best, choice, problem, precision);
     }
@@ -380,6 +379,11 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits 
         ps_nufft_choice choice = gridded_choice(lanes, max_frequency, dimension);
         choice.is_whole = true;
         consider_grids(&best, &choice, problem, precision);
+        if (dimension == 2 && problem->num_realizations != 1) { /* one would keep one core busy */
+            choice.is_whole = false;
+            choice.is_in_strips = true;
+            consider_grids(&best, &choice, problem, precision);
+        }
     }
     return best.choice;
 }

@@ -3,10 +3,11 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/axis.h"
-#include "engines/nufft/boxes.h"
+#include "engines/nufft/sizes/boxes.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/whole_sizes.h"
+#include "engines/nufft/sizes/strips.h"
+#include "engines/nufft/sizes/whole.h"
 
 #include <math.h>
 
@@ -37,6 +38,10 @@ static double sum_cycles(const ps_nufft_counts *counts) {
     }
     return cycles;
 }
+
+/* Tiles of a realization in strips that still are in a cache when they are transformed (Zen 4):
+ * beyond it, a K of 512 took 1.3 to 1.5 times what K up to 256 says. Nominal, too. */
+static const double strips_bytes = 4 << 20;
 
 /* ---- tiles ------------------------------------------------------------------------------- */
 
@@ -195,6 +200,32 @@ static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     count_whole_transforms(counts, choice);
 }
 
+/* ---- strips ------------------------------------------------------------------------------ */
+
+static void count_strips(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                         ps_precision precision, double num_points) {
+    const unsigned lanes = choice->lanes;
+    const ps_nufft_axis *axes = choice->axes;
+    const ps_nufft_strip_sizes sizes = ps_nufft_strips_measure(choice, lanes);
+    const double groups = axes[1].n / (2.0 * lanes);
+    const double tiles = (double)ps_divide_up(choice->span, lanes);
+    const double strips = (double)axes[1].n / sizes.columns;
+    const double vectors = fmax(1, cells_of_row(&axes[1], precision) / (double)lanes);
+    const double bytes = (double)sizes.tile_reals * (double)ps_real_bytes(precision);
+    const bool are_far = bytes > strips_bytes;
+    add(counts, PS_NUFFT_SORTED, num_points);
+    add(counts, PS_NUFFT_WHOLE_POINT, num_points);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials_of(choice));
+    add(counts, PS_NUFFT_WHOLE_FAR_ROW, num_points * axes[0].window.width * vectors);
+    add(counts, PS_NUFFT_WHOLE_CLEARED, 2 * strips * (double)sizes.strip_reals / lanes);
+    add_transforms(counts, groups, axes[0].n);
+    add_transforms(counts, tiles, axes[1].n);
+    add(counts, PS_NUFFT_WHOLE_CELL, groups * axes[0].n + tiles * axes[1].n);
+    add(counts, PS_NUFFT_WHOLE_TURNED, groups * tiles * lanes);
+    add(counts, PS_NUFFT_WHOLE_POWER, tiles * (2.0 * axes[1].max_frequency + 1));
+    add(counts, PS_NUFFT_STRIP_FAR, are_far ? bytes / (double)word_bytes : 0);
+}
+
 /* ---- all --------------------------------------------------------------------------------- */
 
 ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision precision,
@@ -202,6 +233,10 @@ ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision preci
     ps_nufft_counts counts = {{0}};
     if (choice->is_whole) {
         count_whole(&counts, choice, precision, num_points);
+        return counts;
+    }
+    if (choice->is_in_strips) {
+        count_strips(&counts, choice, precision, num_points);
         return counts;
     }
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];

@@ -41,6 +41,9 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     [PS_NUFFT_WHOLE_SHARED] = 15,
     [PS_NUFFT_WHOLE_POWER] = 12,
     [PS_NUFFT_WHOLE_CLEARED] = 1,
+    /* strips, which are made of the parts of whole realizations (Zen 4): four bytes of tiles that
+     * are too many for a cache */
+    [PS_NUFFT_STRIP_FAR] = 1.5,
 };
 
 unsigned ps_nufft_nominal_lanes(ps_precision precision) {

@@ -30,6 +30,7 @@ typedef enum ps_nufft_part {
     PS_NUFFT_WHOLE_SHARED,
     PS_NUFFT_WHOLE_POWER,
     PS_NUFFT_WHOLE_CLEARED,
+    PS_NUFFT_STRIP_FAR,
     PS_NUFFT_NUM_PARTS
 } ps_nufft_part;
 

@@ -2,7 +2,7 @@
 
 #include "device/reals.h"
 #include "engines/nufft/cost.h"
-#include "engines/nufft/whole_sizes.h"
+#include "engines/nufft/sizes/whole.h"
 
 #include <math.h>
 

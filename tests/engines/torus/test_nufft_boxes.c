@@ -3,7 +3,7 @@
  */
 #include "harness.h"
 
-#include "engines/nufft/boxes.h"
+#include "engines/nufft/sizes/boxes.h"
 #include "nufft/boxes.h"
 
 #include <stdlib.h>

@@ -1,12 +1,12 @@
-/* Realizations that torus_nufft does whole, each by one work-group, against direct sums in extended
- * precision: sets of every kind. (tests/engines/test_engine_contract.c has what all engines
- * promise.)
+/* Realizations that torus_nufft does by one work-group each, whole or in strips, against direct
+ * sums in extended precision: sets of every kind. (tests/engines/test_engine_contract.c has what
+ * all engines promise.)
  */
 #include "harness_shapes.h"
 
 #include "engines/host/host_direct.h"
 #include "engines/nufft/choose.h"
-#include "engines/nufft/whole_sizes.h"
+#include "engines/nufft/sizes/whole.h"
 #include "engines/torus/nufft/torus_nufft.h"
 
 #include <math.h>
@@ -19,17 +19,27 @@ typedef struct whole_case {
     int32_t k;
     ps_precision precision;
     double tolerance;
-    size_t planned_points; /* many, so that it is whole */
+    size_t planned_points; /* many, so that it goes this way */
+    ps_nufft_way way;
 } whole_case;
 
-/* K at and beside whole vectors; grids of one vector of columns and more. */
+/* K at and beside whole vectors; grids of one vector of columns and more; strips, of which the last
+ * vector of frequencies has one, and all. */
 static const whole_case cases[] = {
-    {1, 1, PS_SINGLE, 1e-4, 400},     {1, 37, PS_SINGLE, 1e-6, 500},
-    {1, 1000, PS_SINGLE, 1e-3, 3000}, {1, 37, PS_DOUBLE, 1e-12, 500},
-    {1, 800, PS_DOUBLE, 1e-9, 900},   {2, 5, PS_SINGLE, 1e-3, 1000},
-    {2, 15, PS_SINGLE, 1e-6, 4000},   {2, 16, PS_SINGLE, 1e-5, 4000},
-    {2, 33, PS_SINGLE, 1e-2, 9000},   {2, 63, PS_DOUBLE, 1e-9, 20000},
-    {2, 20, PS_DOUBLE, 1e-6, 4000},
+    {1, 1, PS_SINGLE, 1e-4, 400, PS_NUFFT_WHOLE},
+    {1, 37, PS_SINGLE, 1e-6, 500, PS_NUFFT_WHOLE},
+    {1, 1000, PS_SINGLE, 1e-3, 3000, PS_NUFFT_WHOLE},
+    {1, 37, PS_DOUBLE, 1e-12, 500, PS_NUFFT_WHOLE},
+    {1, 800, PS_DOUBLE, 1e-9, 900, PS_NUFFT_WHOLE},
+    {2, 5, PS_SINGLE, 1e-3, 1000, PS_NUFFT_WHOLE},
+    {2, 15, PS_SINGLE, 1e-6, 4000, PS_NUFFT_WHOLE},
+    {2, 16, PS_SINGLE, 1e-5, 4000, PS_NUFFT_WHOLE},
+    {2, 33, PS_SINGLE, 1e-2, 9000, PS_NUFFT_WHOLE},
+    {2, 63, PS_DOUBLE, 1e-9, 20000, PS_NUFFT_WHOLE},
+    {2, 20, PS_DOUBLE, 1e-6, 4000, PS_NUFFT_WHOLE},
+    {2, 160, PS_SINGLE, 1e-6, 20000, PS_NUFFT_STRIPS},
+    {2, 159, PS_SINGLE, 1e-6, 20000, PS_NUFFT_STRIPS},
+    {2, 135, PS_DOUBLE, 1e-9, 20000, PS_NUFFT_STRIPS},
 };
 
 enum { NUM_CASES = sizeof cases / sizeof cases[0] };
@@ -64,8 +74,10 @@ static void check_shape(const whole_case *what, const test_shape *shape, size_t 
     const ps_problem problem = problem_of(what, &grid);
     const ps_device_limits *limits = ps_device_get_limits(device);
     double power = 0;
-    if (!ps_nufft_choose(&problem, limits, what->precision).is_whole) {
-        fail_msg("d=%u K=%d is not whole", what->dimension, (int)what->k);
+    const ps_nufft_choice choice = ps_nufft_choose(&problem, limits, what->precision);
+    if (ps_nufft_way_of(&choice) != what->way) {
+        fail_msg("d=%u K=%d goes way %d", what->dimension, (int)what->k,
+                 (int)ps_nufft_way_of(&choice));
     }
     double *found =
         test_run_problem(&ps_torus_nufft, &problem, what->precision, device, &pattern, 1, 1);
@@ -89,7 +101,9 @@ static void agrees_with_direct_sums(void **state) {
     (void)state;
     for (size_t i = 0; i < NUM_CASES; i++) {
         for (size_t s = 0; s < TEST_SHAPES && can_run(&cases[i]); s++) {
-            check_shape(&cases[i], &test_shapes[s], 300);
+            const size_t num_points =
+                cases[i].way == PS_NUFFT_STRIPS ? 40 : 300; /* many frequencies */
+            check_shape(&cases[i], &test_shapes[s], num_points);
         }
     }
 }

@@ -253,6 +253,23 @@ static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
     count_whole(layout, problem, limits);
 }
 
+/* Sorted points, strips and tiles of work-groups. One of these for each core: tiles of one alone
+ * are larger than its cache. */
+static void count_strips(ps_nufft_layout *layout, const ps_problem *problem,
+                         const ps_device_limits *limits) {
+    const size_t cores = ps_device_typical(limits).served_units;
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t part = part_bytes(layout, dimension);
+    layout->parts = fitting_parts(problem, limits, (double)part, cores);
+    layout->groups = layout->parts < cores ? layout->parts : cores;
+    const uint64_t strips = layout->groups * layout->strips.strip_reals * layout->real_bytes;
+    const uint64_t tiles = layout->groups * layout->strips.tile_reals * layout->real_bytes;
+    layout->fixed_bytes = layout->parts * part + strips + tiles + table_bytes(layout);
+    const uint64_t buffers[] = {strips, tiles,
+                                layout->parts * layout->part_places * dimension * sizeof(uint64_t)};
+    layout->largest_buffer = largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+}
+
 /* Measures rows in as many lanes as local memory has room for; false: it has no room for one. */
 static bool measure_rows(ps_nufft_layout *layout, const ps_problem *problem,
                          const ps_device_limits *limits) {
@@ -282,6 +299,22 @@ static void measure_tiles(ps_nufft_layout *layout, const ps_problem *problem,
         choose_at_once(layout, problem, limits);
         layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;
     }
+}
+
+static void measure_strips(ps_nufft_layout *layout, const ps_problem *problem,
+                           const ps_device_limits *limits) {
+    layout->strips = ps_nufft_strips_measure(&layout->choice, layout->lanes);
+    if (ps_nufft_local_bytes(layout) > limits->local_bytes) {
+        layout->lanes = 0;
+        return;
+    }
+    measure_axes(layout);
+    layout->num_keys = layout->choice.axes[1].n;
+    layout->bytes_per_realization = layout->stride * layout->real_bytes;
+    layout->largest_buffer_per_realization = layout->bytes_per_realization;
+    set_part_points(layout, problem->num_points);
+    count_strips(layout, problem, limits);
+    layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;
 }
 
 /* Boxes as large as local memory has room for; false: it has no room for the smallest. Where edges
@@ -316,7 +349,8 @@ static void (*const measures[PS_NUFFT_NUM_WAYS])(ps_nufft_layout *, const ps_pro
                                                  const ps_device_limits *) = {
     [PS_NUFFT_TILES] = measure_tiles,
     [PS_NUFFT_LARGE] = measure_large,
-    [PS_NUFFT_WHOLE] = measure_whole};
+    [PS_NUFFT_WHOLE] = measure_whole,
+    [PS_NUFFT_STRIPS] = measure_strips};
 
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
@@ -336,37 +370,4 @@ void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch) {
         layout->parts = layout->parts < batch ? layout->parts : batch;
         layout->groups = layout->groups < batch ? layout->groups : batch;
     }
-}
-
-/* k or -k, whichever has its rest modulo the first length in the first half. */
-static uint32_t line_slot(const ps_nufft_layout *layout, uint32_t k) {
-    const uint32_t first = layout->choice.lengths[0];
-    const uint32_t rest = k % first;
-    uint32_t kept[2];
-    ps_nufft_whole_kept(&layout->choice, kept);
-    const uint32_t k_1 = rest <= first / 2 ? rest : first - rest;
-    const uint32_t q = rest <= first / 2 ? kept[1] + k / first : kept[1] - k / first - 1;
-    return (k_1 / layout->lanes * (2 * kept[1] + 1) + q) * layout->lanes + k_1 % layout->lanes;
-}
-
-uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
-    const ps_nufft_choice *choice = &layout->choice;
-    const int32_t sign = k[0] < 0 ? -1 : 1; /* |S(-k)| = |S(k)| */
-    const uint32_t along = (uint32_t)(sign * k[0]);
-    const uint32_t within = choice->stride != 0 ? along % choice->stride : along;
-    unsigned num = 0;
-    const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num);
-    if (choice->is_whole && dimension == 1) {
-        return line_slot(layout, along);
-    }
-    uint32_t slot = within / layout->lanes;
-    for (unsigned i = num;
-         i-- > 0;) { /* kernels/nufft/columns.cl writes the first axis innermost */
-        const int32_t q = choice->stride != 0
-                              ? (int32_t)(along / choice->stride) - last[i].max_frequency
-                              : sign * k[dimension - num + i];
-        slot = slot * (2 * (uint32_t)last[i].max_frequency + 1) +
-               (uint32_t)(last[i].max_frequency + q);
-    }
-    return slot * layout->lanes + within % layout->lanes;
 }

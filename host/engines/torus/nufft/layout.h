@@ -2,8 +2,9 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 #define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 
-#include "engines/nufft/boxes.h"
-#include "engines/nufft/whole_sizes.h"
+#include "engines/nufft/sizes/boxes.h"
+#include "engines/nufft/sizes/strips.h"
+#include "engines/nufft/sizes/whole.h"
 
 /* Buffers of the grid of a large set. */
 enum { PS_NUFFT_MOST_SLABS = 16 };
@@ -34,7 +35,8 @@ typedef struct ps_nufft_layout {
     size_t part_places;     /* whole units of places for them */
     size_t parts;           /* whose places are made at a time */
     ps_nufft_whole_sizes whole;
-    size_t groups; /* of whole realizations */
+    ps_nufft_strip_sizes strips;
+    size_t groups; /* of whole realizations, and of those in strips */
     uint64_t fixed_bytes, bytes_per_realization;
     uint64_t host_bytes; /* part of fixed_bytes: points and weights as they came */
     uint64_t largest_buffer, largest_buffer_per_realization;
@@ -46,8 +48,5 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
 /* Leaves room for places, grids and tiles of so many realizations, where a batch is smaller than
  * was planned. */
 void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch);
-
-/* Where the power of a frequency stands in a row. */
-uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
 
 #endif

@@ -41,12 +41,21 @@ ps_nufft_local ps_nufft_whole_local(const ps_nufft_layout *layout) {
                             .cells = cells_bytes};
 }
 
+ps_nufft_local ps_nufft_strips_local(const ps_nufft_layout *layout) {
+    return (ps_nufft_local){.windows = layout->strips.window_reals * layout->real_bytes,
+                            .cells = cells_bytes};
+}
+
 static size_t sum(ps_nufft_local local) {
     return local.rows + local.windows + local.cells;
 }
 
 static size_t whole_bytes(const ps_nufft_layout *layout) {
     return sum(ps_nufft_whole_local(layout));
+}
+
+static size_t strips_bytes(const ps_nufft_layout *layout) {
+    return sum(ps_nufft_strips_local(layout));
 }
 
 static size_t tiles_bytes(const ps_nufft_layout *layout) {
@@ -63,6 +72,7 @@ size_t ps_nufft_local_bytes(const ps_nufft_layout *layout) {
     static size_t (*const bytes[PS_NUFFT_NUM_WAYS])(const ps_nufft_layout *) = {
         [PS_NUFFT_TILES] = tiles_bytes,
         [PS_NUFFT_LARGE] = large_bytes,
-        [PS_NUFFT_WHOLE] = whole_bytes};
+        [PS_NUFFT_WHOLE] = whole_bytes,
+        [PS_NUFFT_STRIPS] = strips_bytes};
     return bytes[ps_nufft_way_of(&layout->choice)](layout);
 }

@@ -18,9 +18,11 @@ typedef struct ps_nufft_local {
     size_t rows, windows, cells;
 } ps_nufft_local;
 
-/* Of kernels/nufft/boxes.cl, whose rows are those of a box, and of whole.cl, which has none. */
+/* Of kernels/nufft/boxes.cl, whose rows are those of a box, and of whole.cl and strips.cl, which
+ * have none. */
 ps_nufft_local ps_nufft_grid_local(const ps_nufft_layout *layout);
 ps_nufft_local ps_nufft_whole_local(const ps_nufft_layout *layout);
+ps_nufft_local ps_nufft_strips_local(const ps_nufft_layout *layout);
 
 /* The most that a launch of the layout takes. */
 size_t ps_nufft_local_bytes(const ps_nufft_layout *layout);

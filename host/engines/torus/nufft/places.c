@@ -23,7 +23,7 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
 }
 
 static bool has_boxes(const ps_nufft_layout *layout) {
-    return layout->choice.is_gridded;
+    return ps_nufft_way_of(&layout->choice) == PS_NUFFT_LARGE;
 }
 
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
@@ -76,23 +76,23 @@ pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *par
     return upload_places(places, parts, error);
 }
 
-/* The cells that tiles want points by, or boxes. */
+/* The cells that tiles want points by, those of axis 1 for strips, or boxes. */
 static void set_keys(const ps_nufft_layout *layout, sort_numbers *numbers) {
     const ps_nufft_choice *choice = &layout->choice;
     const bool are_boxes = has_boxes(layout);
-    const bool have_second = are_boxes || layout->num_keys > choice->axes[0].n;
+    const ps_nufft_axis *axes = choice->axes + (choice->is_in_strips ? 1 : 0);
+    const bool have_second = are_boxes || layout->num_keys > axes[0].n;
     const unsigned num = are_boxes ? choice->num_axes : have_second ? 2 : 1;
     const unsigned first = PS_NUFFT_MAX_AXES - choice->num_axes; /* of boxes */
-    numbers->factor = choice->axes[0].factor;
+    numbers->factor = axes[0].factor;
     numbers->num_keys = layout->num_keys;
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
-        const ps_nufft_axis *axis = &choice->axes[i];
         numbers->axes[i] =
             i >= num ? (sort_axis){.n = 1, .keys = 1}
-                     : (sort_axis){.n = axis->n,
-                                   .width = axis->window.width,
-                                   .axis = axis->axis,
-                                   .keys = are_boxes ? layout->boxes.num[i + first] : axis->n,
+                     : (sort_axis){.n = axes[i].n,
+                                   .width = axes[i].window.width,
+                                   .axis = axes[i].axis,
+                                   .keys = are_boxes ? layout->boxes.num[i + first] : axes[i].n,
                                    .per_cell = are_boxes ? layout->boxes.per_cell[i + first] : 0};
     }
 }

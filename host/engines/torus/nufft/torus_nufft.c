@@ -8,6 +8,7 @@
 #include "engines/nufft/cost.h"
 #include "engines/nufft/error.h"
 #include "engines/nufft/grid_axis.h"
+#include "engines/torus/nufft/slots.h"
 #include "engines/torus/nufft/variants.h"
 
 #include <math.h>

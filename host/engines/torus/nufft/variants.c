@@ -85,11 +85,15 @@ static pspec_status create_tiles(ps_nufft_state *self, ps_error *error) {
 }
 
 /* Points go first: what is written after them waits for the launch before. */
-static pspec_status run_tiles(ps_nufft_state *self, const ps_batch *some,
-                              const ps_nufft_target *target, ps_error *error) {
+static pspec_status sort_realizations(ps_nufft_state *self, const ps_batch *some, ps_error *error) {
     PS_TRY(ps_nufft_places_upload(&self->places, some, error));
     PS_TRY(upload_means(self, some, error));
-    PS_TRY(ps_nufft_places_sort(&self->places, some->num_patterns, error));
+    return ps_nufft_places_sort(&self->places, some->num_patterns, error);
+}
+
+static pspec_status run_tiles(ps_nufft_state *self, const ps_batch *some,
+                              const ps_nufft_target *target, ps_error *error) {
+    PS_TRY(sort_realizations(self, some, error));
     return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
@@ -164,8 +168,36 @@ static void free_whole(ps_nufft_state *self) {
     ps_nufft_whole_free(&self->whole);
 }
 
-/* Kernels: the sort, and rows and columns of tiles; all that makes tiles of a grid; whole.cl alone.
- */
+/* Sorting and all the rest. */
+static double count_strips_launches(const ps_nufft_layout *layout, double num_points,
+                                    double realizations) {
+    (void)num_points;
+    return 2 * ceil(realizations / (double)layout->parts);
+}
+
+static pspec_status create_strips(ps_nufft_state *self, ps_error *error) {
+    PS_TRY(create_places(self, error));
+    return ps_nufft_strips_create(&self->strips, &self->layout, self->plans, &self->places,
+                                  self->precision, self->device, error);
+}
+
+static pspec_status run_strips(ps_nufft_state *self, const ps_batch *some,
+                               const ps_nufft_target *target, ps_error *error) {
+    PS_TRY(sort_realizations(self, some, error));
+    return ps_nufft_strips_run(&self->strips, some->num_patterns, &self->means, target, error);
+}
+
+static void describe_strips(const ps_nufft_state *self, ps_text *text) {
+    ps_text_append(text, " strips=%lu", (unsigned long)self->layout.strips.columns);
+}
+
+static void free_strips(ps_nufft_state *self) {
+    ps_nufft_strips_free(&self->strips);
+    ps_nufft_places_free(&self->places);
+}
+
+/* Kernels: the sort, and rows and columns of tiles; all that makes tiles of a grid; whole.cl alone;
+ * the sort and strips.cl. */
 const ps_nufft_variant ps_nufft_variants[PS_NUFFT_NUM_WAYS] = {
     [PS_NUFFT_TILES] = {.count_launches = count_tiles_launches,
                         .kernels = {2, 3},
@@ -188,4 +220,11 @@ const ps_nufft_variant ps_nufft_variants[PS_NUFFT_NUM_WAYS] = {
                         .run = run_whole,
                         .describe = describe_whole,
                         .free = free_whole},
+    [PS_NUFFT_STRIPS] = {.count_launches = count_strips_launches,
+                         .kernels = {2, 2},
+                         .has_transforms = true,
+                         .create = create_strips,
+                         .run = run_strips,
+                         .describe = describe_strips,
+                         .free = free_strips},
 };

@@ -7,6 +7,7 @@
 #include "engines/torus/nufft/grid.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/places.h"
+#include "engines/torus/nufft/strips.h"
 #include "engines/torus/nufft/tiles.h"
 #include "engines/torus/nufft/whole.h"
 
@@ -39,6 +40,7 @@ struct ps_nufft_state {
     ps_nufft_places places;
     ps_nufft_grid large;  /* gridded choices only */
     ps_nufft_whole whole; /* whole realizations */
+    ps_nufft_strips strips;
     ps_nufft_tiles tiles; /* all others */
     ps_buffer means, scales, power;
     double *means_of_parts;

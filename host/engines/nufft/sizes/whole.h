@@ -1,8 +1,8 @@
 /* Sizes of realizations that one work-group does whole (kernels/nufft/whole.cl): what their two
  * transforms keep, memory.
  */
-#ifndef PS_ENGINES_NUFFT_WHOLE_SIZES_H
-#define PS_ENGINES_NUFFT_WHOLE_SIZES_H
+#ifndef PS_ENGINES_NUFFT_SIZES_WHOLE_H
+#define PS_ENGINES_NUFFT_SIZES_WHOLE_H
 
 #include "engines/nufft/choice.h"
 

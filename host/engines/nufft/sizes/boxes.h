@@ -1,6 +1,6 @@
 /* Boxes of cells in which points of a large set are spread (kernels/nufft/boxes.cl). */
-#ifndef PS_ENGINES_NUFFT_BOXES_H
-#define PS_ENGINES_NUFFT_BOXES_H
+#ifndef PS_ENGINES_NUFFT_SIZES_BOXES_H
+#define PS_ENGINES_NUFFT_SIZES_BOXES_H
 
 #include "engines/nufft/choice.h"
 

@@ -1,4 +1,4 @@
-#include "engines/nufft/boxes.h"
+#include "engines/nufft/sizes/boxes.h"
 
 #include "base/round.h"
 #include "nufft/boxes.h"

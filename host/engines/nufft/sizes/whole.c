@@ -1,4 +1,4 @@
-#include "engines/nufft/whole_sizes.h"
+#include "engines/nufft/sizes/whole.h"
 
 #include "base/round.h"
 #include "engines/nufft/kernels.h"

@@ -1,0 +1,20 @@
+/* Sizes of the strips of a grid in two dimensions (kernels/nufft/strips.cl). */
+#ifndef PS_ENGINES_NUFFT_SIZES_STRIPS_H
+#define PS_ENGINES_NUFFT_SIZES_STRIPS_H
+
+#include "engines/nufft/choice.h"
+
+typedef struct ps_nufft_strip_sizes {
+    uint32_t columns, pitch; /* of a strip, and with those behind it that windows reach into */
+    size_t strip_reals;
+    size_t tile_reals;   /* of all tiles */
+    size_t window_reals; /* of a chunk */
+} ps_nufft_strip_sizes;
+
+/* Columns of a strip; axis 1 of the grid has a multiple of them. */
+uint32_t ps_nufft_strip_columns(unsigned lanes);
+
+/* lanes: those of the device, or fewer. */
+ps_nufft_strip_sizes ps_nufft_strips_measure(const ps_nufft_choice *choice, unsigned lanes);
+
+#endif
