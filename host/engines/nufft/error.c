@@ -113,7 +113,8 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
                                 ? rounding_of_lattices(problem, &loss)
                                 : loss.amplification * rounding_at_zero(choice, &loss);
     const double rounding = unit * hypot(loss.amplification * each * sqrt(power), lattices);
-    const double coherent = unit * coherent_roundings * power * sqrt(power);
+    const double coherent =
+        unit * coherent_roundings * fmax(1, loss.amplification) * power * sqrt(power);
     const double given = unit * point_roundings * sqrt(power);
     return hypot(hypot(aliasing, polynomials), hypot(rounding, given)) + coherent;
 }
