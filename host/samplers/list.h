@@ -16,6 +16,7 @@ extern const ps_sampler ps_sampler_poisson_disk;
 extern const ps_sampler ps_sampler_bridson;
 extern const ps_sampler ps_sampler_bnot;
 extern const ps_sampler ps_sampler_fpo;
+extern const ps_sampler ps_sampler_ccvt;
 extern const ps_sampler ps_sampler_white_sphere;
 extern const ps_sampler ps_sampler_zphi;
 extern const ps_sampler ps_sampler_healpix;
@@ -23,6 +24,7 @@ extern const ps_sampler ps_sampler_healpix_jittered;
 extern const ps_sampler ps_sampler_fibonacci;
 extern const ps_sampler ps_sampler_spiral;
 extern const ps_sampler ps_sampler_poisson_disk_sphere;
+extern const ps_sampler ps_sampler_ccvt_sphere;
 extern const ps_sampler ps_sampler_white_hemisphere;
 extern const ps_sampler ps_sampler_fibonacci_hemisphere;
 

@@ -153,6 +153,7 @@ static const char *const VARIANTS[] = {
     "hammersley",
     "bnot:eps=10",
     "fpo:distance=0.5",
+    "ccvt:M=4",
     "larcher-pillichshammer",
     "larcher-pillichshammer:centred=yes",
     "larcher-pillichshammer:scramble=xor",

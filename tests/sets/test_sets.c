@@ -85,13 +85,10 @@ static const struct {
     unsigned dimension;
     bool is_kept;
 } samplers[] = {
-    {"bnot:eps=0.5", 2, true},
-    {"bnot:eps=0.5,lift=hemisphere,morph=glossy,n=5", 3, true},
-    {"fpo:distance=0.9", 2, true},
-    {"poisson-disk", 3, true},
-    {"poisson-disk:exact=yes", 3, true},
-    {"bridson:tries=60", 4, true},
-    {"white", 2, false},
+    {"bnot:eps=0.5", 2, true},     {"bnot:eps=0.5,lift=hemisphere,morph=glossy,n=5", 3, true},
+    {"fpo:distance=0.9", 2, true}, {"ccvt-sphere", 3, true},
+    {"poisson-disk", 3, true},     {"poisson-disk:exact=yes", 3, true},
+    {"bridson:tries=60", 4, true}, {"white", 2, false},
     {"spiral", 3, false},
 };
 enum { NUM_SAMPLERS = sizeof samplers / sizeof samplers[0] };
@@ -270,6 +267,8 @@ static void versions_stand_for_bits(void **state) {
         {"poisson-disk-sphere", 3, 1, UINT64_C(0x8a52475f59d7013f)},
         {"bnot", 2, 1, UINT64_C(0xdb0b703c6b38706a)},
         {"fpo", 2, 1, UINT64_C(0x6ccc9a3147f8efcc)},
+        {"ccvt", 2, 1, UINT64_C(0xc1e5432d365dcec7)},
+        {"ccvt-sphere", 3, 1, UINT64_C(0x03df70bed6c0ee26)},
     };
     enum { NUM_KNOWN = sizeof known / sizeof known[0], REALIZATION = 3 };
     static set found;

@@ -25,12 +25,15 @@ uint64_t ps_fibonacci_fraction(uint64_t j) {
     return j * INVERSE_PHI_HIGH + product_high(j, INVERSE_PHI_LOW); /* whole turns drop out */
 }
 
-void ps_fibonacci_points(size_t first, size_t end, uint64_t num_heights, double *points) {
+void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point) {
     const double denominator = (double)num_heights;
+    const ps_height height = ps_height_of_ratio(denominator - (2 * (double)j + 1), denominator);
+    ps_sphere_point(height, ps_turns_of_fraction(ps_fibonacci_fraction(j)), point);
+}
+
+void ps_fibonacci_points(size_t first, size_t end, uint64_t num_heights, double *points) {
     for (size_t j = first; j < end; j++) {
-        const ps_height height = ps_height_of_ratio(denominator - (2 * (double)j + 1), denominator);
-        ps_sphere_point(height, ps_turns_of_fraction(ps_fibonacci_fraction(j)),
-                        points + PS_VECTOR_DIMENSION * j);
+        ps_fibonacci_point(j, num_heights, points + PS_VECTOR_DIMENSION * j);
     }
 }
 

@@ -1,0 +1,118 @@
+/* Capacity-constrained Voronoi tessellation (M. Balzer, T. Schloemer, O. Deussen 2009) of the torus
+ * of the plane and of the sphere: every site owns M of N M background points, never more or fewer.
+ * Two sites whose regions meet exchange points where that lowers the sum of squared distances from
+ * points to their sites, then sites move to where this sum is least for their points. It ends with
+ * a pass over all pairs in which no exchange lowers it (docs/samplers/optimized.md#ccvt).
+ *
+ * Coordinates are in arrays of their own, those of the points of site i from i M on, so that an
+ * exchange is one of numbers and every loop over a region runs straight through memory.
+ */
+#ifndef PS_SAMPLERS_CCVT_CCVT_H
+#define PS_SAMPLERS_CCVT_CCVT_H
+
+#include "base/watch.h"
+#include "samplers/ccvt/ccvt_grid.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Points of a region: with fewer than the first they say nothing of areas, and a region of more
+ * than the second is finer than anybody needs. All background points have numbers of 32 bits. */
+enum { PS_CCVT_LEAST_CAPACITY = 4, PS_CCVT_MOST_CAPACITY = 1 << 14 };
+#define PS_CCVT_MOST_BACKGROUND (UINT64_C(1) << 31)
+
+/* What torus and sphere have of their own. */
+typedef struct ps_ccvt_space {
+    ps_ccvt_room room; /* where coordinates are */
+    /* Squared distances from points first .. first + num - 1 to the place. */
+    void (*costs)(double *const *at, size_t first, size_t num, const double *place, double *out);
+    /* Moves the place to where the sum of squared distances of these points is least; on the sphere
+     * nearer to it. */
+    void (*move)(double *const *at, size_t first, size_t num, double *place);
+    /* Sorts points into bands (of heights), and along a band. */
+    double (*height)(const double *place);
+    double (*along)(const double *place);
+    double aspect; /* number of bands^2 / number of sites for which a site's part is square */
+} ps_ccvt_space;
+
+/* One of the points that two sites may exchange. */
+typedef struct ps_ccvt_offer {
+    double gain; /* of squared distance, were it the other's */
+    uint32_t slot;
+} ps_ccvt_offer;
+
+typedef struct ps_ccvt {
+    const ps_ccvt_space *space;
+    size_t num, capacity;
+    double *site[PS_CCVT_AXES]; /* coordinates of sites, and of background points by sites */
+    double *at[PS_CCVT_AXES];
+    double *own;       /* squared distance of a point to its site */
+    double *reach;     /* distance from a site to its farthest point */
+    uint32_t *changed; /* the pass in which a site last changed */
+    ps_ccvt_grid grid;
+    uint32_t *near;         /* sites about one */
+    double *other[2];       /* squared distances of the points of two sites to the other */
+    ps_ccvt_offer *pile[2]; /* heaps of offers */
+    double least_gain;      /* below it an exchange is a matter of rounding */
+    const ps_watch *watch;
+    size_t untold; /* distances that were taken since the watch was told */
+    uint32_t num_passes;
+    uint64_t num_swaps;
+} ps_ccvt;
+
+typedef struct ps_ccvt_outcome {
+    uint32_t passes; /* over pairs of sites */
+    uint64_t swaps;
+    double energy; /* sum of squared distances from points to their sites */
+} ps_ccvt_outcome;
+
+/* Refuses numbers outside the limits with a sentence. */
+pspec_status ps_ccvt_check(size_t num, uint64_t capacity, ps_error *error) PS_MUST_CHECK;
+
+/* Room for it; whoever calls fills site and at. ps_ccvt_destroy also after an error. */
+pspec_status ps_ccvt_create(ps_ccvt *ccvt, const ps_ccvt_space *space, size_t num, size_t capacity,
+                            const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+void ps_ccvt_destroy(ps_ccvt *ccvt);
+
+/* Sorts sites and points along bands and gives each site the points that have its place there. */
+pspec_status ps_ccvt_start(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
+/* That, and all distances. */
+pspec_status ps_ccvt_begin(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
+/* One pass over all pairs of which a site changed since they last met. */
+pspec_status ps_ccvt_pass(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
+/* The moves after it, of sites that changed; none after the first pass. */
+void ps_ccvt_move(ps_ccvt *ccvt);
+/* Passes and moves until a pass changes nothing. */
+pspec_status ps_ccvt_run(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
+
+/* Sites as points [num][axes]. outcome may be NULL. */
+void ps_ccvt_give(const ps_ccvt *ccvt, double *points, ps_ccvt_outcome *outcome);
+
+double ps_ccvt_energy(const ps_ccvt *ccvt);
+
+/* Exchanges what sites i and j both gain by. True where there was such a pair of points. */
+bool ps_ccvt_exchange(ps_ccvt *ccvt, uint32_t i, uint32_t j);
+
+/* Squared distances between two words to the watch: about 10 ms. */
+enum { PS_CCVT_WORK_AT_A_TIME = 1 << 20 };
+
+/* After so much work, in distances. PSPEC_ERROR_CANCELLED when the watch asks to stop. */
+static inline pspec_status ps_ccvt_go_on(ps_ccvt *ccvt, size_t work, ps_error *error) {
+    ccvt->untold += work;
+    if (ccvt->untold < PS_CCVT_WORK_AT_A_TIME) {
+        return PSPEC_OK;
+    }
+    ccvt->untold = 0;
+    return ps_watch_tell(ccvt->watch, "sampler: ccvt, passes over all pairs", ccvt->num_passes, 0,
+                         NULL, error);
+}
+
+/* Coordinates of number i of such arrays as one place. */
+static inline void ps_ccvt_place(double *const *at, size_t i, unsigned axes, double *place) {
+    for (unsigned a = 0; a < axes; a++) {
+        place[a] = at[a][i];
+    }
+}
+
+#endif

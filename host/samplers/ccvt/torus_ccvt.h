@@ -1,0 +1,31 @@
+/* Capacity-constrained tessellation of the torus of the plane. The background is a lattice of one
+ * generator, moved at random: its power is 0 at all low frequencies but 0
+ * (docs/samplers/optimized.md#ccvt).
+ */
+#ifndef PS_SAMPLERS_CCVT_TORUS_CCVT_H
+#define PS_SAMPLERS_CCVT_TORUS_CCVT_H
+
+#include "math/random/random.h"
+#include "samplers/ccvt/ccvt.h"
+
+enum { PS_TORUS_CCVT_LEAST_POINTS = 16 };
+
+extern const ps_ccvt_space ps_torus_ccvt_space;
+
+/* The generator g of the lattice (j, g j mod num) / num, j = 0 .. num - 1: of 128 random ones that
+ * whose continued fraction of g / num has the smallest largest number, so that no vector of the
+ * lattice is much shorter than it must be. Each realization has another lattice: of one for all,
+ * mean spectra would have its directions. num > 1. */
+uint64_t ps_torus_ccvt_generator(uint64_t num, ps_random *random);
+
+/* Sites at random and the background, before anything is optimised. ps_ccvt_destroy also after an
+ * error. */
+pspec_status ps_torus_ccvt_create(ps_ccvt *ccvt, size_t num, size_t capacity, ps_random *random,
+                                  const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+
+/* Points [num][2]. outcome may be NULL. */
+pspec_status ps_torus_ccvt_make(size_t num, size_t capacity, ps_random *random,
+                                const ps_watch *watch, double *points, ps_ccvt_outcome *outcome,
+                                ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,223 @@
+/* Spectra of capacity-constrained sets: they fall as l^4 and |k|^4 without a floor, as prototypes
+ * did; of a background at random they would not. Rows: parameters reach the algorithms, seconds are
+ * those that were measured. */
+#include "test_samplers.h"
+#include "ccvt_cases.h"
+
+#include "math/pi.h"
+#include "math/unit_vector.h"
+
+enum { NUM = 256, CAPACITY = 64, SETS = 60, MOST_DEGREE = 12 };
+
+/* Adds P(l) = (1/N) sum over pairs of P_l(u_i . u_j), l = 1 .. MOST_DEGREE. */
+static void add_powers(const double *points, size_t num, double *powers) {
+    for (size_t i = 0; i < num; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            const double *const u = points + 3 * i;
+            const double *const v = points + 3 * j;
+            const double x = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+            const double share = (j < i ? 2 : 1) / (double)num;
+            double before = 1;
+            double p = x;
+            for (int l = 1; l <= MOST_DEGREE; l++) {
+                powers[l] += share * p;
+                const double next = ((2 * l + 1) * x * p - l * before) / (l + 1);
+                before = p;
+                p = next;
+            }
+        }
+    }
+}
+
+/* The angle to the nearest other point, at least, in units of hexagonal packing's. */
+static double least_angle(const double *points, size_t num) {
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < num; i++) {
+        for (size_t j = 0; j < i; j++) {
+            least = fmin(least, ccvt_square_angle(points + 3 * i, points + 3 * j));
+        }
+    }
+    return sqrt(least / (8 * PS_PI / (sqrt(3) * (double)num)));
+}
+
+/* Expected: a prototype's few sets, with two digits. */
+static void power_of_the_sphere_falls_as_l_to_the_fourth(void **state) {
+    (void)state;
+    static const struct {
+        int degree;
+        double power;
+    } expected[] = {{2, 1e-5}, {4, 1.1e-4}, {6, 4.6e-4}, {10, 4.0e-3}};
+    static double points[3 * NUM];
+    double powers[MOST_DEGREE + 1] = {0};
+    double mean_least = 0;
+    for (uint64_t r = 0; r < SETS; r++) {
+        const ps_ccvt_outcome outcome = ccvt_make_case(&ccvt_cases[1], NUM, CAPACITY, r, points);
+        const double least = least_angle(points, NUM);
+        assert_in_range(outcome.passes, 10, 60);
+        assert_true(least > 0.52 && least < 0.78);
+        mean_least += least / SETS;
+        add_powers(points, NUM, powers);
+    }
+    assert_true(mean_least > 0.60 && mean_least < 0.68);
+    for (unsigned k = 0; k < sizeof expected / sizeof expected[0]; k++) {
+        const double ratio = powers[expected[k].degree] / SETS / expected[k].power;
+        assert_true(ratio > 0.55 && ratio < 1.25);
+    }
+    const double exponent = log(powers[10] / powers[4]) / log(10.0 / 4);
+    assert_true(exponent > 3.9 && exponent < 4.4);
+    assert_true(powers[1] / SETS < 1e-6);
+    const double variance = 4 * PS_PI * NUM * powers[4] / SETS; /* of a harmonic of degree 4, N^2 */
+    assert_true(variance < 0.4);
+}
+
+/* The same with points at random as background: P(l) ends at 1/M. */
+static void a_random_background_leaves_a_floor(void **state) {
+    (void)state;
+    enum { FEW = 30, LOW = 4 };
+    double points[3 * NUM];
+    double powers[MOST_DEGREE + 1] = {0};
+    for (uint64_t r = 0; r < FEW; r++) {
+        ps_random random = ps_random_init(2, PS_STREAM_COORDINATES, r);
+        ps_error error = {0};
+        ps_ccvt c;
+        ccvt_begin_case(&c, &ccvt_cases[1], NUM, CAPACITY, r);
+        for (size_t k = 0; k < NUM * CAPACITY; k++) {
+            double place[PS_CCVT_AXES] = {0};
+            ps_random_fill_uniform(&random, place, 2);
+            ps_sphere_lift(false, 0, 1, place);
+            for (unsigned a = 0; a < PS_CCVT_AXES; a++) {
+                c.at[a][k] = place[a];
+            }
+        }
+        ccvt_assert_ok(ps_ccvt_run(&c, &error), &error);
+        ps_ccvt_give(&c, points, NULL);
+        add_powers(points, NUM, powers);
+        ps_ccvt_destroy(&c);
+    }
+    double mean = 0;
+    for (int l = 1; l <= LOW; l++) { /* 24 coefficients of 30 sets: 5 % */
+        mean += (2 * l + 1) * powers[l] / (LOW * (LOW + 2)) / FEW;
+    }
+    assert_true(fabs(mean * CAPACITY - 1) < 0.2);
+}
+
+/* Mean power of the torus over frequencies with low <= |k| < high. */
+static double ring(const double *points, size_t num, double low, double high) {
+    double sum = 0;
+    double count = 0;
+    for (int kx = 0; kx < high; kx++) {
+        for (int ky = kx == 0 ? 1 : (int)-high; ky < high; ky++) {
+            if (hypot(kx, ky) >= low && hypot(kx, ky) < high) {
+                double c = 0;
+                double s = 0;
+                for (size_t i = 0; i < num; i++) {
+                    const double angle = 2 * PS_PI * (kx * points[2 * i] + ky * points[2 * i + 1]);
+                    c += cos(angle);
+                    s += sin(angle);
+                }
+                sum += (c * c + s * s) / (double)num;
+                count++;
+            }
+        }
+    }
+    return sum / count;
+}
+
+/* Rings about nu = 0.125, 0.25 and 0.5, and the peak, N = 1024, M = 256. */
+static void power_of_the_torus_falls_as_k_to_the_fourth(void **state) {
+    (void)state;
+    enum { MANY = 1024, FEW = 6 };
+    static double points[2 * MANY];
+    double low[4] = {0};
+    for (uint64_t r = 0; r < FEW; r++) {
+        ccvt_make_case(&ccvt_cases[0], MANY, 256, r, points);
+        low[0] += ring(points, MANY, 3, 5) / FEW;
+        low[1] += ring(points, MANY, 7.5, 8.5) / FEW;
+        low[2] += ring(points, MANY, 15.5, 16.5) / FEW;
+        low[3] += ring(points, MANY, 33.5, 34.5) / FEW;
+    }
+    assert_true(low[0] > 1.2e-5 && low[0] < 5e-5);
+    assert_true(fabs(low[1] / 5.4e-4 - 1) < 0.3);
+    assert_true(fabs(low[2] / 0.0133 - 1) < 0.2);
+    assert_true(fabs(low[3] / 2.05 - 1) < 0.12);
+    assert_true(low[1] / low[0] > 12);
+}
+
+/* ---- rows ---------------------------------------------------------------------------------- */
+
+static void parameters_reach_the_algorithms(void **state) {
+    (void)state;
+    static const char *const texts[] = {"ccvt:M=16", "ccvt-sphere:M=16"};
+    double expected[3 * 64];
+    for (unsigned s = 0; s < CCVT_CASES; s++) {
+        const ps_sampler_request request = make_request(texts[s], 64, ccvt_cases[s].axes);
+        double *const points = generate_points(&request, 7);
+        ccvt_make_case(&ccvt_cases[s], 64, 16, 7, expected);
+        assert_memory_equal(points, expected, 64 * ccvt_cases[s].axes * sizeof *points);
+        free(points);
+    }
+}
+
+static void assert_refused(const char *text, size_t num, unsigned dimension, const char *why) {
+    const ps_sampler_request request = parse_request(text, num, dimension);
+    ps_error error = {0};
+    assert_int_equal(ps_sampler_check(&request, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    if (strstr(error.message, why) == NULL) {
+        fail_msg("%s: %s", text, error.message);
+    }
+}
+
+static void what_cannot_be_made_is_refused(void **state) {
+    (void)state;
+    assert_refused("ccvt", 15, 2, "15 points asked for, it makes 16 and more");
+    assert_refused("ccvt-sphere", 1, 3, "1 point asked for, it makes 2 and more");
+    assert_refused("ccvt", 64, 3, "dimension 3");
+    assert_refused("ccvt:M=3", 64, 2, "sampler ccvt: M: 3 is not between 4 and 16384");
+    assert_refused("ccvt-sphere:M=16385", 64, 3, "sampler ccvt-sphere: M: 16385 is not between");
+    assert_refused("ccvt-sphere:M=6.5", 64, 3, "M");
+    assert_refused("ccvt-sphere:M=many", 64, 3, "M");
+    assert_refused("ccvt", (size_t)1 << 24, 2, "with that M there are at most 8388608 points");
+}
+
+/* Against what bench_cells measured, to a factor of 2: a core of an EPYC. */
+static void seconds_are_those_that_were_measured(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t num;
+        double seconds;
+    } measured[] = {{"ccvt-sphere", 256, 0.028},
+                    {"ccvt-sphere", 1024, 0.18},
+                    {"ccvt-sphere", 4096, 1.3},
+                    {"ccvt-sphere", 16384, 11},
+                    {"ccvt-sphere:M=16", 1024, 0.049},
+                    {"ccvt-sphere:M=256", 1024, 0.92},
+                    {"ccvt", 256, 0.072},
+                    {"ccvt", 1024, 0.43},
+                    {"ccvt", 4096, 2.4},
+                    {"ccvt:M=16", 1024, 0.026},
+                    {"ccvt:M=64", 1024, 0.082},
+                    {"ccvt:M=1024", 1024, 4}};
+    for (unsigned i = 0; i < sizeof measured / sizeof measured[0]; i++) {
+        const ps_sampler_request request =
+            make_request(measured[i].text, measured[i].num,
+                         strncmp(measured[i].text, "ccvt-sphere", 11) == 0 ? 3 : 2);
+        const double ratio = ps_sampler_seconds(&request) / measured[i].seconds;
+        if (!(ratio >= 0.5 && ratio <= 2)) {
+            fail_msg("%s, N = %zu: %g times what was measured", measured[i].text, measured[i].num,
+                     ratio);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(power_of_the_sphere_falls_as_l_to_the_fourth),
+        cmocka_unit_test(a_random_background_leaves_a_floor),
+        cmocka_unit_test(power_of_the_torus_falls_as_k_to_the_fourth),
+        cmocka_unit_test(parameters_reach_the_algorithms),
+        cmocka_unit_test(what_cannot_be_made_is_refused),
+        cmocka_unit_test(seconds_are_those_that_were_measured),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
