@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15_figure*.png, pictures of points for
-# docs/user/samplers.md and of points and spectra for docs/samplers. A minute on two cores.
+# docs/user/samplers.md and of points and spectra for docs/samplers. Three minutes on two cores.
 set -euo pipefail
 pointspec=$(realpath "$1") folder=$2
 mkdir -p "$folder"/{points,spectra}
@@ -16,7 +16,7 @@ points() { # NAME N SAMPLER...
 points torus 256 white regular jittered latin-hypercube sobol sobol:scramble=owen halton hammersley larcher-pillichshammer
 points blue_noise 1024 jittered poisson-disk fpo bnot
 points disks 1024 poisson-disk bridson
-points optimized 1024 bnot fpo
+points optimized 1024 bnot fpo ccvt
 points sphere 768 white-sphere zphi healpix-jittered fibonacci spiral poisson-disk-sphere
 points hemisphere 512 white-hemisphere fibonacci-hemisphere fibonacci-hemisphere:morph=diffuse \
     larcher-pillichshammer:lift=hemisphere
@@ -25,7 +25,7 @@ points hemisphere 512 white-hemisphere fibonacci-hemisphere fibonacci-hemisphere
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 echo "figures: p15_figure3.png" >&2
-"$pointspec" sample --sampler healpix --sampler healpix-jittered --sampler poisson-disk-sphere --sampler white-sphere \
+"$pointspec" sample --sampler healpix --sampler healpix-jittered --sampler ccvt-sphere --sampler poisson-disk-sphere --sampler white-sphere \
     -n 768 --plot "$folder/p15_figure3.png"
 spectrum() { # NAME COMMAND SAMPLER...
     local name=$1 what=$2 sampler
@@ -38,7 +38,7 @@ spectrum() { # NAME COMMAND SAMPLER...
     "$pointspec" "$what" "${samplers[@]}" "${size[@]}" -m 200 --quiet -o "$scratch/rows.csv" --plot "$folder/$name.png"
 }
 spectrum p15_figure4 power jittered poisson-disk fpo bnot
-spectrum p15_figure5 angular white-sphere healpix-jittered poisson-disk-sphere
+spectrum p15_figure5 angular white-sphere healpix-jittered poisson-disk-sphere ccvt-sphere
 spectrum spectra/poisson_disk power poisson-disk
 spectrum spectra/bridson power bridson
 spectrum spectra/bnot power bnot

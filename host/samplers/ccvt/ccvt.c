@@ -139,6 +139,7 @@ pspec_status ps_ccvt_begin(ps_ccvt *c, ps_error *error) {
     PS_TRY(ps_ccvt_start(c, error));
     for (size_t i = 0; i < c->num; i++) {
         measure(c, i);
+        PS_TRY(ps_ccvt_go_on(c, c->capacity, error));
     }
     c->num_passes = 0;
     change_all(c);
@@ -159,7 +160,7 @@ pspec_status ps_ccvt_pass(ps_ccvt *c, ps_error *error) {
     return PSPEC_OK;
 }
 
-void ps_ccvt_move(ps_ccvt *c) {
+pspec_status ps_ccvt_move(ps_ccvt *c, ps_error *error) {
     double place[PS_CCVT_AXES] = {0};
     if (c->num_passes == PASSES_BEFORE_MOVES) {
         change_all(c);
@@ -172,8 +173,10 @@ void ps_ccvt_move(ps_ccvt *c) {
                 c->site[a][i] = place[a];
             }
             measure(c, i);
+            PS_TRY(ps_ccvt_go_on(c, 2 * c->capacity, error));
         }
     }
+    return PSPEC_OK;
 }
 
 pspec_status ps_ccvt_run(ps_ccvt *c, ps_error *error) {
@@ -189,7 +192,7 @@ pspec_status ps_ccvt_run(ps_ccvt *c, ps_error *error) {
                            "%zu sites with %zu points each still exchange points after %d passes",
                            c->num, c->capacity, MOST_PASSES);
         }
-        ps_ccvt_move(c);
+        PS_TRY(ps_ccvt_move(c, error));
     }
 }
 

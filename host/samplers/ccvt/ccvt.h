@@ -82,7 +82,7 @@ pspec_status ps_ccvt_begin(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
 /* One pass over all pairs of which a site changed since they last met. */
 pspec_status ps_ccvt_pass(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
 /* The moves after it, of sites that changed; none after the first pass. */
-void ps_ccvt_move(ps_ccvt *ccvt);
+pspec_status ps_ccvt_move(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
 /* Passes and moves until a pass changes nothing. */
 pspec_status ps_ccvt_run(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
 

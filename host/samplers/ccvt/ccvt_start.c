@@ -71,12 +71,15 @@ static pspec_status sort(sorting *s, size_t first, size_t end, ps_error *error) 
     return PSPEC_OK;
 }
 
-static void set_keys(sorting *s, size_t first, size_t end, double (*key)(const double *)) {
+static pspec_status set_keys(sorting *s, size_t first, size_t end, double (*key)(const double *),
+                             ps_error *error) {
     double place[PS_CCVT_AXES] = {0};
     for (size_t k = first; k < end; k++) {
         ps_ccvt_place(s->at, s->order[k].number, s->ccvt->space->room.axes, place);
         s->order[k].key = key(place);
+        PS_TRY(ps_ccvt_go_on(s->ccvt, 1, error));
     }
+    return PSPEC_OK;
 }
 
 static size_t num_bands(const ps_ccvt *c) {
@@ -90,27 +93,29 @@ static pspec_status sort_bands(sorting *s, ps_error *error) {
     for (size_t k = 0; k < s->num; k++) {
         s->order[k].number = (uint32_t)k;
     }
-    set_keys(s, 0, s->num, space->height);
+    PS_TRY(set_keys(s, 0, s->num, space->height, error));
     PS_TRY(sort(s, 0, s->num, error));
     for (size_t b = 0; b < bands; b++) {
         const size_t first = b * s->ccvt->num / bands * s->per_site;
         const size_t end = (b + 1) * s->ccvt->num / bands * s->per_site;
-        set_keys(s, first, end, space->along);
+        PS_TRY(set_keys(s, first, end, space->along, error));
         PS_TRY(sort(s, first, end, error));
     }
     return PSPEC_OK;
 }
 
-static void apply_order(sorting *s) {
+static pspec_status apply_order(sorting *s, ps_error *error) {
     for (unsigned a = 0; a < s->ccvt->space->room.axes; a++) {
         for (size_t k = 0; k < s->num; k++) {
             s->spare_numbers[k] = s->at[a][s->order[k].number];
+            PS_TRY(ps_ccvt_go_on(s->ccvt, 1, error));
         }
         double *const kept = s->at[a];
         for (size_t k = 0; k < s->num; k++) {
             kept[k] = s->spare_numbers[k];
         }
     }
+    return PSPEC_OK;
 }
 
 static pspec_status put_in_bands(ps_ccvt *c, double **at, size_t per_site, ps_error *error) {
@@ -124,7 +129,7 @@ static pspec_status put_in_bands(ps_ccvt *c, double **at, size_t per_site, ps_er
         status = sort_bands(&s, error);
     }
     if (status == PSPEC_OK) {
-        apply_order(&s);
+        status = apply_order(&s, error);
     }
     free(s.order);
     free(s.spare);

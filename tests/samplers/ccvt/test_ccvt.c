@@ -45,6 +45,47 @@ static void every_point_has_one_owner_and_every_site_m_points(void **state) {
     }
 }
 
+static double key_of(double *const *at, size_t k, unsigned axes, double (*key)(const double *)) {
+    double place[PS_CCVT_AXES] = {0};
+    ps_ccvt_place(at, k, axes, place);
+    return key(place);
+}
+
+/* Nothing of a band is above the next band, and along a band keys rise. */
+static void assert_in_bands(double *const *at, const ps_ccvt *c, size_t per_site) {
+    const ps_ccvt_space *const space = c->space;
+    const size_t bands = (size_t)rint(sqrt(space->aspect * (double)c->num));
+    double below = -HUGE_VAL;
+    for (size_t b = 0; b < bands; b++) {
+        double highest = -HUGE_VAL;
+        double before = -HUGE_VAL;
+        for (size_t k = b * c->num / bands * per_site; k < (b + 1) * c->num / bands * per_site;
+             k++) {
+            const double height = key_of(at, k, space->room.axes, space->height);
+            const double along = key_of(at, k, space->room.axes, space->along);
+            assert_true(height >= below && along >= before);
+            highest = fmax(highest, height);
+            before = along;
+        }
+        below = highest;
+    }
+}
+
+static void sites_and_points_begin_in_the_same_bands(void **state) {
+    (void)state;
+    for (unsigned s = 0; s < CCVT_CASES; s++) {
+        for (size_t num = 31; num < 2000; num *= 4) {
+            ps_error error = {0};
+            ps_ccvt c;
+            ccvt_begin_case(&c, &ccvt_cases[s], num, CAPACITY, num);
+            ccvt_assert_ok(ps_ccvt_start(&c, &error), &error);
+            assert_in_bands(c.site, &c, 1);
+            assert_in_bands(c.at, &c, CAPACITY);
+            ps_ccvt_destroy(&c);
+        }
+    }
+}
+
 static double sum_of_squares(const ps_ccvt *c, const ccvt_case *which) {
     double sum = 0;
     for (size_t k = 0; k < c->num * c->capacity; k++) {
@@ -68,7 +109,7 @@ static void the_sum_falls_with_every_pass_and_every_move(void **state) {
             const double exchanged = sum_of_squares(&c, &ccvt_cases[s]);
             assert_true(c.num_swaps == swaps ? exchanged == sum : exchanged < sum);
             falls += c.num_swaps != swaps;
-            ps_ccvt_move(&c);
+            ccvt_assert_ok(ps_ccvt_move(&c, &error), &error);
             sum = sum_of_squares(&c, &ccvt_cases[s]);
             assert_true(sum <= exchanged * (1 + 1e-12));
             assert_true(fabs(sum / ps_ccvt_energy(&c) - 1) < 1e-4); /* regions may be wide yet */
@@ -284,6 +325,7 @@ static void the_bits_of_a_set_are_these(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_point_has_one_owner_and_every_site_m_points),
+        cmocka_unit_test(sites_and_points_begin_in_the_same_bands),
         cmocka_unit_test(the_sum_falls_with_every_pass_and_every_move),
         cmocka_unit_test(in_the_end_no_exchange_helps),
         cmocka_unit_test(in_the_end_sites_are_where_their_sum_is_least),
