@@ -55,24 +55,39 @@ typedef struct gaussian_lanes {
 #ifdef __OPENCL_C_VERSION__
 
 /* Points begin to end - 1, the image of the point being at self->at. Arrays have room for a vector
- * behind the last point. */
+ * behind the last point. Loops over axes are unrolled: what they index would be in memory. */
 TWO_TO_INLINE void gaussian_run(const gaussian_grid *grid, const uint dimension,
                                 __global const real *x, const uint begin, const uint end,
                                 gaussian_lanes *self) {
+    realv sums[GAUSSIAN_SUMS];
+#pragma unroll
+    for (uint k = 0; k < GAUSSIAN_SUMS; k++) {
+        sums[k] = self->sums[k];
+    }
     for (uint j = begin; j < end; j += GAUSSIAN_LANES) {
         realv away[GAUSSIAN_AXES];
         realv square = (realv)0;
-        for (uint axis = 0; axis < dimension; axis++) {
-            away[axis] = (realv)self->at[axis] - vload4(0, x + axis * grid->stride + j);
-            square += away[axis] * away[axis];
+#pragma unroll
+        for (uint axis = 0; axis < GAUSSIAN_AXES; axis++) {
+            if (axis < dimension) {
+                away[axis] = (realv)self->at[axis] - vload4(0, x + axis * grid->stride + j);
+                square += away[axis] * away[axis];
+            }
         }
         const realv term = two_to_normal(square * (realv)grid->exponent);
         const swordv lane = (swordv)(0, 1, 2, 3);
         const realv mine = lane < (swordv)(end - j) ? term : (realv)0;
-        self->sums[0] += mine;
-        for (uint axis = 0; axis < dimension; axis++) {
-            self->sums[1 + axis] += away[axis] * mine;
+        sums[0] += mine;
+#pragma unroll
+        for (uint axis = 0; axis < GAUSSIAN_AXES; axis++) {
+            if (axis < dimension) {
+                sums[1 + axis] += away[axis] * mine;
+            }
         }
+    }
+#pragma unroll
+    for (uint k = 0; k < GAUSSIAN_SUMS; k++) {
+        self->sums[k] = sums[k];
     }
 }
 

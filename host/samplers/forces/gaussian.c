@@ -45,12 +45,17 @@ static pspec_status allocate(ps_gaussian *g, size_t num, unsigned dimension, dou
 }
 
 pspec_status ps_gaussian_begin(ps_gaussian *g, size_t num, unsigned dimension, double sigma,
-                               const double *points, const ps_watch *watch, ps_error *error) {
+                               const double *points, ps_device *device, const ps_watch *watch,
+                               ps_error *error) {
     *g = (ps_gaussian){.unit = ps_gaussian_unit(num, dimension),
                        .length = step_length(dimension, sigma),
                        .watch = watch};
     PS_TRY(ps_gaussian_check(num, dimension, sigma, error));
     PS_TRY(allocate(g, num, dimension, sigma, error));
+    if (device != NULL) {
+        PS_TRY(ps_gaussian_device_create(&g->on_device, device, &g->sums, error));
+        g->sums.device = &g->on_device;
+    }
     for (size_t i = 0; i < num * dimension; i++) {
         g->x[i] = points[i];
     }
@@ -58,6 +63,7 @@ pspec_status ps_gaussian_begin(ps_gaussian *g, size_t num, unsigned dimension, d
 }
 
 void ps_gaussian_destroy(ps_gaussian *g) {
+    ps_gaussian_device_destroy(&g->on_device);
     ps_gaussian_sums_destroy(&g->sums);
     free(g->x);
     free(g->next_x);
@@ -132,11 +138,13 @@ static pspec_status run(ps_gaussian *g, ps_error *error) {
 }
 
 pspec_status ps_gaussian_make(size_t num, unsigned dimension, double sigma, ps_random *random,
-                              const ps_watch *watch, double *points, ps_error *error) {
+                              ps_device *device, const ps_watch *watch, double *points,
+                              ps_error *error) {
     ps_gaussian g;
     PS_TRY(ps_gaussian_check(num, dimension, sigma, error));
     ps_random_fill_uniform(random, points, num * dimension);
-    pspec_status status = ps_gaussian_begin(&g, num, dimension, sigma, points, watch, error);
+    pspec_status status =
+        ps_gaussian_begin(&g, num, dimension, sigma, points, device, watch, error);
     if (status == PSPEC_OK) {
         status = run(&g, error);
     }

@@ -25,12 +25,13 @@ enum { PS_GAUSSIAN_MOST_STEPS = 10000 };
 
 typedef struct ps_gaussian {
     ps_gaussian_sums sums;
-    double *x, *force;           /* [num][dimension], where the energy is `energy` */
-    double *next_x, *next_force; /* of the step that is tried */
-    double energy;               /* of all pairs, images of the same point among them */
-    double length;               /* of a step, in units of its force */
-    double unit;                 /* N^(-1/d) */
-    double move;                 /* of the last step, the farthest of a point, in units */
+    ps_gaussian_device on_device; /* whose sums they are, if any's */
+    double *x, *force;            /* [num][dimension], where the energy is `energy` */
+    double *next_x, *next_force;  /* of the step that is tried */
+    double energy;                /* of all pairs, images of the same point among them */
+    double length;                /* of a step, in units of its force */
+    double unit;                  /* N^(-1/d) */
+    double move;                  /* of the last step, the farthest of a point, in units */
     unsigned steps, halvings;
     const ps_watch *watch;
 } ps_gaussian;
@@ -39,10 +40,10 @@ typedef struct ps_gaussian {
 pspec_status ps_gaussian_check(size_t num, unsigned dimension, double sigma,
                                ps_error *error) PS_MUST_CHECK;
 
-/* From points [num][dimension] as they are. What it holds is freed by destroy, also after a
- * failure. */
+/* From points [num][dimension] as they are; device is borrowed, and NULL for the host, which has
+ * the same bits. What it holds is freed by destroy, also after a failure. */
 pspec_status ps_gaussian_begin(ps_gaussian *g, size_t num, unsigned dimension, double sigma,
-                               const double *points, const ps_watch *watch,
+                               const double *points, ps_device *device, const ps_watch *watch,
                                ps_error *error) PS_MUST_CHECK;
 void ps_gaussian_destroy(ps_gaussian *g);
 /* One step, after which the energy is not higher. */
@@ -52,6 +53,7 @@ double ps_gaussian_excess(const ps_gaussian *g, double sigma);
 
 /* Points [num][dimension] of a whole optimisation, from uniform random ones. */
 pspec_status ps_gaussian_make(size_t num, unsigned dimension, double sigma, ps_random *random,
-                              const ps_watch *watch, double *points, ps_error *error) PS_MUST_CHECK;
+                              ps_device *device, const ps_watch *watch, double *points,
+                              ps_error *error) PS_MUST_CHECK;
 
 #endif

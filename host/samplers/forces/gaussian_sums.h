@@ -4,6 +4,7 @@
 #define PS_SAMPLERS_FORCES_GAUSSIAN_SUMS_H
 
 #include "base/watch.h"
+#include "samplers/forces/gaussian_device.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -11,17 +12,18 @@
 /* Points of a set: their numbers, and those of cells, are 32 bits wide. */
 enum { PS_GAUSSIAN_MOST_POINTS = 1 << 26 };
 
-typedef struct ps_gaussian_sums {
+struct ps_gaussian_sums {
     size_t num;
     unsigned dimension;
     double reach, exponent; /* as gaussian_grid has them */
     uint32_t cells;         /* along an axis */
     size_t stride, num_cells;
-    uint32_t *begins; /* [num_cells + 1], points of cells */
-    uint32_t *place;  /* [num], where a point stands among all by cells */
-    double *points;   /* [dimension][stride], by cells */
-    double *sums;     /* [1 + dimension][stride], of points by cells */
-} ps_gaussian_sums;
+    uint32_t *begins;           /* [num_cells + 1], points of cells */
+    uint32_t *place;            /* [num], where a point stands among all by cells */
+    double *points;             /* [dimension][stride], by cells */
+    double *sums;               /* [1 + dimension][stride], of points by cells */
+    ps_gaussian_device *device; /* that makes them, borrowed; NULL: the host */
+};
 
 /* N^(-1/d), the same bits on any machine. */
 double ps_gaussian_unit(size_t num, unsigned dimension);
