@@ -79,7 +79,8 @@ static void time_set(size_t num, const char *selector) {
     ps_step_outcome outcome;
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
     const double begin = bench_seconds();
-    BENCH_TRY(ps_step_make(num, &random, selector, NULL, s.x, &outcome, error));
+    BENCH_TRY(
+        ps_step_make(num, PS_STEP_MOST_ROUNDS, &random, selector, NULL, s.x, &outcome, error));
     const double whole = bench_seconds() - begin;
     BENCH_TRY(ps_step_curves_create(&curves, num, num, error));
     const double plain = time_plain(&s, &curves);

@@ -15,7 +15,7 @@ static const double FIRST_LENGTH = 1;
 static const double LAST_LENGTH = 1e-3;
 static const double SHORTER = 0.9;
 static const double WORSE = 1.2;
-enum { AXES = 2, MOST_TRIES = 5, MOST_ROUNDS = 10000 };
+enum { AXES = 2, MOST_TRIES = 5 };
 
 typedef struct search {
     ps_device *device;
@@ -28,7 +28,7 @@ typedef struct search {
     double *best_found; /* [num_bins], the distribution of the best */
     double best_off;    /* its distance from the target */
     double length;      /* of the longest move of a step, in 1/sqrt(N) */
-    unsigned tries;
+    unsigned tries, most_rounds;
     size_t num;
     const ps_watch *watch;
 } search;
@@ -108,7 +108,7 @@ static void move(search *s) {
 }
 
 static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
-    while (s->length >= LAST_LENGTH && outcome->rounds < MOST_ROUNDS) {
+    while (s->length >= LAST_LENGTH && outcome->rounds < s->most_rounds) {
         PS_TRY(ps_watch_tell(s->watch, "sampler: step, moves of all points", outcome->rounds, 0,
                              NULL, error));
         PS_TRY(ps_step_pairs_count(&s->pairs, s->x, s->counts, s->watch, error));
@@ -124,10 +124,14 @@ static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_step_make(size_t num, ps_random *random, const char *selector,
+pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, const char *selector,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) {
-    search s = {.num = num, .watch = watch, .length = FIRST_LENGTH, .best_off = HUGE_VAL};
+    search s = {.num = num,
+                .most_rounds = most_rounds,
+                .watch = watch,
+                .length = FIRST_LENGTH,
+                .best_off = HUGE_VAL};
     ps_step_outcome done = {0};
     if (num < PS_STEP_LEAST_POINTS || num > PS_STEP_MOST_POINTS) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -17,6 +17,8 @@
 /* Below the first, smoothing hides all of the distribution; above the second, all pairs take
  * hours. */
 enum { PS_STEP_LEAST_POINTS = 64, PS_STEP_MOST_POINTS = 1 << 16 };
+/* Rounds after which it ends with the best so far: never before its own end. */
+enum { PS_STEP_MOST_ROUNDS = 10000 };
 
 typedef struct ps_step_outcome {
     unsigned rounds;    /* that points were moved */
@@ -25,7 +27,7 @@ typedef struct ps_step_outcome {
 
 /* Points [num][2], from uniform random ones, by the device that selector means (NULL: the first).
  * outcome may be NULL. */
-pspec_status ps_step_make(size_t num, ps_random *random, const char *selector,
+pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, const char *selector,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) PS_MUST_CHECK;
 

@@ -140,15 +140,22 @@ static void add_copies(const ps_step_pairs *p, uint64_t *counts) {
     }
 }
 
+/* Numbers behind the last point are 0, since 0 times them is added. */
+static pspec_status write_points(ps_step_pairs *p, const double *x, ps_error *error) {
+    const size_t stride = p->layout.stride;
+    for (size_t i = 0; i < stride; i++) {
+        const bool is_there = i < p->layout.num_points;
+        p->coordinates[i] = is_there ? x[AXES * i] : 0;
+        p->coordinates[stride + i] = is_there ? x[AXES * i + 1] : 0;
+    }
+    return ps_buffer_write(p->device, &p->points, 0, p->coordinates, p->points.bytes, error);
+}
+
 pspec_status ps_step_pairs_count(ps_step_pairs *p, const double *x, uint64_t *counts,
                                  const ps_watch *watch, ps_error *error) {
     const size_t copies = count_copies(&p->layout);
     const size_t at_once = counted_at_once(p);
-    for (size_t i = 0; i < p->layout.num_points; i++) {
-        p->coordinates[i] = x[AXES * i];
-        p->coordinates[p->layout.stride + i] = x[AXES * i + 1];
-    }
-    PS_TRY(ps_buffer_write(p->device, &p->points, 0, p->coordinates, p->points.bytes, error));
+    PS_TRY(write_points(p, x, error));
     PS_TRY(ps_buffer_clear(p->device, &p->counts, error));
     for (size_t row = 0; row < copies; row += at_once) {
         const size_t left = copies - row;

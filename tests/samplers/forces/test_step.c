@@ -15,7 +15,8 @@ static ps_step_outcome make(size_t num, uint64_t realization, double *x) {
     ps_step_outcome outcome = {0};
     ps_error error = {0};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
-    if (ps_step_make(num, &random, NULL, NULL, x, &outcome, &error) != PSPEC_OK) {
+    if (ps_step_make(num, PS_STEP_MOST_ROUNDS, &random, NULL, NULL, x, &outcome, &error) !=
+        PSPEC_OK) {
         fail_msg("%s", error.message);
     }
     for (size_t k = 0; k < 2 * num; k++) {
@@ -123,10 +124,12 @@ static void what_cannot_be_made_is_refused(void **state) {
     refuse("step", 63, 2, "64 and more");
     refuse("step", 65537, 2, "65536");
     refuse("step", 64, 3, "dimension 3");
-    assert_int_equal(ps_step_make(63, &random, NULL, NULL, x, NULL, &error),
+    refuse("step:rounds=0", 64, 2, "rounds");
+    refuse("step:rounds=many", 64, 2, "rounds");
+    assert_int_equal(ps_step_make(63, 1, &random, NULL, NULL, x, NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(error.message, "from 64"));
-    assert_int_equal(ps_step_make(64, &random, "no such device", NULL, x, NULL, &error),
+    assert_int_equal(ps_step_make(64, 1, &random, "no such device", NULL, x, NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
 }
 
@@ -169,6 +172,23 @@ static void seconds_are_those_that_were_measured(void **state) {
     }
 }
 
+/* The first round has the points that it began with. */
+static void rounds_may_be_few(void **state) {
+    (void)state;
+    double start[2 * 64];
+    const ps_sampler_request one = make_request("step:rounds=1", 64, 2);
+    const ps_sampler_request some = make_request("step:rounds=20", 64, 2);
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 7);
+    ps_random_fill_uniform(&random, start, 2 * 64);
+    double *points = generate_points(&one, 7);
+    assert_memory_equal(points, start, sizeof start);
+    free(points);
+    points = generate_points(&some, 7);
+    assert_memory_not_equal(points, start, sizeof start);
+    free(points);
+    assert_true(ps_sampler_seconds(&one) < ps_sampler_seconds(&some));
+}
+
 static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
     unsigned *const calls = payload;
     assert_non_null(report->phase);
@@ -182,7 +202,7 @@ static void whoever_watches_may_stop_it(void **state) {
     const ps_watch watch = {stop_at_the_third, &calls};
     ps_error error = {0};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-    assert_int_equal(ps_step_make(NUM, &random, NULL, &watch, x, NULL, &error),
+    assert_int_equal(ps_step_make(NUM, PS_STEP_MOST_ROUNDS, &random, NULL, &watch, x, NULL, &error),
                      PSPEC_ERROR_CANCELLED);
     assert_int_equal(calls, 3);
 }
@@ -196,6 +216,7 @@ int main(void) {
         cmocka_unit_test(what_cannot_be_made_is_refused),
         cmocka_unit_test(a_device_without_double_precision_is_refused),
         cmocka_unit_test(the_row_makes_the_same),
+        cmocka_unit_test(rounds_may_be_few),
         cmocka_unit_test(seconds_are_those_that_were_measured),
         cmocka_unit_test(whoever_watches_may_stop_it),
     };
