@@ -26,7 +26,7 @@ typedef struct set {
 
 static set make_room(size_t num) {
     const set s = {num, calloc(2 * num, sizeof(double)), calloc(2 * num, sizeof(double)),
-                   calloc(num, sizeof(double)), calloc(num, sizeof(uint64_t))};
+                   calloc(num + 1, sizeof(double)), calloc(num, sizeof(uint64_t))};
     if (s.x == NULL || s.force == NULL || s.table == NULL || s.counts == NULL) {
         bench_die("no memory for points");
     }

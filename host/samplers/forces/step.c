@@ -22,7 +22,7 @@ typedef struct search {
     ps_step_pairs pairs;
     ps_step_curves curves;
     uint64_t *counts;   /* [num_bins] */
-    double *table;      /* [num_bins] */
+    double *table;      /* [num_bins + 1] */
     double *x, *force;  /* [num][2] */
     double *best;       /* [num][2] */
     double *best_found; /* [num_bins], the distribution of the best */
@@ -39,7 +39,7 @@ static pspec_status create(search *s, const char *selector, ps_error *error) {
     PS_TRY(ps_step_pairs_create(&s->pairs, s->device, s->num, num_bins, error));
     PS_TRY(ps_step_curves_create(&s->curves, s->num, num_bins, error));
     PS_TRY(PS_NEW(&s->counts, num_bins, "counts of pairs", error));
-    PS_TRY(PS_NEW(&s->table, num_bins, "forces over distances", error));
+    PS_TRY(PS_NEW(&s->table, num_bins + 1, "forces over distances", error));
     PS_TRY(PS_NEW(&s->best_found, num_bins, "distributions of distances", error));
     PS_TRY(PS_NEW(&s->best, AXES * s->num, "points", error));
     PS_TRY(PS_NEW(&s->x, AXES * s->num, "points", error));

@@ -115,4 +115,5 @@ void ps_step_curves_force(const ps_step_curves *c, double *table) {
         table[b] = r < FARTHEST ? (sum + off / 2) / ((double)c->num_points * r * r * r) : 0;
         sum += off;
     }
+    table[c->num_bins] = 0;
 }

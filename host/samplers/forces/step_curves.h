@@ -27,7 +27,7 @@ double ps_step_bessel(double turns);
 /* Smoothed distribution of pairs that were counted into found; the distance of the two curves, the
  * root of the integral over r of the squared difference. */
 double ps_step_curves_measure(ps_step_curves *c, const uint64_t *counts);
-/* table [num_bins]: what the difference of two points is multiplied by. */
+/* table [num_bins + 1]: what the difference of two points is multiplied by; the last is 0. */
 void ps_step_curves_force(const ps_step_curves *c, double *table);
 
 #endif

@@ -27,11 +27,12 @@ static void make_table(size_t num_bins, double *table) {
     for (size_t b = 0; b < num_bins; b++) {
         table[b] = b % 3 == 0 ? -1.5 : 1 / (double)(b + 1);
     }
+    table[num_bins] = 0;
 }
 
 static void run(size_t num, size_t num_bins, found *out) {
     double x[AXES * MOST];
-    double table[MOST_BINS];
+    double table[MOST_BINS + 1];
     ps_step_pairs pairs;
     fill(num, x);
     make_table(num_bins, table);
@@ -44,7 +45,7 @@ static void run(size_t num, size_t num_bins, found *out) {
 /* Pairs as near to the edge of a bin as this may be in either: there are none. */
 static void compare(size_t num, size_t num_bins, const found *got) {
     double x[AXES * MOST];
-    double table[MOST_BINS];
+    double table[MOST_BINS + 1];
     found plain;
     memset(&plain, 0, sizeof plain);
     fill(num, x);
