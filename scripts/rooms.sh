@@ -3,7 +3,7 @@
 # A folder inside a room that is not named here counts as its room.
 rooms=(
     base math math/random math/linear device files store points tables plots
-    samplers samplers/torus samplers/sphere samplers/darts samplers/optimized samplers/ccvt sets integrands frequencies
+    samplers samplers/torus samplers/sphere samplers/darts samplers/optimized samplers/ccvt samplers/forces sets integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
     engines/pairs trials plan spectra rules jobs jobs/spectrum jobs/quadrature jobs/variance request verify verify/bench
     answers answers/spectra answers/quadrature answers/truncation answers/homogeneity answers/check answers/variance answers/points

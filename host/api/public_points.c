@@ -63,8 +63,9 @@ pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context 
                        "there is no place for the number of points, which changes from realization "
                        "to realization");
     }
-    return ps_sampler_generate(&sampler->request, realization, points, num_points, &context->watch,
-                               error);
+    ps_sampler_request request = sampler->request;
+    request.device = context->selector;
+    return ps_sampler_generate(&request, realization, points, num_points, &context->watch, error);
 }
 
 /* ---- into files -------------------------------------------------------------------------- */

@@ -291,7 +291,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "measure this device's figures for the planner and keep them",
                              FLAG(calibrate)},
     [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
-                          OF(0, ENGINES | SUITES | BIT(run) | BIT(devices) | BIT(doctor)),
+                          OF(0, ENGINES | SUITES | BIT(sample) | BIT(run) | BIT(devices) |
+                                    BIT(doctor)),
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
                                   "CPU)",

@@ -17,6 +17,8 @@ extern const ps_sampler ps_sampler_bridson;
 extern const ps_sampler ps_sampler_bnot;
 extern const ps_sampler ps_sampler_fpo;
 extern const ps_sampler ps_sampler_ccvt;
+extern const ps_sampler ps_sampler_gaussian_blue_noise;
+extern const ps_sampler ps_sampler_step;
 extern const ps_sampler ps_sampler_white_sphere;
 extern const ps_sampler ps_sampler_zphi;
 extern const ps_sampler ps_sampler_healpix;

@@ -7,7 +7,7 @@
  *
  * A request is parsed, gets its number of points, dimension and seed, is resolved (what was left
  * open is filled in, and all of it is checked), and then makes points. This layer is a leaf: it may
- * use math/ and base/ only.
+ * use math/ and base/ only, and samplers/forces device/, too.
  */
 #ifndef PS_SAMPLERS_SAMPLER_H
 #define PS_SAMPLERS_SAMPLER_H
@@ -75,6 +75,9 @@ typedef struct ps_sampler_request {
                         becoming -u */
     char values[PS_MAX_SAMPLER_PARAMETERS][PS_MAX_SAMPLER_VALUE];
     const ps_watch *watch; /* of ps_sampler_generate while it works, for samplers/pace.h */
+    /* Selector of the device of samplers that have work for one; NULL: the first. The same points
+     * on any. */
+    const char *device;
 } ps_sampler_request;
 
 struct ps_sampler {

@@ -16,6 +16,8 @@ const ps_sampler *const ps_samplers[] = {
     &ps_sampler_bnot,
     &ps_sampler_fpo,
     &ps_sampler_ccvt,
+    &ps_sampler_gaussian_blue_noise,
+    &ps_sampler_step,
     &ps_sampler_white_sphere,
     &ps_sampler_zphi,
     &ps_sampler_healpix,

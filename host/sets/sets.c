@@ -148,6 +148,7 @@ pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
     PS_TRY(ps_sampler_check(request, error));
     PS_TRY(PS_NEW(&sets, 1, "realizations of a sampler", error));
     sets->request = *request;
+    sets->request.device = options->device;
     sets->options = *options;
     sets->next = options->first;
     sets->end = options->first + num_realizations;

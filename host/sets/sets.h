@@ -14,10 +14,11 @@ typedef struct ps_sets_options {
     ps_set_place place;
     uint64_t memory_limit; /* of the job, of which sets made ahead take a 16th; 0: none */
     uint64_t first;        /* realization */
+    const char *device;    /* selector of the one that makes sets; NULL: the first */
 } ps_sets_options;
 
 /* Realizations first .. first + num_realizations - 1; request is resolved, and copied, and so are
- * options, but for the name of the folder. */
+ * options, but for the names of folder and device. */
 pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
                             uint64_t num_realizations, const ps_sets_options *options,
                             ps_error *error) PS_MUST_CHECK;

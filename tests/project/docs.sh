@@ -56,7 +56,7 @@ check_links() { # PAGE
     done < <(grep -o '](\([^) ]*\))' "$1" | sed 's/^](//; s/)$//')
 }
 
-for page in README.md docs/user/tutorial.md docs/user/conventions.md docs/user/formats.md docs/user/quadrature.md docs/user/variance.md docs/user/gate.md docs/user/needs.md docs/user/scenes.md docs/user/samplers.md docs/samplers/poisson_disks.md docs/samplers/optimized.md; do
+for page in README.md docs/user/tutorial.md docs/user/conventions.md docs/user/formats.md docs/user/quadrature.md docs/user/variance.md docs/user/gate.md docs/user/needs.md docs/user/scenes.md docs/user/samplers.md docs/samplers/poisson_disks.md docs/samplers/optimized.md docs/samplers/forces.md; do
     run_page "$page"
 done
 # The scenes that pages run are shorter than some of those that lie there.

@@ -41,7 +41,7 @@ static pspec_status measure_sampler(ps_probe_data *data, const ps_sampler *sampl
     double predicted = 1;
     const double begin = ps_clock_seconds();
     PS_TRY(ps_probe_sampler(sampler, data->numbers, &predicted, error));
-    *scale = limit_scale((ps_clock_seconds() - begin) / predicted);
+    *scale = predicted > 0 ? limit_scale((ps_clock_seconds() - begin) / predicted) : 1;
     return PSPEC_OK;
 }
 

@@ -40,7 +40,7 @@ pspec_status ps_probe_start(ps_probe_data *data, const ps_probe *what,
 
 /* A sampler against its row: makes a realization of as many points as take some milliseconds by
  * the row, PS_PROBE_POINTS at most; room is [PS_PROBE_POINTS][3]. *predicted is the row's, in
- * seconds. */
+ * seconds; 0, and nothing is made, where the fewest points take longer, as on a device. */
 pspec_status ps_probe_sampler(const ps_sampler *sampler, double *room, double *predicted,
                               ps_error *error) PS_MUST_CHECK;
 

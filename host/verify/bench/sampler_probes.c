@@ -29,9 +29,8 @@ pspec_status ps_probe_sampler(const ps_sampler *sampler, double *room, double *p
     size_t num = 0;
     PS_TRY(ps_sampler_parse(&request, sampler->name, error));
     if (!choose_points(&request)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "sampler %s: no number of points takes less than %g s", sampler->name,
-                       most_seconds);
+        *predicted = 0;
+        return PSPEC_OK;
     }
     *predicted = ps_sampler_seconds(&request);
     return ps_sampler_generate(&request, 0, room, &num, NULL, error);

@@ -1,5 +1,6 @@
 /* BNOT: equal areas, points at centroids, the numbers of its spectrum, the same bits for ever. */
 #include "brute_cells.h"
+#include "set_spectra.h"
 
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* FPO: cells that are kept up to date are those of the points, each move is to the farthest place,
  * the numbers of its spectrum, the same bits for ever. */
 #include "brute_cells.h"
+#include "set_spectra.h"
 
 #include <string.h>
 

@@ -1,0 +1,156 @@
+#include "samplers/forces/gaussian.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Of a step, in units of its force at sigma = 1. Where points lie evenly the energy falls below
+ * e / (2 pi)^(d/2), 0.433 and 0.173: its strongest waves have half the length sqrt(2) pi sigma. At
+ * 1/4 it would rise in space. */
+static const double LENGTH_IN_PLANE = 0.25;
+static const double LENGTH_IN_SPACE = 0.1;
+/* After so many halvings no step was short enough: rounding alone is left of forces. */
+enum { PLANE = 2, SPACE = 3, MOST_HALVINGS = 50 };
+
+pspec_status ps_gaussian_check(size_t num, unsigned dimension, double sigma, ps_error *error) {
+    if (!(sigma >= PS_GAUSSIAN_LEAST_SIGMA && sigma <= PS_GAUSSIAN_MOST_SIGMA)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sigma = %g: it is from %g to %g",
+                       sigma, PS_GAUSSIAN_LEAST_SIGMA, PS_GAUSSIAN_MOST_SIGMA);
+    }
+    if (num < 1 || num > PS_GAUSSIAN_MOST_POINTS || dimension < PLANE || dimension > SPACE) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%zu points of %u coordinates: Gaussian blue noise has 1 to %d points of "
+                       "%d or %d",
+                       num, dimension, PS_GAUSSIAN_MOST_POINTS, PLANE, SPACE);
+    }
+    return PSPEC_OK;
+}
+
+/* sigma^d, and the stable length, which falls like its inverse; no longer below sigma = 1, where
+ * pairs are on their own. */
+static double step_length(unsigned dimension, double sigma) {
+    const double volume = dimension == PLANE ? sigma * sigma : sigma * sigma * sigma;
+    return (dimension == PLANE ? LENGTH_IN_PLANE : LENGTH_IN_SPACE) / (volume > 1 ? volume : 1);
+}
+
+static pspec_status allocate(ps_gaussian *g, size_t num, unsigned dimension, double sigma,
+                             ps_error *error) {
+    const size_t numbers = num * dimension;
+    PS_TRY(ps_gaussian_sums_create(&g->sums, num, dimension, sigma, error));
+    PS_TRY(PS_NEW(&g->x, numbers, "points", error));
+    PS_TRY(PS_NEW(&g->next_x, numbers, "points of a step", error));
+    PS_TRY(PS_NEW(&g->force, numbers, "forces on points", error));
+    return PS_NEW(&g->next_force, numbers, "forces on points", error);
+}
+
+pspec_status ps_gaussian_begin(ps_gaussian *g, size_t num, unsigned dimension, double sigma,
+                               const double *points, ps_device *device, const ps_watch *watch,
+                               ps_error *error) {
+    *g = (ps_gaussian){.unit = ps_gaussian_unit(num, dimension),
+                       .length = step_length(dimension, sigma),
+                       .watch = watch};
+    PS_TRY(ps_gaussian_check(num, dimension, sigma, error));
+    PS_TRY(allocate(g, num, dimension, sigma, error));
+    if (device != NULL) {
+        PS_TRY(ps_gaussian_device_create(&g->on_device, device, &g->sums, error));
+        g->sums.device = &g->on_device;
+    }
+    for (size_t i = 0; i < num * dimension; i++) {
+        g->x[i] = points[i];
+    }
+    return ps_gaussian_sums_find(&g->sums, g->x, watch, &g->energy, g->force, error);
+}
+
+void ps_gaussian_destroy(ps_gaussian *g) {
+    ps_gaussian_device_destroy(&g->on_device);
+    ps_gaussian_sums_destroy(&g->sums);
+    free(g->x);
+    free(g->next_x);
+    free(g->force);
+    free(g->next_force);
+}
+
+static double wrap(double x) {
+    const double wrapped = x - floor(x);
+    return wrapped < 1 ? wrapped : 0;
+}
+
+/* Points of the step that is tried; returns the farthest move. */
+static double try_step(ps_gaussian *g) {
+    const unsigned dimension = g->sums.dimension;
+    double farthest2 = 0;
+    for (size_t i = 0; i < g->sums.num; i++) {
+        double square = 0;
+        for (unsigned axis = 0; axis < dimension; axis++) {
+            const size_t at = i * dimension + axis;
+            const double move = g->length * g->force[at];
+            g->next_x[at] = wrap(g->x[at] + move);
+            square += move * move;
+        }
+        farthest2 = square > farthest2 ? square : farthest2;
+    }
+    return sqrt(farthest2) / g->unit;
+}
+
+static void exchange(double **a, double **b) {
+    double *const kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+pspec_status ps_gaussian_step(ps_gaussian *g, ps_error *error) {
+    for (;;) {
+        double energy = 0;
+        g->move = try_step(g);
+        PS_TRY(ps_gaussian_sums_find(&g->sums, g->next_x, g->watch, &energy, g->next_force, error));
+        if (energy <= g->energy) {
+            g->energy = energy;
+            break;
+        }
+        if (g->halvings == MOST_HALVINGS) {
+            g->move = 0;
+            return PSPEC_OK;
+        }
+        g->length /= 2;
+        g->halvings++;
+    }
+    exchange(&g->x, &g->next_x);
+    exchange(&g->force, &g->next_force);
+    g->steps++;
+    return PSPEC_OK;
+}
+
+double ps_gaussian_excess(const ps_gaussian *g, double sigma) {
+    const double twice_pi = 6.283185307179586477;
+    const double area = twice_pi * sigma * sigma;
+    const double volume = g->sums.dimension == PLANE ? area : area * sqrt(area);
+    return g->energy - (double)g->sums.num / 2 * (volume - 1);
+}
+
+static pspec_status run(ps_gaussian *g, ps_error *error) {
+    do {
+        PS_TRY(ps_watch_tell(g->watch, "sampler: gaussian-blue-noise, steps", g->steps, 0, NULL,
+                             error));
+        PS_TRY(ps_gaussian_step(g, error));
+    } while (g->move > PS_GAUSSIAN_STILL && g->steps < PS_GAUSSIAN_MOST_STEPS);
+    return PSPEC_OK;
+}
+
+pspec_status ps_gaussian_make(size_t num, unsigned dimension, double sigma, ps_random *random,
+                              ps_device *device, const ps_watch *watch, double *points,
+                              ps_error *error) {
+    ps_gaussian g;
+    PS_TRY(ps_gaussian_check(num, dimension, sigma, error));
+    ps_random_fill_uniform(random, points, num * dimension);
+    pspec_status status =
+        ps_gaussian_begin(&g, num, dimension, sigma, points, device, watch, error);
+    if (status == PSPEC_OK) {
+        status = run(&g, error);
+    }
+    for (size_t i = 0; i < num * dimension && status == PSPEC_OK; i++) {
+        points[i] = g.x[i];
+    }
+    ps_gaussian_destroy(&g);
+    return status;
+}

@@ -1,0 +1,154 @@
+#include "samplers/forces/step.h"
+
+#include "base/memory.h"
+#include "samplers/forces/step_curves.h"
+#include "samplers/forces/step_pairs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The schedule of the authors' program: a step is this share of the mean distance at most, at
+ * first; shorter by a factor after so many tries that were not better than the best, or after one
+ * that was so much worse, which also goes back to the best; and it ends at the last length. */
+static const double FIRST_LENGTH = 1;
+static const double LAST_LENGTH = 1e-3;
+static const double SHORTER = 0.9;
+static const double WORSE = 1.2;
+enum { AXES = 2, MOST_TRIES = 5 };
+
+typedef struct search {
+    ps_device *device;
+    ps_step_pairs pairs;
+    ps_step_curves curves;
+    uint64_t *counts;   /* [num_bins] */
+    double *table;      /* [num_bins + 1] */
+    double *x, *force;  /* [num][2] */
+    double *best;       /* [num][2] */
+    double *best_found; /* [num_bins], the distribution of the best */
+    double best_off;    /* its distance from the target */
+    double length;      /* of the longest move of a step, in 1/sqrt(N) */
+    unsigned tries, most_rounds;
+    size_t num;
+    const ps_watch *watch;
+} search;
+
+static pspec_status create(search *s, const char *selector, ps_error *error) {
+    const size_t num_bins = s->num;
+    PS_TRY(ps_device_open(&s->device, selector, false, error));
+    PS_TRY(ps_step_pairs_create(&s->pairs, s->device, s->num, num_bins, error));
+    PS_TRY(ps_step_curves_create(&s->curves, s->num, num_bins, error));
+    PS_TRY(PS_NEW(&s->counts, num_bins, "counts of pairs", error));
+    PS_TRY(PS_NEW(&s->table, num_bins + 1, "forces over distances", error));
+    PS_TRY(PS_NEW(&s->best_found, num_bins, "distributions of distances", error));
+    PS_TRY(PS_NEW(&s->best, AXES * s->num, "points", error));
+    PS_TRY(PS_NEW(&s->x, AXES * s->num, "points", error));
+    return PS_NEW(&s->force, AXES * s->num, "forces", error);
+}
+
+static void destroy(search *s) {
+    ps_step_pairs_destroy(&s->pairs);
+    if (s->device != NULL) {
+        ps_device_close(s->device);
+    }
+    ps_step_curves_destroy(&s->curves);
+    free(s->counts);
+    free(s->table);
+    free(s->best_found);
+    free(s->best);
+    free(s->x);
+    free(s->force);
+}
+
+static void keep(search *s, double off) {
+    memcpy(s->best, s->x, AXES * s->num * sizeof *s->x);
+    memcpy(s->best_found, s->curves.found, s->curves.num_bins * sizeof *s->best_found);
+    s->best_off = off;
+    s->tries = 0;
+}
+
+static void go_back(search *s) {
+    memcpy(s->x, s->best, AXES * s->num * sizeof *s->x);
+    memcpy(s->curves.found, s->best_found, s->curves.num_bins * sizeof *s->best_found);
+}
+
+/* Points go on from where they are, or from the best. */
+static void judge(search *s, double off) {
+    if (off < s->best_off) {
+        keep(s, off);
+        return;
+    }
+    const bool is_worse = off > WORSE * s->best_off;
+    s->tries++;
+    if (is_worse || s->tries == MOST_TRIES) {
+        s->length *= SHORTER;
+        s->tries = 0;
+    }
+    if (is_worse) {
+        go_back(s);
+    }
+}
+
+static double wrap(double x) {
+    const double wrapped = x - floor(x);
+    return wrapped < 1 ? wrapped : 0;
+}
+
+static void move(search *s) {
+    double most2 = 0;
+    for (size_t i = 0; i < s->num; i++) {
+        const double *const f = s->force + AXES * i;
+        const double square = f[0] * f[0] + f[1] * f[1];
+        most2 = square > most2 ? square : most2;
+    }
+    const double scale = most2 > 0 ? s->length / sqrt((double)s->num * most2) : 0;
+    for (size_t k = 0; k < AXES * s->num; k++) {
+        s->x[k] = wrap(s->x[k] + scale * s->force[k]);
+    }
+}
+
+static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
+    while (s->length >= LAST_LENGTH && outcome->rounds < s->most_rounds) {
+        PS_TRY(ps_watch_tell(s->watch, "sampler: step, moves of all points", outcome->rounds, 0,
+                             NULL, error));
+        PS_TRY(ps_step_pairs_count(&s->pairs, s->x, s->counts, s->watch, error));
+        const double off = ps_step_curves_measure(&s->curves, s->counts);
+        outcome->first = outcome->rounds == 0 ? off : outcome->first;
+        judge(s, off);
+        ps_step_curves_force(&s->curves, s->table);
+        PS_TRY(ps_step_pairs_force(&s->pairs, s->table, s->force, s->watch, error));
+        move(s);
+        outcome->rounds++;
+    }
+    outcome->last = s->best_off;
+    return PSPEC_OK;
+}
+
+pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, const char *selector,
+                          const ps_watch *watch, double *points, ps_step_outcome *outcome,
+                          ps_error *error) {
+    search s = {.num = num,
+                .most_rounds = most_rounds,
+                .watch = watch,
+                .length = FIRST_LENGTH,
+                .best_off = HUGE_VAL};
+    ps_step_outcome done = {0};
+    if (num < PS_STEP_LEAST_POINTS || num > PS_STEP_MOST_POINTS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%zu points: step blue noise has from %d to %d", num, PS_STEP_LEAST_POINTS,
+                       PS_STEP_MOST_POINTS);
+    }
+    pspec_status status = create(&s, selector, error);
+    if (status == PSPEC_OK) {
+        ps_random_fill_uniform(random, s.x, AXES * num);
+        status = run(&s, &done, error);
+    }
+    if (status == PSPEC_OK) {
+        memcpy(points, s.best, AXES * num * sizeof *points);
+    }
+    destroy(&s);
+    if (outcome != NULL) {
+        *outcome = done;
+    }
+    return status;
+}

@@ -1,0 +1,210 @@
+#include "samplers/forces/step_pairs.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Points of a block: of fewer, a tile has too little work for a work-item, which costs PoCL 0.25
+ * us; 64 blocks are enough for the threads of a CPU, and their forces take 1 KB a point. */
+enum { AXES = 2, LEAST_BLOCK = 64, MOST_BLOCKS = 64 };
+/* Operations of a pair, and pairs of a launch, between two of which the watch hears of it: 30 ms of
+ * a core at 1.3 ns a pair. */
+static const double PAIR_FLOPS = 14;
+static const double LAUNCH_PAIRS = 2e7;
+
+static step_layout make_layout(size_t num, size_t num_bins) {
+    const size_t least = (num + MOST_BLOCKS - 1) / MOST_BLOCKS;
+    const size_t wanted = least > LEAST_BLOCK ? least : LEAST_BLOCK;
+    const size_t block = (wanted + STEP_LANES - 1) / STEP_LANES * STEP_LANES;
+    const size_t num_blocks = (num + block - 1) / block;
+    return (step_layout){.num_points = (ps_u32)num,
+                         .stride = (ps_u32)(num_blocks * block),
+                         .block = (ps_u32)block,
+                         .num_blocks = (ps_u32)num_blocks,
+                         .num_bins = (ps_u32)num_bins};
+}
+
+/* Rows of tiles come in twos: the first and the last, and so on. */
+static size_t count_copies(const step_layout *layout) {
+    return (layout->num_blocks + 1) / 2;
+}
+
+pspec_status ps_step_pairs_check(const ps_device_limits *limits, ps_error *error) {
+    return limits->has_fp64
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_DEVICE,
+                         "sampler step computes in double precision, which the device \"%s\" does "
+                         "not have; --device cpu names one that does",
+                         limits->name);
+}
+
+static pspec_status create_kernels(ps_step_pairs *p, ps_error *error) {
+    const char *const options = p->has_shared_counts ? "-DSHARED=1" : "-DSHARED=0";
+    PS_TRY(ps_kernel_create(p->device, &p->count, "samplers/step_counts.cl", "step_counts", options,
+                            error));
+    PS_TRY(ps_kernel_create(p->device, &p->force, "samplers/step_forces.cl", "step_forces", "",
+                            error));
+    return ps_kernel_create(p->device, &p->fold, "samplers/step_fold.cl", "step_fold", "", error);
+}
+
+static pspec_status create_buffers(ps_step_pairs *p, ps_error *error) {
+    const step_layout *const l = &p->layout;
+    const size_t plane = (size_t)AXES * l->stride;
+    const size_t num_counts = count_copies(l) * (l->num_bins + 1);
+    PS_TRY(PS_NEW(&p->coordinates, plane, "points", error));
+    PS_TRY(PS_NEW(&p->copies, num_counts, "counts of pairs", error));
+    PS_TRY(ps_buffer_create(p->device, &p->points, plane * sizeof(double), "points", error));
+    PS_TRY(ps_buffer_create(p->device, &p->counts, num_counts * sizeof(uint32_t), "counts of pairs",
+                            error));
+    PS_TRY(ps_buffer_create(p->device, &p->table, (l->num_bins + 1) * sizeof(double),
+                            "forces over distances", error));
+    PS_TRY(ps_buffer_create(p->device, &p->forces, l->num_blocks * plane * sizeof(double),
+                            "forces of blocks", error));
+    return ps_buffer_create(p->device, &p->sums, plane * sizeof(double), "forces", error);
+}
+
+pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t num, size_t num_bins,
+                                  ps_error *error) {
+    *p = (ps_step_pairs){.device = device,
+                         .layout = make_layout(num, num_bins),
+                         .has_shared_counts = !ps_range_is_alone(device)};
+    PS_TRY(ps_step_pairs_check(ps_device_get_limits(device), error));
+    PS_TRY(create_kernels(p, error));
+    return create_buffers(p, error);
+}
+
+static void release(cl_kernel kernel) {
+    if (kernel != NULL) {
+        clReleaseKernel(kernel);
+    }
+}
+
+void ps_step_pairs_destroy(ps_step_pairs *p) {
+    ps_buffer *const buffers[] = {&p->points, &p->counts, &p->table, &p->forces, &p->sums};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    release(p->count);
+    release(p->force);
+    release(p->fold);
+    free(p->coordinates);
+    free(p->copies);
+}
+
+/* Rows of tiles of a launch. */
+static size_t rows_at_once(const step_layout *layout) {
+    const double pairs = (double)layout->block * layout->num_points;
+    const double rows = LAUNCH_PAIRS / pairs;
+    return rows < 1 ? 1 : rows > layout->num_blocks ? layout->num_blocks : (size_t)rows;
+}
+
+static pspec_status let_know(ps_step_pairs *p, size_t row, const ps_watch *watch, ps_error *error) {
+    PS_TRY(ps_device_finish(p->device, error));
+    return ps_watch_tell(watch, "sampler: step, blocks of points", row, p->layout.num_blocks, NULL,
+                         error);
+}
+
+/* Work-items are alone in their group on CPUs: they run long, and a number of rows that is rounded
+ * up would have rows of the next launch. */
+static ps_range make_range(const ps_step_pairs *p, size_t first, size_t second, double pairs) {
+    const ps_range alone = {
+        .rank = 3, .global = {first, second, 1}, .local = {1, 1, 1}, .flops = pairs * PAIR_FLOPS};
+    return p->has_shared_counts ? ps_range_heavy(p->device, first, second, 1, pairs * PAIR_FLOPS, 0)
+                                : alone;
+}
+
+static pspec_status launch_counts(ps_step_pairs *p, size_t row, size_t num_rows, ps_error *error) {
+    const step_layout *const l = &p->layout;
+    const double pairs = (double)num_rows * l->block * l->num_points;
+    ps_range range = make_range(p, num_rows, p->has_shared_counts ? l->num_blocks : 1, pairs);
+    range.offset[0] = row;
+    return PS_LAUNCH(p->device, p->count, &range, error, PS_STRUCT(p->layout), PS_BUFFER(p->points),
+                     PS_BUFFER(p->counts));
+}
+
+/* With groups of several items all at once, since their number is rounded up. */
+static size_t counted_at_once(const ps_step_pairs *p) {
+    const size_t copies = count_copies(&p->layout);
+    const size_t rows = rows_at_once(&p->layout) / 2;
+    return p->has_shared_counts || rows > copies ? copies : rows < 1 ? 1 : rows;
+}
+
+static void add_copies(const ps_step_pairs *p, uint64_t *counts) {
+    const size_t num_bins = p->layout.num_bins;
+    memset(counts, 0, num_bins * sizeof *counts);
+    for (size_t c = 0; c < count_copies(&p->layout); c++) {
+        for (size_t b = 0; b < num_bins; b++) {
+            counts[b] += p->copies[c * (num_bins + 1) + b];
+        }
+    }
+}
+
+/* Numbers behind the last point are 0, since 0 times them is added. */
+static pspec_status write_points(ps_step_pairs *p, const double *x, ps_error *error) {
+    const size_t stride = p->layout.stride;
+    for (size_t i = 0; i < stride; i++) {
+        const bool is_there = i < p->layout.num_points;
+        p->coordinates[i] = is_there ? x[AXES * i] : 0;
+        p->coordinates[stride + i] = is_there ? x[AXES * i + 1] : 0;
+    }
+    return ps_buffer_write(p->device, &p->points, 0, p->coordinates, p->points.bytes, error);
+}
+
+pspec_status ps_step_pairs_count(ps_step_pairs *p, const double *x, uint64_t *counts,
+                                 const ps_watch *watch, ps_error *error) {
+    const size_t copies = count_copies(&p->layout);
+    const size_t at_once = counted_at_once(p);
+    PS_TRY(write_points(p, x, error));
+    memset(p->copies, 0, p->counts.bytes); /* Oclgrind does not see what clears buffers */
+    PS_TRY(ps_buffer_write(p->device, &p->counts, 0, p->copies, p->counts.bytes, error));
+    for (size_t row = 0; row < copies; row += at_once) {
+        const size_t left = copies - row;
+        PS_TRY(launch_counts(p, row, left < at_once ? left : at_once, error));
+        if (left > at_once) {
+            PS_TRY(let_know(p, 2 * (row + at_once), watch, error));
+        }
+    }
+    PS_TRY(ps_buffer_read(p->device, &p->counts, 0, p->copies, p->counts.bytes, error));
+    add_copies(p, counts);
+    return PSPEC_OK;
+}
+
+static pspec_status launch_forces(ps_step_pairs *p, size_t row, size_t num_rows, ps_error *error) {
+    const step_layout *const l = &p->layout;
+    const double pairs = (double)num_rows * l->block * l->num_points / 2;
+    ps_range range = make_range(p, l->num_blocks, num_rows, pairs);
+    range.offset[1] = row;
+    return PS_LAUNCH(p->device, p->force, &range, error, PS_STRUCT(p->layout), PS_BUFFER(p->points),
+                     PS_BUFFER(p->table), PS_BUFFER(p->forces));
+}
+
+static pspec_status fold(ps_step_pairs *p, double *force, ps_error *error) {
+    const step_layout *const l = &p->layout;
+    const ps_range range =
+        ps_range_light(p->device, l->num_points, 1, 1, (double)AXES * l->num_points * l->num_blocks,
+                       (double)p->forces.bytes);
+    PS_TRY(PS_LAUNCH(p->device, p->fold, &range, error, PS_STRUCT(p->layout), PS_BUFFER(p->forces),
+                     PS_BUFFER(p->sums)));
+    PS_TRY(ps_buffer_read(p->device, &p->sums, 0, p->coordinates, p->sums.bytes, error));
+    for (size_t i = 0; i < l->num_points; i++) {
+        force[AXES * i] = p->coordinates[i];
+        force[AXES * i + 1] = p->coordinates[l->stride + i];
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_step_pairs_force(ps_step_pairs *p, const double *table, double *force,
+                                 const ps_watch *watch, ps_error *error) {
+    const size_t num_blocks = p->layout.num_blocks;
+    const size_t at_once = rows_at_once(&p->layout);
+    PS_TRY(ps_buffer_write(p->device, &p->table, 0, table, p->table.bytes, error));
+    for (size_t row = 0; row < num_blocks; row += at_once) {
+        const size_t left = num_blocks - row;
+        PS_TRY(launch_forces(p, row, left < at_once ? left : at_once, error));
+        if (left > at_once) {
+            PS_TRY(let_know(p, row + at_once, watch, error));
+        }
+    }
+    return fold(p, force, error);
+}

@@ -1,0 +1,224 @@
+/* Step blue noise: curves, the numbers of its spectrum, the same bits for ever, what is refused. */
+#include "set_spectra.h"
+#include "test_samplers.h"
+
+#include <string.h>
+
+#include "files/digest.h"
+#include "samplers/forces/step.h"
+#include "samplers/forces/step_curves.h"
+#include "samplers/forces/step_pairs.h"
+
+enum { NUM = 256 };
+
+static ps_step_outcome make(size_t num, uint64_t realization, double *x) {
+    ps_step_outcome outcome = {0};
+    ps_error error = {0};
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
+    if (ps_step_make(num, PS_STEP_MOST_ROUNDS, &random, NULL, NULL, x, &outcome, &error) !=
+        PSPEC_OK) {
+        fail_msg("%s", error.message);
+    }
+    for (size_t k = 0; k < 2 * num; k++) {
+        assert_true(x[k] >= 0 && x[k] < 1);
+    }
+    return outcome;
+}
+
+/* ---- curves ---- */
+
+static void the_bessel_function_is_right(void **state) {
+    (void)state;
+    const double two_pi = 2 * acos(-1);
+    assert_true(fabs(ps_step_bessel(0) - 0.5) < 1e-15);
+    for (double turns = 1e-3; turns < 80; turns += 0.0701) {
+        const double t = two_pi * turns;
+        if (!(fabs(ps_step_bessel(turns) - j1(t) / t) < 1e-15 * (1 + turns))) {
+            fail_msg("J1(%g)/%g = %.17g, not %.17g", t, t, ps_step_bessel(turns), j1(t) / t);
+        }
+    }
+}
+
+/* As many pairs as the target asks for, or twice as many, and none. */
+static void curves_are_those_of_counts(void **state) {
+    (void)state;
+    enum { BINS = 400 };
+    const double pi = acos(-1);
+    uint64_t counts[BINS];
+    double table[BINS + 1];
+    ps_step_curves c;
+    ps_error error = {0};
+    assert_int_equal(ps_step_curves_create(&c, 1U << 16, BINS, &error), PSPEC_OK);
+    const double pairs = 65536.0 * 65535 / 2;
+    double off = 0;
+    for (int b = 0; b < BINS; b++) {
+        const double area = pi * (2 * b + 1) / (4.0 * BINS * BINS);
+        counts[b] = (uint64_t)(pairs * area + 0.5);
+        off += (1 - c.target[b]) * (1 - c.target[b]) / (2 * BINS);
+    }
+    assert_true(fabs(ps_step_curves_measure(&c, counts) - sqrt(off)) < 1e-4);
+    assert_true(fabs(c.found[100] - 1) < 1e-5);
+    ps_step_curves_force(&c, table);
+    assert_true(table[0] > 0); /* points that are too near go apart */
+    assert_true(table[BINS - 1] == 0 && table[BINS] == 0);
+    memset(counts, 0, sizeof counts);
+    assert_true(ps_step_curves_measure(&c, counts) > 0.5);
+    ps_step_curves_force(&c, table);
+    assert_true(table[BINS / 2] < 0);
+    ps_step_curves_destroy(&c);
+}
+
+/* ---- sets ---- */
+
+/* docs/samplers/forces.md has those of larger sets. */
+static void the_spectrum_is_a_step(void **state) {
+    (void)state;
+    enum { SETS = 4 };
+    double x[2 * NUM];
+    power_bins bins = {0};
+    double mean = 0;
+    for (uint64_t r = 0; r < SETS; r++) {
+        const ps_step_outcome outcome = make(NUM, r, x);
+        assert_true(outcome.first > 0.1);
+        assert_true(outcome.last < 0.025);
+        assert_in_range(outcome.rounds, 150, 600);
+        mean += measure_distances(NUM, x).mean / SETS;
+        add_power(&bins, NUM, x);
+    }
+    assert_true(mean > 0.62 && mean < 0.69);
+    for (double nu = 0.18; nu < 0.5; nu += POWER_BIN_WIDTH) {
+        assert_true(mean_power(&bins, nu) < 0.01);
+    }
+    assert_true(mean_power(&bins, 0.62) > 0.8);
+    for (double nu = 0.66; nu < 1.1; nu += POWER_BIN_WIDTH) {
+        assert_true(fabs(mean_power(&bins, nu) - 1) < 0.3);
+    }
+}
+
+/* Recorded: the bits of a set stay the same, with any compiler and on any device. */
+static void the_bits_of_sets_are_these(void **state) {
+    (void)state;
+    double x[2 * 100];
+    char digest[PS_DIGEST_BYTES];
+    make(100, 0, x);
+    ps_digest_bytes(x, sizeof x, digest);
+    assert_string_equal(digest, "ca8943694b1c15d0329f27260b798317");
+}
+
+/* ---- what cannot be made ---- */
+
+static void refuse(const char *text, size_t num, unsigned dimension, const char *why) {
+    const ps_sampler_request request = parse_request(text, num, dimension);
+    ps_error error = {0};
+    assert_int_equal(ps_sampler_check(&request, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    if (strstr(error.message, why) == NULL) {
+        fail_msg("%s: %s", text, error.message);
+    }
+}
+
+static void what_cannot_be_made_is_refused(void **state) {
+    (void)state;
+    double x[2];
+    ps_error error = {0};
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
+    refuse("step", 63, 2, "64 and more");
+    refuse("step", 65537, 2, "65536");
+    refuse("step", 64, 3, "dimension 3");
+    refuse("step:rounds=0", 64, 2, "rounds");
+    refuse("step:rounds=many", 64, 2, "rounds");
+    assert_int_equal(ps_step_make(63, 1, &random, NULL, NULL, x, NULL, &error),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(error.message, "from 64"));
+    assert_int_equal(ps_step_make(64, 1, &random, "no such device", NULL, x, NULL, &error),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+}
+
+static void a_device_without_double_precision_is_refused(void **state) {
+    (void)state;
+    ps_device_limits limits = {.name = "small GPU"};
+    ps_error error = {0};
+    assert_int_equal(ps_step_pairs_check(&limits, &error), PSPEC_ERROR_DEVICE);
+    assert_non_null(strstr(error.message, "small GPU"));
+    assert_non_null(strstr(error.message, "--device cpu"));
+    limits.has_fp64 = true;
+    assert_int_equal(ps_step_pairs_check(&limits, &error), PSPEC_OK);
+}
+
+static void the_row_makes_the_same(void **state) {
+    (void)state;
+    double expected[2 * 64];
+    ps_sampler_request request = make_request("step-blue-noise", 64, 2);
+    double *const points = generate_points(&request, 7);
+    make(64, 7, expected);
+    assert_memory_equal(points, expected, sizeof expected);
+    free(points);
+    request.device = "no such device";
+    ps_error error = {0};
+    assert_int_equal(ps_sampler_generate(&request, 7, expected, NULL, NULL, &error),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+}
+
+/* Against seconds of one core of an EPYC, to a factor of 2. */
+static void seconds_are_those_that_were_measured(void **state) {
+    (void)state;
+    static const size_t nums[] = {256, 1024, 2048, 4096};
+    static const double measured[] = {0.28, 0.8, 2.5, 12};
+    for (unsigned i = 0; i < sizeof nums / sizeof nums[0]; i++) {
+        const ps_sampler_request request = make_request("step", nums[i], 2);
+        const double ratio = ps_sampler_seconds(&request) / measured[i];
+        if (!(ratio >= 0.5 && ratio <= 2)) {
+            fail_msg("N = %zu: %g times what was measured", nums[i], ratio);
+        }
+    }
+}
+
+/* The first round has the points that it began with. */
+static void rounds_may_be_few(void **state) {
+    (void)state;
+    double start[2 * 64];
+    const ps_sampler_request one = make_request("step:rounds=1", 64, 2);
+    const ps_sampler_request some = make_request("step:rounds=20", 64, 2);
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 7);
+    ps_random_fill_uniform(&random, start, 2 * 64);
+    double *points = generate_points(&one, 7);
+    assert_memory_equal(points, start, sizeof start);
+    free(points);
+    points = generate_points(&some, 7);
+    assert_memory_not_equal(points, start, sizeof start);
+    free(points);
+    assert_true(ps_sampler_seconds(&one) < ps_sampler_seconds(&some));
+}
+
+static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
+    unsigned *const calls = payload;
+    assert_non_null(report->phase);
+    return ++*calls == 3;
+}
+
+static void whoever_watches_may_stop_it(void **state) {
+    (void)state;
+    double x[2 * NUM];
+    unsigned calls = 0;
+    const ps_watch watch = {stop_at_the_third, &calls};
+    ps_error error = {0};
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
+    assert_int_equal(ps_step_make(NUM, PS_STEP_MOST_ROUNDS, &random, NULL, &watch, x, NULL, &error),
+                     PSPEC_ERROR_CANCELLED);
+    assert_int_equal(calls, 3);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bessel_function_is_right),
+        cmocka_unit_test(curves_are_those_of_counts),
+        cmocka_unit_test(the_spectrum_is_a_step),
+        cmocka_unit_test(the_bits_of_sets_are_these),
+        cmocka_unit_test(what_cannot_be_made_is_refused),
+        cmocka_unit_test(a_device_without_double_precision_is_refused),
+        cmocka_unit_test(the_row_makes_the_same),
+        cmocka_unit_test(rounds_may_be_few),
+        cmocka_unit_test(seconds_are_those_that_were_measured),
+        cmocka_unit_test(whoever_watches_may_stop_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
