@@ -171,7 +171,8 @@ static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
     return best;
 }
 
-/* Cells of a grid's last axis fill whole vectors, twice, or strips. */
+/* Cells of a grid's last axis fill whole vectors, twice, or strips; both axes that are done in
+ * strips have the same lengths. */
 static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least) {
     const bool is_last = which + 1 == whole->num_axes;
     const bool has_vectors = ps_nufft_way_of(whole) == PS_NUFFT_LARGE && is_last;
@@ -257,6 +258,13 @@ static void consider_large(best_choice *best, ps_nufft_choice *choice, const ps_
     consider(best, choice, problem, precision);
 }
 
+/* Whether a choice with lengths and windows can be done its way. */
+static bool has_shape(ps_nufft_choice *choice, ps_precision precision) {
+    return choice->is_whole       ? ps_nufft_whole_shape(choice, precision)
+           : choice->is_in_strips ? ps_nufft_strips_fit(choice, precision)
+                                  : true;
+}
+
 /* A choice with lengths and windows. */
 static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
                           ps_precision precision) {
@@ -265,7 +273,7 @@ static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_p
         return;
     }
     choice->chunk = 0;
-    if (!choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
+    if (has_shape(choice, precision)) {
         consider(best, choice, problem, precision);
     }
 }

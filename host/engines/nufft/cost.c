@@ -211,12 +211,13 @@ static void count_strips(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     const double tiles = (double)ps_divide_up(choice->span, lanes);
     const double strips = (double)axes[1].n / sizes.columns;
     const double vectors = fmax(1, cells_of_row(&axes[1], precision) / (double)lanes);
+    const double added = num_points * (1 + 1 / strips); /* those of the last strip twice */
     const double bytes = (double)sizes.tile_reals * (double)ps_real_bytes(precision);
     const bool are_far = bytes > strips_bytes;
     add(counts, PS_NUFFT_SORTED, num_points);
-    add(counts, PS_NUFFT_WHOLE_POINT, num_points);
-    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials_of(choice));
-    add(counts, PS_NUFFT_WHOLE_FAR_ROW, num_points * axes[0].window.width * vectors);
+    add(counts, PS_NUFFT_WHOLE_POINT, added);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, added * polynomials_of(choice));
+    add(counts, PS_NUFFT_WHOLE_FAR_ROW, added * axes[0].window.width * vectors);
     add(counts, PS_NUFFT_WHOLE_CLEARED, 2 * strips * (double)sizes.strip_reals / lanes);
     add_transforms(counts, groups, axes[0].n);
     add_transforms(counts, tiles, axes[1].n);

@@ -72,13 +72,13 @@ static pspec_status open_files(ps_power_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* On the sphere a set alone has a kernel of its own. Nobody waits for a second set of a stream, nor
- * for a second file. */
+/* A set alone has ways of its own. Nobody waits for a second set of a stream, nor for a second
+ * file. */
 static pspec_status count_sets(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     bool is_last = false;
-    if (question->on_sphere && job->num_realizations == 0 && question->source == NULL &&
-        question->num_paths == 1 && ps_source_can_rewind(job->sets.source)) {
+    if (job->num_realizations == 0 && question->source == NULL && question->num_paths == 1 &&
+        ps_source_can_rewind(job->sets.source)) {
         PS_TRY(ps_power_sets_is_last(&job->sets, &is_last, error));
         job->num_realizations = is_last ? 1 : 0;
     }

@@ -113,7 +113,6 @@ static double beginning_seconds(const ps_power_job *job) {
     all.planned_points = (uint64_t)ps_planned_points(&all);
     ps_problem beginning = all;
     beginning.num_points = PS_SELF_CHECK_POINTS;
-    beginning.num_realizations = 1;
     const ps_survey whole = chosen->engine->survey(&all, limits, chosen->precision);
     const ps_survey part = chosen->engine->survey(&beginning, limits, chosen->precision);
     return whole.why_not != NULL || part.why_not != NULL

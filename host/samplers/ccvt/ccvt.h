@@ -18,9 +18,9 @@
 #include <stdint.h>
 
 /* Points of a region: with fewer than the first they say nothing of areas, and a region of more
- * than the second is finer than anybody needs. All background points have numbers of 32 bits. */
+ * than the second is finer than anybody needs. Of all background points so many take a gigabyte. */
 enum { PS_CCVT_LEAST_CAPACITY = 4, PS_CCVT_MOST_CAPACITY = 1 << 14 };
-#define PS_CCVT_MOST_BACKGROUND (UINT64_C(1) << 31)
+#define PS_CCVT_MOST_BACKGROUND (UINT64_C(1) << 24)
 
 /* What torus and sphere have of their own. */
 typedef struct ps_ccvt_space {

@@ -137,10 +137,39 @@ static void only_with_caches(void **state) {
     ps_frequencies_free(&grid);
 }
 
+static ps_nufft_way way_for(const ps_frequencies *grid, size_t num_points,
+                            uint64_t num_realizations) {
+    const ps_problem problem = {.frequencies = grid,
+                                .num_points = num_points,
+                                .num_realizations = num_realizations,
+                                .tolerance = 1e-6};
+    const ps_nufft_choice choice =
+        ps_nufft_choose(&problem, ps_device_get_limits(device), PS_SINGLE);
+    return ps_nufft_way_of(&choice);
+}
+
+/* A set alone in strips would have one core; files may have any number of sets. Where the tiles of
+ * one set are more than a buffer may have, the engine has another way, and is not refused. */
+static void only_where_strips_pay(void **state) {
+    (void)state;
+    ps_frequencies grid = test_make_grid(2, 160);
+    assert_int_equal(way_for(&grid, 20000, 0), PS_NUFFT_STRIPS);
+    assert_int_equal(way_for(&grid, 20000, 2), PS_NUFFT_STRIPS);
+    assert_int_not_equal(way_for(&grid, 20000, 1), PS_NUFFT_STRIPS);
+    ps_frequencies_free(&grid);
+    assert_ok(ps_frequencies_lattice(&grid, 2, 4096, false, error));
+    const ps_problem problem = {
+        .frequencies = &grid, .num_points = 65536, .num_realizations = 100, .tolerance = 1e-6};
+    assert_int_not_equal(way_for(&grid, 65536, 100), PS_NUFFT_STRIPS);
+    assert_null(ps_torus_nufft.survey(&problem, ps_device_get_limits(device), PS_SINGLE).why_not);
+    ps_frequencies_free(&grid);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lengths_of_lines),
         cmocka_unit_test(only_with_caches),
+        cmocka_unit_test(only_where_strips_pay),
         cmocka_unit_test(agrees_with_direct_sums),
     };
     device = test_open_device();

@@ -176,7 +176,7 @@ static void what_cannot_be_made_is_refused(void **state) {
     assert_refused("ccvt-sphere:M=16385", 64, 3, "sampler ccvt-sphere: M: 16385 is not between");
     assert_refused("ccvt-sphere:M=6.5", 64, 3, "M");
     assert_refused("ccvt-sphere:M=many", 64, 3, "M");
-    assert_refused("ccvt", (size_t)1 << 24, 2, "with that M there are at most 8388608 points");
+    assert_refused("ccvt", (size_t)1 << 24, 2, "with that M there are at most 65536 points");
 }
 
 /* Against what bench_cells measured, to a factor of 2: a core of an EPYC. */

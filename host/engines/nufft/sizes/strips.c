@@ -1,6 +1,7 @@
 #include "engines/nufft/sizes/strips.h"
 
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/nufft/kernels.h"
 
 uint32_t ps_nufft_strip_columns(unsigned lanes) {
@@ -20,4 +21,10 @@ ps_nufft_strip_sizes ps_nufft_strips_measure(const ps_nufft_choice *choice, unsi
                                   .tile_reals = num_tiles * along->n * 2 * lanes,
                                   .window_reals = PS_NUFFT_CHUNK * ((size_t)ps_nufft_bins(across) +
                                                                     ps_nufft_bins(along) + 3)};
+}
+
+bool ps_nufft_strips_fit(const ps_nufft_choice *choice, ps_precision precision) {
+    const size_t most_bytes = 1 << 25;
+    return ps_nufft_strips_measure(choice, choice->lanes).tile_reals * ps_real_bytes(precision) <=
+           most_bytes;
 }

@@ -17,4 +17,8 @@ uint32_t ps_nufft_strip_columns(unsigned lanes);
 /* lanes: those of the device, or fewer. */
 ps_nufft_strip_sizes ps_nufft_strips_measure(const ps_nufft_choice *choice, unsigned lanes);
 
+/* Tiles of a realization belong to one core: false where they are more than 32 MiB, for several
+ * realizations have theirs at a time. */
+bool ps_nufft_strips_fit(const ps_nufft_choice *choice, ps_precision precision);
+
 #endif

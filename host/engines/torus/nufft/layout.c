@@ -108,7 +108,7 @@ static void measure_axes(ps_nufft_layout *layout) {
         layout->grid_cells =
             (size_t)layout->num_tiles * last[0].n * (2 * (size_t)last[1].max_frequency + 1);
     }
-    if (choice->is_gridded) {
+    if (ps_nufft_way_of(choice) == PS_NUFFT_LARGE) {
         layout->num_keys = choice->axes[0].n;
         layout->grid_reals = 1;
         for (unsigned i = 0; i < choice->num_axes; i++) {
@@ -253,15 +253,24 @@ static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
     count_whole(layout, problem, limits);
 }
 
-/* Sorted points, strips and tiles of work-groups. One of these for each core: tiles of one alone
- * are larger than its cache. */
+/* Strips and tiles of all work-groups together. */
+enum { MOST_STRIP_BYTES = 1 << 27 };
+
+static size_t choose_strip_groups(const ps_nufft_layout *layout, size_t cores) {
+    const size_t reals = layout->strips.strip_reals + layout->strips.tile_reals;
+    const size_t fitting = MOST_STRIP_BYTES / (reals * layout->real_bytes);
+    const size_t most = fitting < GROUPS_PER_CORE * cores ? fitting : GROUPS_PER_CORE * cores;
+    return layout->parts < most ? layout->parts : most;
+}
+
+/* Sorted points, strips and tiles of work-groups. */
 static void count_strips(ps_nufft_layout *layout, const ps_problem *problem,
                          const ps_device_limits *limits) {
     const size_t cores = ps_device_typical(limits).served_units;
     const unsigned dimension = problem->frequencies->dimension;
     const uint64_t part = part_bytes(layout, dimension);
     layout->parts = fitting_parts(problem, limits, (double)part, cores);
-    layout->groups = layout->parts < cores ? layout->parts : cores;
+    layout->groups = choose_strip_groups(layout, cores);
     const uint64_t strips = layout->groups * layout->strips.strip_reals * layout->real_bytes;
     const uint64_t tiles = layout->groups * layout->strips.tile_reals * layout->real_bytes;
     layout->fixed_bytes = layout->parts * part + strips + tiles + table_bytes(layout);

@@ -38,15 +38,22 @@ void ps_nufft_strips_free(ps_nufft_strips *strips) {
     PS_BUFFER((plan)->fft.radices), PS_BUFFER((plan)->fft.twiddles),                               \
         PS_BUFFER((plan)->fft.position), PS_BUFFER((plan)->gains)
 
+/* Work-groups: no more than there are cores. One that goes on to another realization has its tiles
+ * in the last cache still, 0.82 to 0.93 of the time of one for each (K = 256 and 512). */
+static size_t num_groups(const ps_nufft_strips *self, size_t num_realizations) {
+    const size_t cores = ps_device_get_limits(self->device)->compute_units;
+    const size_t most = self->layout->groups < cores ? self->layout->groups : cores;
+    return num_realizations < most ? num_realizations : most;
+}
+
 static ps_range range_of(const ps_nufft_strips *self, size_t num_realizations) {
     const ps_nufft_layout *layout = self->layout;
     const ps_nufft_axis *axes = layout->choice.axes;
     const double transforms = ps_fft_flops(axes[0].n) * axes[1].n / 2 +
                               ps_fft_flops(axes[1].n) * (double)layout->num_tiles * layout->lanes;
     const double spread = 2.0 * axes[0].window.width * axes[1].window.width;
-    const size_t groups = num_realizations < layout->groups ? num_realizations : layout->groups;
     return ps_range_alone(
-        groups, 1,
+        num_groups(self, num_realizations), 1,
         (double)num_realizations * transforms + spread * (double)self->places->num_points, 0);
 }
 

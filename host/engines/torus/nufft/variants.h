@@ -38,10 +38,10 @@ struct ps_nufft_state {
     size_t batch;
     ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
     ps_nufft_places places;
-    ps_nufft_grid large;  /* gridded choices only */
-    ps_nufft_whole whole; /* whole realizations */
+    ps_nufft_grid large; /* one of these, by the way of the choice */
+    ps_nufft_whole whole;
     ps_nufft_strips strips;
-    ps_nufft_tiles tiles; /* all others */
+    ps_nufft_tiles tiles;
     ps_buffer means, scales, power;
     double *means_of_parts;
     double large_sum; /* of the weights added so far */
