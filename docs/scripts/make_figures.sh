@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # make_figures.sh [BUILD_DIR]: makes docs/images/*.png anew from what the programs of BUILD_DIR
 # compute (default: build/release of this checkout; needs pointspec and bench/bench_torus there).
-# Four minutes on two cores; the times in torus_direct_time.png want a quiet machine.
+# Eight minutes on two cores; the times in torus_direct_time.png want a quiet machine.
 set -euo pipefail
 docs=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/..")
 build=$(realpath "${1:-$docs/../build/release}")
@@ -25,12 +25,12 @@ echo "figures: variance.png" >&2
 "$pointspec" variance --sampler jittered --sampler poisson-disk --sampler white --integrand disk:radius=0.25 \
     -n 16..4096 -m 200 --quiet -o variance.csv --plot "$images/variance.png"
 
-# Those of the scenes p15_figure4_variance.yaml and p15_figure5_variance.yaml: two minutes, unless sets of FPO are kept.
+# Those of the scenes p15_figure4_variance.yaml and p15_figure5_variance.yaml: three minutes, unless sets of FPO and ccvt-sphere are kept.
 echo "figures: p15_figure4_variance.png p15_figure5_variance.png" >&2
 "$pointspec" variance --sampler white --sampler jittered --sampler poisson-disk --sampler fpo --sampler bnot \
     --integrand gaussian:sigma=0.0625 --integrand disk:radius=0.25 -n 16,64,256,1024,4096 -m 40 --shifts 10 \
     --quiet -o variance.csv --plot "$images/p15_figure4_variance.png"
-"$pointspec" variance --sampler white-sphere --sampler healpix-jittered --sampler poisson-disk-sphere \
+"$pointspec" variance --sampler white-sphere --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere \
     --integrand harmonic:degree=4 --integrand cap -n 12,48,192,768 -m 200 \
     --quiet -o variance.csv --plot "$images/p15_figure5_variance.png"
 

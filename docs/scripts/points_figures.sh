@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15_figure*.png, pictures of points for
-# docs/user/samplers.md and of points and spectra for docs/samplers. Three minutes on two cores.
+# docs/user/samplers.md and of points and spectra for docs/samplers. Four minutes on two cores.
 set -euo pipefail
 pointspec=$(realpath "$1") folder=$2
 mkdir -p "$folder"/{points,spectra}
@@ -37,7 +37,7 @@ spectrum() { # NAME COMMAND SAMPLER...
     [[ $what == power ]] || size=(-n 3072 -l 222)
     "$pointspec" "$what" "${samplers[@]}" "${size[@]}" -m 200 --quiet -o "$scratch/rows.csv" --plot "$folder/$name.png"
 }
-spectrum p15_figure4 power jittered poisson-disk fpo bnot
+spectrum p15_figure4 power jittered poisson-disk fpo bnot step
 spectrum p15_figure5 angular white-sphere healpix-jittered poisson-disk-sphere ccvt-sphere
 spectrum spectra/poisson_disk power poisson-disk
 spectrum spectra/bridson power bridson

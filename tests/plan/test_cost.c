@@ -191,7 +191,8 @@ static void choice_at_few_degrees(void **state) {
 
 /* Every part that has cycles is counted somewhere: tiles in two and three dimensions, large grids
  * without and with pairs of numbers, a whole realization on a small grid and on one beyond the
- * nearest cache, strips whose tiles are beyond caches. What is not counted is never measured either (bench/cycles.c). */
+ * nearest cache, strips whose tiles are beyond caches. What is not counted is never measured either
+ * (bench/cycles.c). */
 static void every_part_is_counted(void **state) {
     (void)state;
     static const struct {
