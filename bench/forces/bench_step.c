@@ -65,7 +65,7 @@ static double time_device(set *s, ps_step_curves *curves, const char *selector) 
         BENCH_TRY(ps_step_pairs_count(&pairs, s->x, s->counts, NULL, error));
         ps_step_curves_measure(curves, s->counts);
         ps_step_curves_force(curves, s->table);
-        BENCH_TRY(ps_step_pairs_force(&pairs, s->table, s->force, NULL, error));
+        BENCH_TRY(ps_step_pairs_force(&pairs, s->x, s->table, s->force, NULL, error));
         seconds[k < 0 ? 0 : k] = bench_seconds() - begin;
     }
     ps_step_pairs_destroy(&pairs);

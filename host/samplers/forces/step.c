@@ -116,7 +116,7 @@ static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
         outcome->first = outcome->rounds == 0 ? off : outcome->first;
         judge(s, off);
         ps_step_curves_force(&s->curves, s->table);
-        PS_TRY(ps_step_pairs_force(&s->pairs, s->table, s->force, s->watch, error));
+        PS_TRY(ps_step_pairs_force(&s->pairs, s->x, s->table, s->force, s->watch, error));
         move(s);
         outcome->rounds++;
     }

@@ -194,10 +194,11 @@ static pspec_status fold(ps_step_pairs *p, double *force, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_step_pairs_force(ps_step_pairs *p, const double *table, double *force,
-                                 const ps_watch *watch, ps_error *error) {
+pspec_status ps_step_pairs_force(ps_step_pairs *p, const double *x, const double *table,
+                                 double *force, const ps_watch *watch, ps_error *error) {
     const size_t num_blocks = p->layout.num_blocks;
     const size_t at_once = rows_at_once(&p->layout);
+    PS_TRY(write_points(p, x, error)); /* which need not be those that were counted */
     PS_TRY(ps_buffer_write(p->device, &p->table, 0, table, p->table.bytes, error));
     for (size_t row = 0; row < num_blocks; row += at_once) {
         const size_t left = num_blocks - row;

@@ -28,9 +28,10 @@ void ps_step_pairs_destroy(ps_step_pairs *p);
 /* counts [num_bins] of pairs of points x [num][2] in [0,1) by distance, bins of [0, 1/2). */
 pspec_status ps_step_pairs_count(ps_step_pairs *p, const double *x, uint64_t *counts,
                                  const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
-/* force[i] = sum_j (x_i - x_j) table[bin] of the points that were counted last. table
- * [num_bins + 1], of which the last is 0: for what is farther. */
-pspec_status ps_step_pairs_force(ps_step_pairs *p, const double *table, double *force,
-                                 const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+/* force[i] = sum_j (x_i - x_j) table[bin], x as above. table [num_bins + 1], of which the last is
+ * 0: for what is farther. */
+pspec_status ps_step_pairs_force(ps_step_pairs *p, const double *x, const double *table,
+                                 double *force, const ps_watch *watch,
+                                 ps_error *error) PS_MUST_CHECK;
 
 #endif

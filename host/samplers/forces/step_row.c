@@ -53,7 +53,7 @@ const ps_sampler ps_sampler_step = {
     .minimum_points = PS_STEP_LEAST_POINTS,
     .parameters = {{"rounds", "10000",
                     "1 to 10000, moves of all points after which it ends with the best so far"}},
-    .version = 1,
+    .version = 2,
     .seconds = seconds,
     .is_deterministic = ps_sampler_never,
     .check = check,

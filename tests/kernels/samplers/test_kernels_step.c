@@ -30,15 +30,22 @@ static void make_table(size_t num_bins, double *table) {
     table[num_bins] = 0;
 }
 
+/* Forces are those of the points that are given, whichever were counted last. */
 static void run(size_t num, size_t num_bins, found *out) {
     double x[AXES * MOST];
+    double others[AXES * MOST];
+    uint64_t counts[MOST_BINS];
     double table[MOST_BINS + 1];
     ps_step_pairs pairs;
     fill(num, x);
     make_table(num_bins, table);
     assert_ok(ps_step_pairs_create(&pairs, device, num, num_bins, error));
     assert_ok(ps_step_pairs_count(&pairs, x, out->counts, NULL, error));
-    assert_ok(ps_step_pairs_force(&pairs, table, out->force, NULL, error));
+    for (size_t k = 0; k < AXES * num; k++) {
+        others[k] = x[k] / 2;
+    }
+    assert_ok(ps_step_pairs_count(&pairs, others, counts, NULL, error));
+    assert_ok(ps_step_pairs_force(&pairs, x, table, out->force, NULL, error));
     ps_step_pairs_destroy(&pairs);
 }
 
