@@ -1,6 +1,7 @@
 #include "samplers/forces/gaussian.h"
 
 #include "base/memory.h"
+#include "samplers/forces/need_doubles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -71,11 +72,6 @@ void ps_gaussian_destroy(ps_gaussian *g) {
     free(g->next_force);
 }
 
-static double wrap(double x) {
-    const double wrapped = x - floor(x);
-    return wrapped < 1 ? wrapped : 0;
-}
-
 /* Points of the step that is tried; returns the farthest move. */
 static double try_step(ps_gaussian *g) {
     const unsigned dimension = g->sums.dimension;
@@ -85,7 +81,7 @@ static double try_step(ps_gaussian *g) {
         for (unsigned axis = 0; axis < dimension; axis++) {
             const size_t at = i * dimension + axis;
             const double move = g->length * g->force[at];
-            g->next_x[at] = wrap(g->x[at] + move);
+            g->next_x[at] = ps_forces_wrap(g->x[at] + move);
             square += move * move;
         }
         farthest2 = square > farthest2 ? square : farthest2;

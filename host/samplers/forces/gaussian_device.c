@@ -1,6 +1,7 @@
 #include "samplers/forces/gaussian_device.h"
 
 #include "samplers/forces/gaussian_sums.h"
+#include "samplers/forces/need_doubles.h"
 
 #define PRECISION 64
 #include "samplers/gaussian.h"
@@ -15,20 +16,11 @@ static const double PAIRS_IN_PLANE = 310;
 static const double PAIRS_IN_SPACE = 4500;
 enum { POINTS_AT_ONCE = 1 << 13 };
 
-pspec_status ps_gaussian_device_check(const ps_device_limits *limits, ps_error *error) {
-    return limits->has_fp64
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_DEVICE,
-                         "sampler gaussian-blue-noise computes in double precision, which the "
-                         "device \"%s\" does not have; --device cpu names one that does",
-                         limits->name);
-}
-
 pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
                                        const ps_gaussian_sums *shape, ps_error *error) {
     char options[OPTION_BYTES];
     *d = (ps_gaussian_device){.device = device};
-    PS_TRY(ps_gaussian_device_check(ps_device_get_limits(device), error));
+    PS_TRY(ps_forces_need_doubles(ps_device_get_limits(device), "gaussian-blue-noise", error));
     snprintf(options, sizeof options, "-DPRECISION=64 -DDIMENSION=%u", shape->dimension);
     PS_TRY(ps_kernel_create(device, &d->kernel, "samplers/gaussian.cl", "gaussian_sums", options,
                             error));

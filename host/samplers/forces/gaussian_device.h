@@ -14,11 +14,8 @@ typedef struct ps_gaussian_device {
     ps_buffer points, begins, sums;
 } ps_gaussian_device;
 
-/* A device without double precision is refused with a sentence. */
-pspec_status ps_gaussian_device_check(const ps_device_limits *limits,
-                                      ps_error *error) PS_MUST_CHECK;
-
-/* For sets of that shape; destroy also after a failure. */
+/* For sets of that shape; a device without double precision is refused. Destroy also after a
+ * failure. */
 pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
                                        const ps_gaussian_sums *shape,
                                        ps_error *error) PS_MUST_CHECK;

@@ -1,6 +1,7 @@
 #include "samplers/forces/step.h"
 
 #include "base/memory.h"
+#include "samplers/forces/need_doubles.h"
 #include "samplers/forces/step_curves.h"
 #include "samplers/forces/step_pairs.h"
 
@@ -89,11 +90,6 @@ static void judge(search *s, double off) {
     }
 }
 
-static double wrap(double x) {
-    const double wrapped = x - floor(x);
-    return wrapped < 1 ? wrapped : 0;
-}
-
 static void move(search *s) {
     double most2 = 0;
     for (size_t i = 0; i < s->num; i++) {
@@ -103,7 +99,7 @@ static void move(search *s) {
     }
     const double scale = most2 > 0 ? s->length / sqrt((double)s->num * most2) : 0;
     for (size_t k = 0; k < AXES * s->num; k++) {
-        s->x[k] = wrap(s->x[k] + scale * s->force[k]);
+        s->x[k] = ps_forces_wrap(s->x[k] + scale * s->force[k]);
     }
 }
 

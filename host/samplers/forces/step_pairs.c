@@ -1,6 +1,7 @@
 #include "samplers/forces/step_pairs.h"
 
 #include "base/memory.h"
+#include "samplers/forces/need_doubles.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,15 +29,6 @@ static step_layout make_layout(size_t num, size_t num_bins) {
 /* Rows of tiles come in twos: the first and the last, and so on. */
 static size_t count_copies(const step_layout *layout) {
     return (layout->num_blocks + 1) / 2;
-}
-
-pspec_status ps_step_pairs_check(const ps_device_limits *limits, ps_error *error) {
-    return limits->has_fp64
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_DEVICE,
-                         "sampler step computes in double precision, which the device \"%s\" does "
-                         "not have; --device cpu names one that does",
-                         limits->name);
 }
 
 static pspec_status create_kernels(ps_step_pairs *p, ps_error *error) {
@@ -69,7 +61,7 @@ pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t nu
     *p = (ps_step_pairs){.device = device,
                          .layout = make_layout(num, num_bins),
                          .has_shared_counts = !ps_range_is_alone(device)};
-    PS_TRY(ps_step_pairs_check(ps_device_get_limits(device), error));
+    PS_TRY(ps_forces_need_doubles(ps_device_get_limits(device), "step", error));
     PS_TRY(create_kernels(p, error));
     return create_buffers(p, error);
 }

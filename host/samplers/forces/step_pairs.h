@@ -17,10 +17,7 @@ typedef struct ps_step_pairs {
     uint32_t *copies;    /* [(num_blocks + 1) / 2][num_bins + 1] */
 } ps_step_pairs;
 
-/* A device without double precision is refused with a sentence. */
-pspec_status ps_step_pairs_check(const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
-
-/* The device is borrowed; destroy also after a failure. */
+/* The device is borrowed, and refused without double precision; destroy also after a failure. */
 pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t num, size_t num_bins,
                                   ps_error *error) PS_MUST_CHECK;
 void ps_step_pairs_destroy(ps_step_pairs *p);

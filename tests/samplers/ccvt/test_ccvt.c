@@ -1,6 +1,7 @@
 /* Capacity-constrained sets: who owns what, sums that fall, places that are the best, neighbours,
  * the same bits for ever, what is refused. */
 #include "ccvt_cases.h"
+#include "stop_at_the_third.h"
 
 #include "files/digest.h"
 
@@ -266,12 +267,6 @@ static void few_points_are_made_as_well(void **state) {
             }
         }
     }
-}
-
-static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
-    unsigned *const calls = payload;
-    assert_non_null(report->phase);
-    return ++*calls == 3;
 }
 
 static void whoever_watches_may_stop_it(void **state) {

@@ -1,12 +1,14 @@
 /* Gaussian blue noise: energy and forces beside plain sums over images, an energy that only falls,
  * its bound, the numbers of its spectrum, the same bits for ever. */
 #include "set_spectra.h"
+#include "stop_at_the_third.h"
 #include "test_samplers.h"
 
 #include <string.h>
 
 #include "files/digest.h"
 #include "samplers/forces/gaussian.h"
+#include "samplers/forces/need_doubles.h"
 
 enum { MOST = 128, IMAGES = 9, SPACE_IMAGES = 5 };
 
@@ -262,11 +264,12 @@ static void a_device_without_double_precision_is_refused(void **state) {
     (void)state;
     ps_device_limits limits = {.name = "small GPU"};
     ps_error error = {0};
-    assert_int_equal(ps_gaussian_device_check(&limits, &error), PSPEC_ERROR_DEVICE);
+    assert_int_equal(ps_forces_need_doubles(&limits, "gaussian-blue-noise", &error),
+                     PSPEC_ERROR_DEVICE);
     assert_non_null(strstr(error.message, "small GPU"));
     assert_non_null(strstr(error.message, "--device cpu"));
     limits.has_fp64 = true;
-    assert_int_equal(ps_gaussian_device_check(&limits, &error), PSPEC_OK);
+    assert_int_equal(ps_forces_need_doubles(&limits, "gaussian-blue-noise", &error), PSPEC_OK);
 }
 
 /* Sets that are much work want one; few points do not. */
@@ -314,12 +317,6 @@ static void seconds_are_those_that_were_measured(void **state) {
                      ratio);
         }
     }
-}
-
-static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
-    unsigned *const calls = payload;
-    assert_non_null(report->phase);
-    return ++*calls == 3;
 }
 
 static void whoever_watches_may_stop_it(void **state) {

@@ -1,11 +1,13 @@
 /* Step blue noise: curves, the numbers of its spectrum, the same bits for ever, what is refused. */
 #include "set_spectra.h"
+#include "stop_at_the_third.h"
 #include "test_samplers.h"
 
 #include <string.h>
 
 #include "files/digest.h"
 #include "samplers/forces/step.h"
+#include "samplers/forces/need_doubles.h"
 #include "samplers/forces/step_curves.h"
 #include "samplers/forces/step_pairs.h"
 
@@ -172,11 +174,11 @@ static void a_device_without_double_precision_is_refused(void **state) {
     (void)state;
     ps_device_limits limits = {.name = "small GPU"};
     ps_error error = {0};
-    assert_int_equal(ps_step_pairs_check(&limits, &error), PSPEC_ERROR_DEVICE);
+    assert_int_equal(ps_forces_need_doubles(&limits, "step", &error), PSPEC_ERROR_DEVICE);
     assert_non_null(strstr(error.message, "small GPU"));
     assert_non_null(strstr(error.message, "--device cpu"));
     limits.has_fp64 = true;
-    assert_int_equal(ps_step_pairs_check(&limits, &error), PSPEC_OK);
+    assert_int_equal(ps_forces_need_doubles(&limits, "step", &error), PSPEC_OK);
 }
 
 static void the_row_makes_the_same(void **state) {
@@ -222,12 +224,6 @@ static void rounds_may_be_few(void **state) {
     assert_memory_not_equal(points, start, sizeof start);
     free(points);
     assert_true(ps_sampler_seconds(&one) < ps_sampler_seconds(&some));
-}
-
-static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
-    unsigned *const calls = payload;
-    assert_non_null(report->phase);
-    return ++*calls == 3;
 }
 
 static void whoever_watches_may_stop_it(void **state) {

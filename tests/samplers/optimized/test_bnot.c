@@ -1,6 +1,7 @@
 /* BNOT: equal areas, points at centroids, the numbers of its spectrum, the same bits for ever. */
 #include "brute_cells.h"
 #include "set_spectra.h"
+#include "stop_at_the_third.h"
 
 #include <string.h>
 
@@ -138,12 +139,6 @@ static void what_cannot_be_made_is_refused(void **state) {
         assert_non_null(strstr(error.message, "eps"));
     }
     assert_int_equal(ps_bnot_check(16, 0.02, &error), PSPEC_OK);
-}
-
-static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
-    unsigned *const calls = payload;
-    assert_non_null(report->phase);
-    return ++*calls == 3;
 }
 
 static void whoever_watches_may_stop_it(void **state) {

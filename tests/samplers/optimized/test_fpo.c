@@ -2,6 +2,7 @@
  * the numbers of its spectrum, the same bits for ever. */
 #include "brute_cells.h"
 #include "set_spectra.h"
+#include "stop_at_the_third.h"
 
 #include <string.h>
 
@@ -167,12 +168,6 @@ static void what_cannot_be_made_is_refused(void **state) {
     }
     assert_int_equal(ps_fpo_optimise(16, 0.9, &random, NULL, points, NULL, &error),
                      PSPEC_ERROR_INPUT);
-}
-
-static int stop_at_the_third(const pspec_progress_report *report, void *payload) {
-    unsigned *const calls = payload;
-    assert_non_null(report->phase);
-    return ++*calls == 3;
 }
 
 static void whoever_watches_may_stop_it(void **state) {

@@ -4,6 +4,7 @@
  * one work-group does several realizations.
  */
 #include "harness_kernels.h"
+#include "window_cells.h"
 
 #include "engines/nufft/grid_axis.h"
 #include "engines/nufft/kernels.h"
@@ -15,8 +16,6 @@
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
-
-__extension__ typedef unsigned __int128 wide;
 
 static ps_device *device;
 static uint64_t seed = 14;
@@ -56,27 +55,6 @@ typedef struct strips_data {
 
 /* ---- points ------------------------------------------------------------------------------ */
 
-/* The first of the cells that the window of x covers, and where it stands between cells: as
- * kernels/nufft/cells.h has it, but in all bits. */
-static uint32_t first_cell(const ps_nufft_axis *axis, uint64_t x, double *fraction) {
-    const wide half = (wide)1 << 63;
-    const wide y = (wide)x * axis->n + half * (2 * (wide)axis->n + 2 - axis->window.width);
-    *fraction = (double)(uint64_t)y * 0x1p-64;
-    return (uint32_t)(y >> 64) % axis->n;
-}
-
-/* The least x whose window begins in the cell. */
-static uint64_t first_in_cell(const ps_nufft_axis *axis, uint32_t cell) {
-    const wide half = (wide)1 << 63;
-    const wide y = half * (2 * ((wide)cell + axis->n) + axis->window.width - 2);
-    return (uint64_t)((y + axis->n - 1) / axis->n);
-}
-
-static uint64_t random_u64(void) {
-    const uint64_t high = (uint64_t)(test_uniform(&seed) * 0x1p32);
-    return high << 32 | (uint64_t)(test_uniform(&seed) * 0x1p32);
-}
-
 /* Ends of the torus, borders of strips (those of axis 0 are cells) and anywhere. */
 static uint64_t random_coordinate(const ps_nufft_axis *axis, uint32_t columns) {
     enum { KINDS = 4 };
@@ -88,7 +66,7 @@ static uint64_t random_coordinate(const ps_nufft_axis *axis, uint32_t columns) {
         return first_in_cell(axis, (uint32_t)(test_uniform(&seed) * axis->n) / columns * columns) -
                less;
     default:
-        return random_u64();
+        return random_u64(&seed);
     }
 }
 

@@ -4,6 +4,7 @@
  * the torus, too; what was on the grid stays there.
  */
 #include "harness_kernels.h"
+#include "window_cells.h"
 
 #include "engines/torus/nufft/local.h"
 #include "nufft/boxes.h"
@@ -11,8 +12,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-__extension__ typedef unsigned __int128 wide;
 
 static ps_device *device;
 static uint64_t seed = 12;
@@ -70,27 +69,6 @@ static unsigned first_axis(const boxes_case *one) {
 
 /* ---- points ------------------------------------------------------------------------------ */
 
-/* The first of the cells that the window of x covers, and where it stands between cells: as
- * kernels/nufft/cells.h has it, but in all bits. */
-static uint32_t first_cell(const ps_nufft_axis *axis, uint64_t x, double *fraction) {
-    const wide half = (wide)1 << 63;
-    const wide y = (wide)x * axis->n + half * (2 * (wide)axis->n + 2 - axis->window.width);
-    *fraction = (double)(uint64_t)y * 0x1p-64;
-    return (uint32_t)(y >> 64) % axis->n;
-}
-
-/* The least x whose window begins in the cell. */
-static uint64_t first_in_cell(const ps_nufft_axis *axis, uint32_t cell) {
-    const wide half = (wide)1 << 63;
-    const wide y = half * (2 * ((wide)cell + axis->n) + axis->window.width - 2);
-    return (uint64_t)((y + axis->n - 1) / axis->n); /* what is above 1 falls off */
-}
-
-static uint64_t random_u64(void) {
-    const uint64_t high = (uint64_t)(test_uniform(&seed) * 0x1p32);
-    return high << 32 | (uint64_t)(test_uniform(&seed) * 0x1p32);
-}
-
 /* Borders of boxes, borders of cells, ends of the torus; else anywhere. */
 static uint64_t random_coordinate(const ps_nufft_axis *axis, uint32_t boxes, uint32_t per_cell) {
     enum { KINDS = 6 };
@@ -104,7 +82,7 @@ static uint64_t random_coordinate(const ps_nufft_axis *axis, uint32_t boxes, uin
         return first_in_cell(axis, box_begin((uint32_t)(test_uniform(&seed) * boxes), per_cell)) -
                less;
     default:
-        return random_u64();
+        return random_u64(&seed);
     }
 }
 
@@ -117,7 +95,7 @@ static place make_place(const boxes_case *one, const ps_nufft_layout *layout, si
     for (unsigned i = 0; i < one->dimension; i++) {
         const ps_nufft_axis *axis = &layout->choice.axes[i];
         const unsigned own = first_axis(one) + i;
-        made.x[i] = j < CLUSTER ? first_in_cell(axis, axis->n - 1) + random_u64() / axis->n
+        made.x[i] = j < CLUSTER ? first_in_cell(axis, axis->n - 1) + random_u64(&seed) / axis->n
                                 : random_coordinate(axis, layout->boxes.num[own],
                                                     layout->boxes.per_cell[own]);
     }
