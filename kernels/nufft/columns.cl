@@ -3,13 +3,13 @@
  *
  *   numbers    powers_numbers of nufft/numbers.h
  *   grid       [realization][tile][column][row][re, im][LANES], columns -K .. K of the axis along rows
- *   radices, twiddles, position, gains  of nufft/finish.h, of the axis across rows
+ *   radices, twiddles, position, gains  of nufft/transform/finish.h, of the axis across rows
  *   column_gains [column_K + 1], of the axis along rows
  *   scales     [realization]
  *   power      [realization][stride], there from first_power on [tile][column][2K + 1][LANES]
  *   column     local, [n][re, im][LANES]
  */
-#include "nufft/finish.h"
+#include "nufft/transform/finish.h"
 #include "nufft/numbers.h"
 
 __kernel void

@@ -3,13 +3,13 @@
  *
  *   numbers    powers_numbers of nufft/numbers.h
  *   rows       [tile][row][n][re, im][LANES]
- *   radices, twiddles, position, gains, n, K  of nufft/finish.h, of the axis along rows
+ *   radices, twiddles, position, gains, n, K  of nufft/transform/finish.h, of the axis along rows
  *   scales     [realization]
  *   power      [realization][stride], there from first_power on [tile][2K + 1][LANES]
  *   grid       [tile][column -K .. K][row][re, im][LANES]
  *   row        local, [n][re, im][LANES]
  */
-#include "nufft/finish.h"
+#include "nufft/transform/finish.h"
 #include "nufft/numbers.h"
 
 static inline void load_row(__local real *row, __global const real *rows, const size_t index,

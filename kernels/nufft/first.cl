@@ -1,18 +1,18 @@
 /* The transform along axis 0 of a grid of real numbers (nufft/boxes.cl). Launch: (work-items of one
  * group, groups of 2 LANES columns).
  *
- * Lanes are neighbouring columns here (nufft/halves.h). The result is turned, so that lanes are
- * frequencies, as nufft/finish.cl wants it.
+ * Lanes are neighbouring columns here (nufft/transform/halves.h). The result is turned, so that
+ * lanes are frequencies, as nufft/finish.cl wants it.
  *
  *   numbers    first_numbers of nufft/numbers.h
  *   high, low  [cell of axis 0][column], pairs, or high alone without PAIRS; some columns: cells of all other axes, a multiple of 2 LANES
  *   mean       taken off every cell: frequency 0
- *   radices, twiddles, position  of nufft/finish.h; gains [K + 1]: 1 / squared transform of the window
+ *   radices, twiddles, position  of nufft/transform/finish.h; gains [K + 1]: 1 / squared transform of the window
  *   rows       [tile][column][re, im][LANES]: frequencies tile LANES + lane from first_tile on; what exceeds K is 0;
  *              all_columns of them, these from first_column on
  *   cells      local, [n][re, im][LANES]
  */
-#include "nufft/halves.h"
+#include "nufft/transform/halves.h"
 #include "nufft/numbers.h"
 
 #ifndef PAIRS

@@ -42,7 +42,7 @@ typedef struct sort_numbers {
 typedef struct tile_numbers {
     ps_u64 stride; /* of rows of powers */
     axis_numbers along;
-    ps_u32 first_row; /* of powers and scales */
+    ps_u32 first_row; /* of powers, scales and lines */
     ps_u32 base;      /* the first frequency of tile 0 */
     ps_u32 num_tiles, group, dimension, K;
 } tile_numbers;
@@ -50,7 +50,17 @@ typedef struct tile_numbers {
 typedef struct rows_numbers {
     axis_numbers across, along; /* of rows */
     ps_u32 base, num_tiles, group, K;
+    ps_u32 first_row; /* of lines */
 } rows_numbers;
+
+/* lines.cl, whose transform is that of the axis along its rows */
+typedef struct line_numbers {
+    ps_u64 stride; /* of rows of powers */
+    ps_u64 first_power;
+    transform_numbers transform;
+    ps_u32 first_row; /* of powers and scales */
+    ps_u32 num_realizations;
+} line_numbers;
 
 typedef struct first_numbers {
     ps_u64 columns, first_column, all_columns; /* that are there, in the grid, of the grid */
@@ -69,7 +79,8 @@ typedef struct powers_numbers {
 
 SAME_SIZE(sort_numbers, 88);
 SAME_SIZE(tile_numbers, 64);
-SAME_SIZE(rows_numbers, 80);
+SAME_SIZE(rows_numbers, 88);
+SAME_SIZE(line_numbers, 32);
 SAME_SIZE(first_numbers, 40);
 SAME_SIZE(powers_numbers, 32);
 

@@ -9,7 +9,7 @@
 #define PS_NUFFT_PHASE_H
 
 #include "nufft/cells.h"
-#include "nufft/butterfly.h"
+#include "nufft/transform/butterfly.h"
 #include "shared/turn.h"
 
 __constant word lane_numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};

@@ -13,4 +13,7 @@
 #define PLACE_UNIT 16
 #define GAP 4
 
+/* Points that are spread together; PLACE_UNIT is a multiple of it, and LANES divides it. */
+#define CHUNK 16
+
 #endif

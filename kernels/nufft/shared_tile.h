@@ -5,7 +5,7 @@
 #ifndef PS_NUFFT_SHARED_TILE_H
 #define PS_NUFFT_SHARED_TILE_H
 
-#include "nufft/finish.h"
+#include "nufft/transform/finish.h"
 
 /* lanes: of a realization; first_lane: of this one; k: frequency of its first lane */
 typedef struct shared_tile {
@@ -25,7 +25,7 @@ static inline void put_lanes(__global real *to, const realv x) {
 }
 
 /* Collects, for 2 LANES columns that were transformed at `cells`, what turn_halves() of
- * nufft/halves.h makes of these lanes. */
+ * nufft/transform/halves.h makes of these lanes. */
 static inline void collect_columns(const shared_tile to, const uint column,
                                    FFT_SPACE const real *cells, const size_t apart,
                                    const transform_axis axis) {

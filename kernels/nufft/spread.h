@@ -15,13 +15,10 @@
 #ifndef PS_NUFFT_SPREAD_H
 #define PS_NUFFT_SPREAD_H
 
-#include "nufft/fft.h"
+#include "nufft/transform/fft.h"
 #include "nufft/phase.h"
 #include "nufft/place.h"
 #include "nufft/window.h"
-
-/* Points of a chunk; PLACE_UNIT is a multiple of it, and LANES divides it. */
-#define CHUNK 16
 
 /* Local memory of a chunk. */
 typedef struct chunk {

@@ -9,7 +9,7 @@
  *   numbers    of nufft/strips.h; their names are used here
  *   places, sorted, heights, starts  of nufft/sort.cl, sorted by cells of axis 1
  *   across_window, along_window  of nufft/window.h
- *   first_*, second_*  of transforms, nufft/finish.h: along axis 0, which is across rows, and axis 1
+ *   first_*, second_*  of transforms, nufft/transform/finish.h: along axis 0, which is across rows, and axis 1
  *   first_gains, second_gains  [K + 1]: 1 / squared transform of the window
  *   means      [realization]: taken off every cell: frequency 0
  *   scales     [realization]
@@ -21,7 +21,7 @@
 #define ALONE 1
 #define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
-#include "nufft/halves.h"
+#include "nufft/transform/halves.h"
 #include "nufft/strips.h"
 
 typedef struct strip_place {
@@ -76,7 +76,7 @@ static inline void fold_strip(const strip_place strip, const real mean, const ui
 }
 
 /* Gains of the frequencies of a tile, nothing beyond K. Frequencies are twice what they should be,
- * nufft/halves.h. */
+ * nufft/transform/halves.h. */
 static inline realv gains_of_tile(__global const real *gains, const uint k, const uint K) {
     real of[LANES];
     for (uint i = 0; i < LANES; i++) {

@@ -9,11 +9,11 @@
  *   numbers    of nufft/whole.h; their names are used here
  *   points, weights, offsets  of engines/torus/torus_points.h
  *   across_window, along_window  of nufft/window.h; in one dimension there is none across
- *   first_*, second_*  of transforms, nufft/finish.h
+ *   first_*, second_*  of transforms, nufft/transform/finish.h
  *   lane_turns [second_n][re, im][LANES], tile_turns [tile][second_n][re, im]: in one dimension, the factors
  *              above of k_1 = lane and of k_1 = tile LANES
  *   gains      [tile][2 second_K + 1][LANES]: 1 / squared transform of the window, a quarter of it (frequencies are
- *              twice what they should be, nufft/halves.h), 0 where nothing is asked for
+ *              twice what they should be, nufft/transform/halves.h), 0 where nothing is asked for
  *   means      [realization]: taken off every cell: frequency 0
  *   scales     [realization]
  *   power      [realization][stride], there as gains
@@ -24,7 +24,7 @@
  */
 #define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
-#include "nufft/halves.h"
+#include "nufft/transform/halves.h"
 #include "nufft/shared_tile.h"
 #include "nufft/whole.h"
 

@@ -1,4 +1,5 @@
-/* Transforms alone: one work-group for each LANES of them, so that tests can look at nufft/fft.h.
+/* Transforms alone: one work-group for each LANES of them, so that tests can look at
+ * nufft/transform/fft.h.
  * Launch: (work-items of one group, groups).
  *
  *   data    [group][length][re, im][LANES]
@@ -6,7 +7,7 @@
  *   radices, twiddles, position  of host/engines/nufft/fft.c
  *   row     local, [length][re, im][LANES]
  */
-#include "nufft/fft.h"
+#include "nufft/transform/fft.h"
 
 __kernel void probe_fft(__global const real *restrict data, __global real *restrict result,
                         const uint length, __global const uint *restrict radices,

@@ -29,7 +29,7 @@ breaks pairs/walk.h 'fma((realv)inverses[i], e, p)' 'p + (realv)((float)inverses
 # exponents of numbers too small for a float
 breaks sphere/scaled.h 'high < (realv)SCALED_LOW ? x->scale - (swordv)1 : x->scale' x-\>scale high-degree-white sphere_direct single
 # a twiddle factor of the wrong sign
-breaks nufft/butterfly.h '(complexv){a.re + b.im, a.im - b.re}' '(complexv){a.re - b.im, a.im + b.re}' white torus_nufft single
+breaks nufft/transform/butterfly.h '(complexv){a.re + b.im, a.im - b.re}' '(complexv){a.re - b.im, a.im + b.re}' white torus_nufft single
 # an index off by one
 breaks torus/fold.cl 'uint chunk = 0' 'uint chunk = 1' white torus_direct single
 # barriers that do not wait: CPUs need work-groups of more than one work-item to tell

@@ -1,4 +1,5 @@
-/* nufft/fft.h alone: every length without prime factors above 7 up to MOST, and large ones, against
+/* nufft/transform/fft.h alone: every length without prime factors above 7 up to MOST, and large
+ * ones, against
  * long double sums, each lane with numbers of its own; impulses; work-groups of one item and of
  * several, equal to the bit; tables of plans.
  *
@@ -286,8 +287,8 @@ static void positions(void **state) {
     }
 }
 
-/* As nufft/fft.h reads them: [pass][t][j - 1] of a transform of the length that is left, each
- * correctly rounded (or nearly, where long double decides a tie). */
+/* As nufft/transform/fft.h reads them: [pass][t][j - 1] of a transform of the length that is left,
+ * each correctly rounded (or nearly, where long double decides a tie). */
 static void check_twiddles(uint32_t length) {
     uint32_t radices[PS_FFT_MAX_PASSES];
     ps_fft_plan plan = {0};

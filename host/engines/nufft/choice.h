@@ -27,7 +27,8 @@ enum { PS_NUFFT_MOST_CHUNK_POINTS = 1 << 21 };
 typedef struct ps_nufft_choice {
     unsigned lanes; /* whose cost counts: those of the device, nominal ones where it has none */
     unsigned num_axes;
-    uint32_t span;       /* frequencies of axis 0 by direct phases */
+    uint32_t span;       /* frequencies of axis 0 by direct phases, */
+    bool has_line;       /* but frequency 0, which is real: kernels/nufft/line.h */
     uint32_t stride;     /* the same where axis 0 has a transform, else 0 */
     bool is_gridded;     /* axis 0 is the first of the axes, spread like the others */
     bool is_in_strips;   /* gridded, kernels/nufft/strips.cl */
@@ -58,7 +59,8 @@ static inline ps_nufft_way ps_nufft_way_of(const ps_nufft_choice *choice) {
 /* The axes whose transforms make powers of tiles: all, but for axis 0 of a grid. */
 const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num);
 
-/* The first frequency of axis 0 in tile 0. */
+/* Frequencies of axis 0 in tiles, and the first in tile 0. */
+uint32_t ps_nufft_tiled(const ps_nufft_choice *choice);
 uint32_t ps_nufft_base(const ps_nufft_choice *choice);
 
 #endif

@@ -4,6 +4,7 @@
 #include "engines/nufft/cost.h"
 #include "engines/nufft/error.h"
 #include "engines/nufft/fft.h"
+#include "engines/nufft/sizes/lines.h"
 #include "engines/nufft/sizes/strips.h"
 #include "engines/nufft/whole_shape.h"
 
@@ -393,5 +394,6 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits 
             consider_grids(&best, &choice, problem, precision);
         }
     }
+    best.choice.has_line = ps_nufft_lines_pay(&best.choice, problem, limits);
     return best.choice;
 }

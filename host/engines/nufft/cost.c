@@ -74,6 +74,24 @@ static void count_tiles(ps_nufft_counts *counts, const ps_nufft_choice *choice, 
     }
 }
 
+/* A line of frequency 0, of which realizations share transforms: places that are added to it, and
+ * its part of a tile, half of whose columns are kept. */
+static void count_line(ps_nufft_counts *counts, const ps_nufft_choice *choice, double visits) {
+    unsigned num = 0;
+    const ps_nufft_axis *axes = ps_nufft_last_axes(choice, &num);
+    const ps_nufft_axis *last = &axes[num - 1];
+    const double rows = num == 1 ? 1 : axes[0].n;
+    const double vectors = (double)ps_nufft_bins(last) / choice->lanes;
+    add(counts, PS_NUFFT_VALUE, visits);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, visits * (last->window.width + 2.0) * vectors);
+    add(counts, PS_NUFFT_WHOLE_ROW, visits * fmax(1, vectors));
+    add(counts, PS_NUFFT_CLEARED, rows * last->n);
+    add_transforms(counts, rows / choice->lanes, last->n);
+    if (num > 1) {
+        add_transforms(counts, (last->max_frequency + 1.0) / choice->lanes, axes[0].n);
+    }
+}
+
 /* Places that are filled for the num_points points of a list, in mean: lists go through whole
  * chunks. */
 static double filled_places(double num_points) {
@@ -100,6 +118,9 @@ static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choi
         visits * groups * last->window.width * degree / choice->lanes);
     add(counts, PS_NUFFT_VALUE, visits * num_tiles);
     add(counts, PS_NUFFT_TOUCHED, visits * num_tiles * touched);
+    if (choice->has_line) {
+        count_line(counts, choice, visits);
+    }
 }
 
 /* Cells of a row that a point is added to, kernels/nufft/chunk.h. */
@@ -242,7 +263,7 @@ ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision preci
     }
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
-    const double num_tiles = (double)ps_divide_up(choice->span, choice->lanes) * narrower;
+    const double num_tiles = (double)ps_divide_up(ps_nufft_tiled(choice), choice->lanes) * narrower;
     add(&counts, PS_NUFFT_SORTED, num_points);
     count_tiles(&counts, choice, num_tiles);
     if (choice->is_gridded) {

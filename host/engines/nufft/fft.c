@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 /* Large radices first: the fewest passes over memory. Additions and multiplications (a fused
- * operation is two) of each butterfly as kernels/nufft/butterfly.h writes it. */
+ * operation is two) of each butterfly as kernels/nufft/transform/butterfly.h writes it. */
 static const struct {
     uint32_t radix;
     double flops;

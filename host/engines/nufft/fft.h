@@ -1,5 +1,5 @@
-/* Plans of Fourier transforms (kernels/nufft/fft.h): lengths without prime factors above 7, the
- * radices of their passes, their twiddle factors, what they cost.
+/* Plans of Fourier transforms (kernels/nufft/transform/fft.h): lengths without prime factors above
+ * 7, the radices of their passes, their twiddle factors, what they cost.
  */
 #ifndef PS_ENGINES_NUFFT_FFT_H
 #define PS_ENGINES_NUFFT_FFT_H
@@ -30,7 +30,7 @@ double ps_fft_cycles(uint32_t length);
 /* Cell where the result of frequency k = 0 .. length - 1 stands. */
 uint32_t ps_fft_position(uint32_t length, const uint32_t *radices, uint32_t k);
 
-/* On the device, as in kernels/nufft/fft.h: radices, twiddles, position. */
+/* On the device, as in kernels/nufft/transform/fft.h: radices, twiddles, position. */
 typedef struct ps_fft_plan {
     uint32_t length;
     ps_buffer radices, twiddles, position;

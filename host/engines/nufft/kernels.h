@@ -5,7 +5,8 @@
 enum {
     PS_NUFFT_PLACE_UNIT = 16, /* place.h: a realization fills whole units of places */
     PS_NUFFT_GAP = 4,         /* place.h: zeros on either side of a window */
-    PS_NUFFT_CHUNK = 16       /* spread.h: points that are spread together */
+    PS_NUFFT_CHUNK = 16,      /* place.h: points that are spread together */
+    PS_NUFFT_LINE_ROWS = 4    /* line.h: rows on which they are, in turn */
 };
 
 #endif

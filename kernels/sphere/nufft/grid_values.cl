@@ -9,7 +9,7 @@
  *   numbers    of numbers.h; their names are used here
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   window     of nufft/window.h, the same on both axes
- *   radices, twiddles, position  of nufft/fft.h, of length n / 2
+ *   radices, twiddles, position  of nufft/transform/fft.h, of length n / 2
  *   gains      [L + 1][3]: around_gains of orders.cl
  *   begins     [order][even, odd l - m][most_runs] of grid_begins.cl: values that do not count are left alone
  *   grids      [slot][n + width][pitch], and LANES numbers in front and behind; angle (i + 1/2) 2 pi / n is cell

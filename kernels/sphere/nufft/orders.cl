@@ -12,7 +12,7 @@
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   numbers    of orders.h; their names are used here
  *   window     of nufft/window.h, the same on both axes
- *   radices, twiddles, position        of nufft/fft.h, of length n / 2
+ *   radices, twiddles, position        of nufft/transform/fft.h, of length n / 2
  *   ring_radices, ring_twiddles, ring_position  of length `rings` / 2, above L
  *   turns, ring_turns  [n / 2], [num_rings] [cosine, sine] of -2 pi i / n, -2 pi i / rings
  *   around_gains [L + 1][3]: g, and g exp(-2 pi i m / n) / i, with g = 1/2 over the transform of the window

@@ -11,7 +11,7 @@
 /* Rows of high degrees are longer than local memory. */
 #define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
-#include "nufft/fft.h"
+#include "nufft/transform/fft.h"
 #include "sphere/bands.h"
 #include "shared/transpose.h"
 

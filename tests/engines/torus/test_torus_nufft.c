@@ -4,6 +4,7 @@
 #include "harness_shapes.h"
 
 #include "engines/host/host_direct.h"
+#include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"
 
 #include <math.h>
@@ -25,17 +26,18 @@ static double tolerance_of(ps_precision precision) {
 
 /* ---- bits -------------------------------------------------------------------------------- */
 
-enum { REALIZATIONS = 3 };
+enum { MOST_SETS = 19 };
 
 typedef struct sample {
     ps_frequencies grid;
     size_t num;
-    pspec_pattern patterns[REALIZATIONS];
+    pspec_pattern patterns[MOST_SETS];
 } sample;
 
-/* Realization r has 1 + (step r) % most points. */
-static sample make_sample(unsigned dimension, size_t num, size_t step, size_t most) {
-    sample self = {.grid = test_make_grid(dimension, reach[dimension]), .num = num};
+/* K by dimension. Realization r has 1 + (step r) % most points. */
+static sample make_sample(unsigned dimension, const int32_t *largest, size_t num, size_t step,
+                          size_t most) {
+    sample self = {.grid = test_make_grid(dimension, largest[dimension]), .num = num};
     for (size_t r = 0; r < num; r++) {
         const test_shape *shape = &test_shapes[r % 3 == 1 ? TEST_SIGNED_WEIGHTS : TEST_WHITE];
         self.patterns[r] = test_make_pattern(shape, dimension, 1 + r * step % most, 100 + r);
@@ -69,7 +71,7 @@ static void work_groups(void **state) {
     static const size_t sizes[2][3] = {{32, 64}, {8}};
     for (unsigned dimension = 1; dimension <= 3; dimension++) {
         for (size_t i = 0; i < sizeof most / sizeof most[0]; i++) {
-            sample some = make_sample(dimension, 3, most[i] - 2, most[i]);
+            sample some = make_sample(dimension, reach, 3, most[i] - 2, most[i]);
             for (size_t p = 0; p < num_precisions(); p++) {
                 double *expected = run_sample(&some, precisions[p], some.num);
                 for (size_t s = 0; s < 3 && sizes[p][s] > 0; s++) {
@@ -81,6 +83,83 @@ static void work_groups(void **state) {
             }
             free_sample(&some);
         }
+    }
+}
+
+/* ---- lines ------------------------------------------------------------------------------- */
+
+/* More than there are lanes. */
+enum { LINE_SETS = MOST_SETS, LINE_POINTS = 60 };
+
+/* Multiples of the lanes of any device, by dimension: frequency 0 of axis 0 has a line. */
+static const int32_t line_reach[4] = {0, 0, 48, 16};
+
+/* Not on GPUs, which have none. */
+static void assert_has_line(const ps_frequencies *grid, ps_precision precision) {
+    const ps_problem problem = {.frequencies = grid,
+                                .num_points = LINE_POINTS,
+                                .num_realizations = LINE_SETS,
+                                .tolerance = tolerance_of(precision)};
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const ps_nufft_layout layout = ps_nufft_layout_make(&problem, limits, precision);
+    assert_int_equal(ps_nufft_way_of(&layout.choice), PS_NUFFT_TILES);
+    assert_int_equal(layout.choice.has_line, !limits->has_dedicated_local_memory);
+}
+
+/* One frequency may be off by several times the root mean square that tolerances are about. */
+static const double single_frequency = 8;
+
+static void check_powers(const sample *self, ps_precision precision, const double *found,
+                         const double *expected) {
+    const ps_frequencies *grid = &self->grid;
+    for (size_t i = 0; i < self->num * grid->num; i++) {
+        const double sum = test_sum_of_squares(&self->patterns[i / grid->num]);
+        const double allowed = single_frequency * tolerance_of(precision) * sqrt(sum);
+        const double size = sqrt(expected[i]);
+        if (!(fabs(sqrt(found[i]) - size) <= allowed * fmax(1, size / 8))) {
+            const int32_t *k = grid->vectors + i % grid->num * grid->dimension;
+            fail_msg("d=%u %s: set %zu at (%d, %d, ..) has |S| %g, not %g", grid->dimension,
+                     ps_precision_name(precision), i / grid->num, (int)k[0], (int)k[1],
+                     sqrt(found[i]), size);
+        }
+    }
+}
+
+/* Of the first sets: groups of many items take PoCL long. */
+static void check_groups(sample *some) {
+    const size_t all = some->num;
+    some->num = 2;
+    for (size_t p = 0; p < num_precisions(); p++) {
+        double *expected = run_sample(some, precisions[p], some->num);
+        ps_device_set_group_size(device, precisions[p] == PS_SINGLE ? 32 : 8);
+        check_same(some, run_sample(some, precisions[p], some->num), expected);
+        ps_device_set_group_size(device, 0);
+        free(expected);
+    }
+    some->num = all;
+}
+
+/* All frequencies are right, sets with signed weights among them, and the same to the bit in
+ * batches that end within a vector, and where the items of a group share cells. */
+static void lines(void **state) {
+    (void)state;
+    static const size_t batches[] = {1, 5, LINE_SETS - 1};
+    for (unsigned dimension = 2; dimension <= 3; dimension++) {
+        sample some = make_sample(dimension, line_reach, LINE_SETS, 13, LINE_POINTS);
+        double *expected = test_run_engine(&ps_host_direct, PS_EXTENDED, NULL, &some.grid,
+                                           some.patterns, some.num, some.num);
+        for (size_t p = 0; p < num_precisions(); p++) {
+            assert_has_line(&some.grid, precisions[p]);
+            double *found = run_sample(&some, precisions[p], some.num);
+            check_powers(&some, precisions[p], found, expected);
+            for (size_t b = 0; b < sizeof batches / sizeof batches[0]; b++) {
+                check_same(&some, run_sample(&some, precisions[p], batches[b]), found);
+            }
+            free(found);
+        }
+        check_groups(&some);
+        free(expected);
+        free_sample(&some);
     }
 }
 
@@ -110,9 +189,6 @@ static void white_noise(void **state) {
     free(found);
     ps_frequencies_free(&grid);
 }
-
-/* One frequency may be off by several times the root mean square that tolerances are about. */
-static const double single_frequency = 8;
 
 /* |S| of every frequency as expected, up to the tolerance. */
 static void check_sizes(const ps_frequencies *grid, const pspec_pattern *pattern,
@@ -238,6 +314,7 @@ int main(void) {
         cmocka_unit_test(peaks),
         cmocka_unit_test(a_million_in_a_cell),
         cmocka_unit_test(work_groups),
+        cmocka_unit_test(lines),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("torus_nufft", tests, NULL, NULL);

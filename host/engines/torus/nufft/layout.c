@@ -89,7 +89,8 @@ static void measure_axes(ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
     unsigned num_last = 0;
     const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num_last);
-    layout->num_tiles = layout->lanes > 0 ? (uint32_t)ps_divide_up(choice->span, layout->lanes) : 0;
+    layout->num_tiles =
+        layout->lanes > 0 ? (uint32_t)ps_divide_up(ps_nufft_tiled(choice), layout->lanes) : 0;
     layout->row_bytes = 0;
     layout->stride = (size_t)layout->num_tiles * layout->lanes;
     for (unsigned i = 0; i < choice->num_axes; i++) {
@@ -102,6 +103,9 @@ static void measure_axes(ps_nufft_layout *layout) {
     for (unsigned i = 0; i < num_last; i++) {
         layout->stride *= 2 * (size_t)last[i].max_frequency + 1;
     }
+    layout->line = ps_nufft_lines_measure(choice, layout->lanes);
+    layout->first_line_power = layout->stride;
+    layout->stride += layout->line.powers;
     layout->num_keys = choice->axes[0].n;
     if (num_last == 2) { /* in the order of cells, rows are filled from end to end */
         layout->num_keys = last[0].n * last[1].n;
@@ -301,11 +305,23 @@ static void set_part_points(ps_nufft_layout *layout, size_t part_points) {
     layout->part_places = ps_round_up(part_points, PS_NUFFT_PLACE_UNIT);
 }
 
+/* Lines of all realizations of a batch are there together, and so are their transforms, in whole
+ * groups of lanes. */
+static void count_lines(ps_nufft_layout *layout) {
+    const uint64_t line = layout->line.cells * layout->real_bytes;
+    const uint64_t grid = layout->line.grid_reals * layout->real_bytes;
+    const uint64_t each[] = {layout->largest_buffer_per_realization, line, grid / layout->lanes};
+    layout->bytes_per_realization += line + grid / layout->lanes;
+    layout->fixed_bytes += grid;
+    layout->largest_buffer_per_realization = largest_of(each, sizeof each / sizeof each[0]);
+}
+
 static void measure_tiles(ps_nufft_layout *layout, const ps_problem *problem,
                           const ps_device_limits *limits) {
     if (measure_rows(layout, problem, limits)) {
         set_part_points(layout, problem->num_points);
         choose_at_once(layout, problem, limits);
+        count_lines(layout);
         layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;
     }
 }

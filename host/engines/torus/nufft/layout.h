@@ -3,6 +3,7 @@
 #define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 
 #include "engines/nufft/sizes/boxes.h"
+#include "engines/nufft/sizes/lines.h"
 #include "engines/nufft/sizes/strips.h"
 #include "engines/nufft/sizes/whole.h"
 
@@ -17,14 +18,16 @@ typedef struct ps_nufft_layout {
     unsigned lanes; /* 0: no row fits into local memory */
     uint32_t num_tiles;
     size_t real_bytes;
-    size_t chunk_reals;   /* kernels/nufft/spread.h: of points, without their turns */
-    size_t row_bytes;     /* of each row of a work-group, the longest (local.h) */
-    uint32_t group;       /* tiles of a work-group */
-    size_t stride;        /* powers in a row */
-    size_t grid_cells;    /* of a realization between two transforms, [..][re, im][lanes] */
-    size_t grid_reals;    /* cells of the grid of a large set */
-    ps_nufft_boxes boxes; /* in which points are spread there */
-    bool has_pairs;       /* of numbers, in which chunks are added up there */
+    size_t chunk_reals; /* kernels/nufft/spread.h: of points, without their turns */
+    size_t row_bytes;   /* of each row of a work-group, the longest (local.h) */
+    uint32_t group;     /* tiles of a work-group */
+    size_t stride;      /* powers in a row */
+    ps_nufft_line_sizes line;
+    size_t first_line_power; /* behind those of tiles */
+    size_t grid_cells;       /* of a realization between two transforms, [..][re, im][lanes] */
+    size_t grid_reals;       /* cells of the grid of a large set */
+    ps_nufft_boxes boxes;    /* in which points are spread there */
+    bool has_pairs;          /* of numbers, in which chunks are added up there */
     /* Cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
     uint32_t slab_rows;
     uint32_t num_slabs;

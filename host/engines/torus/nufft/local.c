@@ -11,7 +11,7 @@ size_t ps_nufft_chunk_reals(const ps_nufft_layout *layout) {
 
 static size_t tiles_and_chunk(const ps_nufft_layout *layout, size_t num_tiles) {
     const size_t tile = layout->row_bytes + TURN_REALS * layout->real_bytes;
-    const size_t chunk = layout->chunk_reals * layout->real_bytes +
+    const size_t chunk = (layout->line.spread_reals + layout->chunk_reals) * layout->real_bytes +
                          PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
     return num_tiles * tile + chunk;
 }

@@ -15,8 +15,9 @@
 
 static pspec_status create_kernels(ps_nufft_tiles *self, ps_precision precision, ps_error *error) {
     char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes);
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DLINE=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes,
+             self->layout->choice.has_line);
     if (self->layout->choice.num_axes == 1) {
         return ps_kernel_create(self->device, &self->tile, "nufft/tile.cl", "nufft_tile", options,
                                 error);
@@ -46,13 +47,14 @@ static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision,
     return status;
 }
 
-pspec_status ps_nufft_tiles_create(ps_nufft_tiles *out, const ps_nufft_layout *layout,
+pspec_status ps_nufft_tiles_create(ps_nufft_tiles *out, const ps_nufft_layout *layout, size_t batch,
                                    const ps_nufft_plan *plans, const ps_nufft_places *places,
                                    ps_precision precision, ps_device *device, ps_error *error) {
     const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
     *out = (ps_nufft_tiles){.layout = layout, .plans = plans, .places = places, .device = device};
     PS_TRY(create_kernels(out, precision, error));
     PS_TRY(create_pattern(out, precision, error));
+    PS_TRY(ps_nufft_lines_create(&out->lines, layout, batch, plans, precision, device, error));
     return ps_buffer_create(device, &out->grid, layout->parts * layout->grid_cells * vector_bytes,
                             "transformed rows", error);
 }
@@ -64,6 +66,7 @@ void ps_nufft_tiles_free(ps_nufft_tiles *tiles) {
             clReleaseKernel(kernels[i]);
         }
     }
+    ps_nufft_lines_free(&tiles->lines);
     ps_buffer_release(&tiles->pattern);
     ps_buffer_release(&tiles->grid);
     *tiles = (ps_nufft_tiles){0};
@@ -83,9 +86,15 @@ static size_t row_bytes(const ps_nufft_tiles *self, const ps_nufft_axis *axis) {
     return ps_nufft_row_cells(axis) * 2 * self->layout->lanes * self->layout->real_bytes;
 }
 
+/* A launch takes no local memory of no bytes. */
+static size_t line_bytes(const ps_nufft_tiles *self) {
+    const size_t reals = self->layout->choice.has_line ? self->layout->line.spread_reals : 1;
+    return reals * self->layout->real_bytes;
+}
+
 /* Local memory of a work-group, as kernels/nufft/spread.h has it. */
 #define LOCAL_ARGUMENTS(self, axis)                                                                \
-    PS_LOCAL((self)->layout->group *row_bytes(self, axis)),                                        \
+    PS_LOCAL((self)->layout->group *row_bytes(self, axis)), PS_LOCAL(line_bytes(self)),            \
         PS_LOCAL(ps_nufft_chunk_reals((self)->layout) * (self)->layout->real_bytes),               \
         PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
 
@@ -113,11 +122,12 @@ static pspec_status make_tiles(ps_nufft_tiles *self, size_t num_realizations,
         PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(plan->coefficients),
         PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
         PS_BUFFER(plan->gains), PS_BUFFER(*means), PS_BUFFER(self->pattern),
-        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), LOCAL_ARGUMENTS(self, &plan->axis));
+        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_BUFFER(self->lines.lines),
+        LOCAL_ARGUMENTS(self, &plan->axis));
 }
 
 static pspec_status make_rows(ps_nufft_tiles *self, size_t num_realizations, const ps_buffer *means,
-                              ps_error *error) {
+                              const ps_nufft_target *target, ps_error *error) {
     const ps_nufft_plan *across = &self->plans[0];
     const ps_nufft_plan *along = &self->plans[1];
     const ps_nufft_places *places = self->places;
@@ -128,14 +138,15 @@ static pspec_status make_rows(ps_nufft_tiles *self, size_t num_realizations, con
                                   .base = (uint32_t)ps_nufft_base(&self->layout->choice),
                                   .num_tiles = self->layout->num_tiles,
                                   .group = (uint32_t)self->layout->group,
-                                  .K = (uint32_t)along->axis.max_frequency};
+                                  .K = (uint32_t)along->axis.max_frequency,
+                                  .first_row = (uint32_t)target->realization};
     return PS_LAUNCH(self->device, self->rows, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(places->places), PS_BUFFER(places->sorted),
                      PS_BUFFER(places->heights), PS_BUFFER(places->starts),
                      PS_BUFFER(across->coefficients), PS_BUFFER(along->coefficients),
                      PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
                      PS_BUFFER(along->fft.position), PS_BUFFER(*means), PS_BUFFER(self->grid),
-                     LOCAL_ARGUMENTS(self, &along->axis));
+                     PS_BUFFER(self->lines.lines), LOCAL_ARGUMENTS(self, &along->axis));
 }
 
 static pspec_status make_columns(ps_nufft_tiles *self, size_t num_realizations,
@@ -162,6 +173,11 @@ pspec_status ps_nufft_tiles_run(ps_nufft_tiles *tiles, size_t num_realizations,
     if (tiles->layout->choice.num_axes == 1) {
         return make_tiles(tiles, num_realizations, means, target, error);
     }
-    PS_TRY(make_rows(tiles, num_realizations, means, error));
+    PS_TRY(make_rows(tiles, num_realizations, means, target, error));
     return make_columns(tiles, num_realizations, target, error);
+}
+
+pspec_status ps_nufft_tiles_finish(ps_nufft_tiles *tiles, size_t num_realizations,
+                                   const ps_nufft_target *target, ps_error *error) {
+    return ps_nufft_lines_run(&tiles->lines, num_realizations, target, error);
 }

@@ -6,6 +6,7 @@
 #define PS_ENGINES_TORUS_NUFFT_TILES_H
 
 #include "engines/nufft/grid_axis.h"
+#include "engines/torus/nufft/lines.h"
 #include "engines/torus/nufft/places.h"
 
 typedef struct ps_nufft_tiles {
@@ -16,10 +17,11 @@ typedef struct ps_nufft_tiles {
     cl_kernel tile, rows, columns;
     ps_buffer pattern; /* how frequency 0 turns from cell to cell of the first axis */
     ps_buffer grid;    /* transformed rows, in three dimensions */
+    ps_nufft_lines lines;
 } ps_nufft_tiles;
 
-/* layout, plans and places are borrowed. */
-pspec_status ps_nufft_tiles_create(ps_nufft_tiles *out, const ps_nufft_layout *layout,
+/* For batches of so many realizations. layout, plans and places are borrowed. */
+pspec_status ps_nufft_tiles_create(ps_nufft_tiles *out, const ps_nufft_layout *layout, size_t batch,
                                    const ps_nufft_plan *plans, const ps_nufft_places *places,
                                    ps_precision precision, ps_device *device,
                                    ps_error *error) PS_MUST_CHECK;
@@ -30,5 +32,10 @@ void ps_nufft_tiles_free(ps_nufft_tiles *tiles);
 pspec_status ps_nufft_tiles_run(ps_nufft_tiles *tiles, size_t num_realizations,
                                 const ps_buffer *means, const ps_nufft_target *target,
                                 ps_error *error) PS_MUST_CHECK;
+
+/* What realizations of a batch have in common, once all of them were run: frequency 0 of axis 0,
+ * where it is a line. */
+pspec_status ps_nufft_tiles_finish(ps_nufft_tiles *tiles, size_t num_realizations,
+                                   const ps_nufft_target *target, ps_error *error) PS_MUST_CHECK;
 
 #endif

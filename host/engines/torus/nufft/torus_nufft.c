@@ -44,6 +44,11 @@ static const char *refuse_layout(const ps_nufft_layout *layout, const ps_device_
     return has_large_buffer ? "needs a larger buffer than the device allows" : NULL;
 }
 
+/* A transform each. */
+static double kernels_of_line(const ps_nufft_choice *choice) {
+    return choice->has_line ? choice->num_axes : 0;
+}
+
 static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
                        ps_precision precision) {
     const ps_nufft_variant *const way = &ps_nufft_variants[ps_nufft_way_of(&layout->choice)];
@@ -53,7 +58,7 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
         .transform_flops =
             realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
         .launches = way->count_launches(layout, (double)problem->num_points, realizations),
-        .kernels = way->kernels[layout->choice.num_axes > 1],
+        .kernels = way->kernels[layout->choice.num_axes > 1] + kernels_of_line(&layout->choice),
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
         .bytes_per_realization = (double)layout->bytes_per_realization,
@@ -208,6 +213,10 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         PS_TRY(ps_batch_go_on(batch, error));
         const ps_nufft_target target = {&self->power, &self->scales, row};
         PS_TRY(self->variant->run(self, &some, &target, error));
+    }
+    if (self->variant->finish != NULL) {
+        const ps_nufft_target target = {&self->power, &self->scales, 0};
+        PS_TRY(self->variant->finish(self, batch->num_patterns, &target, error));
     }
     *rows = show_rows(self, batch->num_patterns);
     return PSPEC_OK;

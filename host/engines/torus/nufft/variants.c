@@ -69,19 +69,21 @@ static pspec_status create_places(ps_nufft_state *self, ps_error *error) {
                                   self->device, error);
 }
 
-/* Sorting, then one or two launches that spread and transform, for some realizations at a time. */
+/* Sorting, then one or two launches that spread and transform, for some realizations at a time; as
+ * many for frequency 0 of axis 0, where it is a line, for all of a batch. */
 static double count_tiles_launches(const ps_nufft_layout *layout, double num_points,
                                    double realizations) {
     unsigned num_last = 0;
     (void)num_points;
     ps_nufft_last_axes(&layout->choice, &num_last);
-    return ceil(realizations / (double)layout->parts) * (1 + num_last);
+    const double of_lines = layout->choice.has_line ? num_last : 0;
+    return ceil(realizations / (double)layout->parts) * (1 + num_last) + of_lines;
 }
 
 static pspec_status create_tiles(ps_nufft_state *self, ps_error *error) {
     PS_TRY(create_places(self, error));
-    return ps_nufft_tiles_create(&self->tiles, &self->layout, self->plans, &self->places,
-                                 self->precision, self->device, error);
+    return ps_nufft_tiles_create(&self->tiles, &self->layout, self->batch, self->plans,
+                                 &self->places, self->precision, self->device, error);
 }
 
 /* Points go first: what is written after them waits for the launch before. */
@@ -97,8 +99,14 @@ static pspec_status run_tiles(ps_nufft_state *self, const ps_batch *some,
     return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
+static pspec_status finish_tiles(ps_nufft_state *self, size_t num_realizations,
+                                 const ps_nufft_target *target, ps_error *error) {
+    return ps_nufft_tiles_finish(&self->tiles, num_realizations, target, error);
+}
+
 static void describe_tiles(const ps_nufft_state *self, ps_text *text) {
-    ps_text_append(text, " group=%lu", (unsigned long)self->layout.group);
+    const char *const line = self->layout.choice.has_line ? " line" : "";
+    ps_text_append(text, "%s group=%lu", line, (unsigned long)self->layout.group);
 }
 
 static void free_tiles(ps_nufft_state *self) {
@@ -204,6 +212,7 @@ const ps_nufft_variant ps_nufft_variants[PS_NUFFT_NUM_WAYS] = {
                         .has_transforms = true,
                         .create = create_tiles,
                         .run = run_tiles,
+                        .finish = finish_tiles,
                         .describe = describe_tiles,
                         .free = free_tiles},
     [PS_NUFFT_LARGE] = {.count_launches = count_large_launches,

@@ -23,6 +23,9 @@ typedef struct ps_nufft_variant {
     /* Makes the powers of some realizations, no more than it takes at a time. */
     pspec_status (*run)(ps_nufft_state *, const ps_batch *some, const ps_nufft_target *,
                         ps_error *);
+    /* What is left to do once all realizations of a batch were run; NULL: nothing. */
+    pspec_status (*finish)(ps_nufft_state *, size_t num_realizations, const ps_nufft_target *,
+                           ps_error *);
     void (*describe)(const ps_nufft_state *, ps_text *);
     void (*free)(ps_nufft_state *); /* also what was created in part, or not at all */
 } ps_nufft_variant;

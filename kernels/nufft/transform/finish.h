@@ -1,10 +1,10 @@
 /* From rows of cells to powers: the mean is taken off, the row transformed, results left where they
  * belong. Device only.
  */
-#ifndef PS_NUFFT_FINISH_H
-#define PS_NUFFT_FINISH_H
+#ifndef PS_NUFFT_TRANSFORM_FINISH_H
+#define PS_NUFFT_TRANSFORM_FINISH_H
 
-#include "nufft/fft.h"
+#include "nufft/transform/fft.h"
 
 /* A transform and what it is for. Frequencies q = -K .. K of its n are kept. */
 typedef struct transform_axis {

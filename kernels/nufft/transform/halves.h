@@ -5,10 +5,10 @@
  * imaginary parts: with Z = A + i B, A(k) = (Z(k) + conj Z(-k)) / 2 and B(k) = (Z(k) - conj Z(-k))
  * / 2i.
  */
-#ifndef PS_NUFFT_HALVES_H
-#define PS_NUFFT_HALVES_H
+#ifndef PS_NUFFT_TRANSFORM_HALVES_H
+#define PS_NUFFT_TRANSFORM_HALVES_H
 
-#include "nufft/finish.h"
+#include "nufft/transform/finish.h"
 #include "shared/transpose.h"
 
 /* Frequencies k .. k + LANES - 1 of 2 LANES columns, twice each: [column][re, im][LANES], beyond K

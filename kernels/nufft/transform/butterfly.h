@@ -1,8 +1,8 @@
 /* Discrete Fourier transforms of 2, 3, 4, 5, 7 and 8 complex numbers in registers, LANES of them
  * side by side: x[k] <- sum_j x[j] exp(-2 pi i j k / r). Device only.
  */
-#ifndef PS_NUFFT_BUTTERFLY_H
-#define PS_NUFFT_BUTTERFLY_H
+#ifndef PS_NUFFT_TRANSFORM_BUTTERFLY_H
+#define PS_NUFFT_TRANSFORM_BUTTERFLY_H
 
 #include "shared/lanes.h"
 

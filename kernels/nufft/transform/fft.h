@@ -14,10 +14,10 @@
  * Buffers are in local memory, or in global memory where FFT_IN_GLOBAL is defined before: one
  * program has one kind, since a second copy of all passes takes the compiler seconds.
  */
-#ifndef PS_NUFFT_FFT_H
-#define PS_NUFFT_FFT_H
+#ifndef PS_NUFFT_TRANSFORM_FFT_H
+#define PS_NUFFT_TRANSFORM_FFT_H
 
-#include "nufft/butterfly.h"
+#include "nufft/transform/butterfly.h"
 #include "shared/group.h"
 
 #ifdef FFT_IN_GLOBAL
