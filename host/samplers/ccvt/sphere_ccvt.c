@@ -100,7 +100,7 @@ static pspec_status make_background(ps_ccvt *c, const ps_rotation *rotation, dou
     for (size_t first = 0; first < num; first += PIECE) {
         const size_t end = first + PIECE < num ? first + PIECE : num;
         for (size_t j = first; j < end; j++) {
-            ps_fibonacci_point(j, num, piece + PS_CCVT_AXES * (j - first));
+            ps_fibonacci_point_portable(j, num, piece + PS_CCVT_AXES * (j - first));
         }
         ps_rotate(rotation, piece, end - first);
         keep(c->at, first, end - first, piece);
@@ -109,13 +109,14 @@ static pspec_status make_background(ps_ccvt *c, const ps_rotation *rotation, dou
     return PSPEC_OK;
 }
 
-static pspec_status draw_sites(ps_ccvt *c, ps_random *random, double *piece, ps_error *error) {
-    for (size_t first = 0; first < c->num; first += PIECE) {
-        const size_t num = first + PIECE < c->num ? PIECE : c->num - first;
-        ps_random_fill_uniform(random, piece, 2 * num);
-        ps_sphere_lift(false, 0, num, piece);
-        keep(c->site, first, num, piece);
-        PS_TRY(ps_ccvt_go_on(c, num, error));
+static pspec_status draw_sites(ps_ccvt *c, ps_random *random, ps_error *error) {
+    for (size_t i = 0; i < c->num; i++) {
+        double point[PS_CCVT_AXES];
+        const ps_height height = ps_height_of_area(false, ps_random_uniform(random));
+        const ps_turns azimuth = ps_turns_of(ps_random_uniform(random));
+        ps_sphere_point_portable(height, azimuth, point);
+        keep(c->site, i, 1, point);
+        PS_TRY(ps_ccvt_go_on(c, 1, error));
     }
     return PSPEC_OK;
 }
@@ -123,9 +124,9 @@ static pspec_status draw_sites(ps_ccvt *c, ps_random *random, double *piece, ps_
 static pspec_status draw(ps_ccvt *c, ps_random *random, ps_error *error) {
     double *piece = NULL;
     PS_TRY(PS_NEW(&piece, PIECE * PS_CCVT_AXES, "background points", error));
-    pspec_status status = draw_sites(c, random, piece, error);
+    pspec_status status = draw_sites(c, random, error);
     if (status == PSPEC_OK) {
-        const ps_rotation rotation = ps_rotation_random(random);
+        const ps_rotation rotation = ps_rotation_random_portable(random);
         status = make_background(c, &rotation, piece, error);
     }
     free(piece);
