@@ -51,6 +51,19 @@ static pspec_status allocate(ps_ccvt *c, ps_error *error) {
     return ps_ccvt_grid_create(&c->grid, c->space->room, c->num, error);
 }
 
+/* Two orders of all points while they are sorted, 16 bytes each (ccvt_start.c), and a grid of four
+ * cells a site. */
+double ps_ccvt_bytes(const ps_ccvt_space *space, size_t num, size_t capacity) {
+    const size_t order = 16;
+    const size_t grid = 24;
+    const size_t place = space->room.axes * sizeof(double);
+    const size_t of_point = place + sizeof(double) + 2 * order;
+    const size_t of_site = place + sizeof(double) + 2 * sizeof(uint32_t) + grid;
+    const size_t of_slot = 2 * (sizeof(double) + sizeof(ps_ccvt_offer));
+    return (double)num * (double)capacity * (double)of_point + (double)num * (double)of_site +
+           (double)capacity * (double)of_slot;
+}
+
 pspec_status ps_ccvt_create(ps_ccvt *c, const ps_ccvt_space *space, size_t num, size_t capacity,
                             ps_random *random, const ps_watch *watch, ps_error *error) {
     *c = (ps_ccvt){.space = space, .num = num, .capacity = capacity, .watch = watch};

@@ -63,15 +63,24 @@ static double sphere_seconds(const ps_sampler_request *request) {
     return count_seconds(request, each, root);
 }
 
+static const ps_ccvt_space *space_of(const ps_sampler_request *request) {
+    return ps_sampler_is_on_sphere(request) ? &ps_sphere_ccvt_space : &ps_torus_ccvt_space;
+}
+
+static double work_bytes(const ps_sampler_request *request) {
+    size_t capacity = 0;
+    return read_capacity(request, &capacity, NULL) == PSPEC_OK
+               ? ps_ccvt_bytes(space_of(request), request->num_points, capacity)
+               : 0;
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
-    const ps_ccvt_space *const space =
-        ps_sampler_is_on_sphere(request) ? &ps_sphere_ccvt_space : &ps_torus_ccvt_space;
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
     size_t capacity = 0;
     PS_TRY(read_capacity(request, &capacity, error));
-    return ps_ccvt_make(space, request->num_points, capacity, &random, request->watch, points, NULL,
-                        error);
+    return ps_ccvt_make(space_of(request), request->num_points, capacity, &random, request->watch,
+                        points, NULL, error);
 }
 
 const ps_sampler ps_sampler_ccvt = {
@@ -84,6 +93,7 @@ const ps_sampler ps_sampler_ccvt = {
     .parameters = {CAPACITY_PARAMETER("256")},
     .version = 1,
     .seconds = torus_seconds,
+    .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,
@@ -98,6 +108,7 @@ const ps_sampler ps_sampler_ccvt_sphere = {
     .parameters = {CAPACITY_PARAMETER("64")},
     .version = 2,
     .seconds = sphere_seconds,
+    .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,
