@@ -72,7 +72,8 @@ static made make_ccvt(size_t num, double parameter, uint64_t realization, double
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
     const size_t capacity = (size_t)parameter;
     const double begin = bench_thread_seconds();
-    BENCH_TRY(ps_torus_ccvt_make(num, capacity, &random, NULL, points, &outcome, error));
+    BENCH_TRY(
+        ps_ccvt_make(&ps_torus_ccvt_space, num, capacity, &random, NULL, points, &outcome, error));
     return (made){bench_thread_seconds() - begin, outcome.passes, 0, outcome.energy / parameter};
 }
 
@@ -81,7 +82,8 @@ static made make_ccvt_sphere(size_t num, double parameter, uint64_t realization,
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
     const size_t capacity = (size_t)parameter;
     const double begin = bench_thread_seconds();
-    BENCH_TRY(ps_sphere_ccvt_make(num, capacity, &random, NULL, points, &outcome, error));
+    BENCH_TRY(
+        ps_ccvt_make(&ps_sphere_ccvt_space, num, capacity, &random, NULL, points, &outcome, error));
     return (made){bench_thread_seconds() - begin, outcome.passes, 0,
                   outcome.energy / parameter / (4 * PS_PI)};
 }

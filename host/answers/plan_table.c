@@ -100,11 +100,14 @@ pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) {
     return ps_table_add_meta(planner->table, "seconds", PS_TEXT(text), error);
 }
 
-pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
+pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases, double bytes,
                                     const char *reason, ps_error *error) {
-    const ps_cell cells[NUM_COLUMNS] = {
-        PS_TEXT("host"), PS_TEXT("chosen"), PS_NUMBER(ps_phases_seconds(phases)),
-        PS_MISSING,      PS_MISSING,        PS_TEXT(reason)};
+    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT("host"),
+                                        PS_TEXT("chosen"),
+                                        PS_NUMBER(ps_phases_seconds(phases)),
+                                        bytes > 0 ? PS_INTEGER(bytes) : PS_MISSING,
+                                        PS_MISSING,
+                                        PS_TEXT(reason)};
     PS_TRY(ps_table_add_meta(planner->table, "device", PS_TEXT("none"), error));
     PS_TRY(ps_plan_table_add_phases(planner, phases, error));
     return add_row(planner, cells, error);

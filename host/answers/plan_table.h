@@ -54,8 +54,8 @@ pspec_status ps_plan_table_add_job(ps_planner *planner, const ps_request *reques
                                    const ps_planned *job, size_t index,
                                    ps_error *error) PS_MUST_CHECK;
 /* What the host does without a choice of engines, and why: phases that were begun here, as header
- * lines and one row. */
-pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
+ * lines and one row. bytes: 0 where they are not counted. */
+pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases, double bytes,
                                     const char *reason, ps_error *error) PS_MUST_CHECK;
 ps_phases ps_plan_table_begin_phases(ps_planner *planner);
 /* A picture needs gnuplot, which takes its time whatever is in it. */

@@ -1,18 +1,24 @@
 /* What making points, or rewriting them, takes: there is nothing to choose. */
 #include "commands/points.h"
+
+#include "answers/points/points.h"
 #include "jobs/point_phases.h"
 #include "jobs/spectrum/power_phases.h"
 #include "plan/specs.h"
 #include "request/point_source.h"
 
+#include <math.h>
+
 /* Points that are only drawn are of one realization, and not written. */
 static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t question,
-                                bool is_drawn, ps_error *error) {
+                                bool is_drawn, double *bytes, ps_error *error) {
     ps_sampler_request sampler;
     PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
+    PS_TRY(ps_points_check_memory(&sampler, 1, request->limits.constraints.memory_limit, error));
+    *bytes = fmax(*bytes, ps_points_bytes(&sampler, 1));
     const double sets = is_drawn ? 1 : (double)request->num_realizations;
     const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
-    ps_phases_sample(phases, &sampler, sets, &kept.place);
+    ps_phases_sample(phases, &sampler, sets, &kept);
     ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
     if (!is_drawn) {
         ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
@@ -25,6 +31,7 @@ pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *reques
                                    ps_error *error) {
     ps_phases phases = ps_plan_table_begin_phases(planner);
     const bool is_drawn = ps_request_only_draws(request);
+    double bytes = 0; /* of the largest */
     if (request->num_samplers != 1 && !(is_drawn && request->num_samplers > 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
@@ -33,10 +40,10 @@ pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *reques
     }
     ps_phases_start(&phases, NULL);
     for (size_t i = 0; i < ps_request_num_questions(request); i++) {
-        PS_TRY(add_sampler(&phases, request, i, is_drawn, error));
+        PS_TRY(add_sampler(&phases, request, i, is_drawn, &bytes, error));
     }
     ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_host(planner, &phases,
+    return ps_plan_table_add_host(planner, &phases, bytes,
                                   "points of one sampler, one realization at a time", error);
 }
 
@@ -66,7 +73,7 @@ pspec_status ps_points_plan_convert(ps_planner *planner, const ps_request *reque
                             request->format, points * numbers);
         }
         ps_plan_table_add_picture(&phases, request);
-        status = ps_plan_table_add_host(planner, &phases, "a block of points at a time", error);
+        status = ps_plan_table_add_host(planner, &phases, 0, "a block of points at a time", error);
     }
     ps_points_close(reader);
     ps_point_set_free(&set);

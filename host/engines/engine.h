@@ -48,6 +48,7 @@ typedef struct ps_problem {
     ps_harmonics harmonics;  /* whose coefficients are wanted, too */
     bool keeps_coefficients; /* of every set, until the end; else of the only one */
     size_t num_weighted;     /* weighted sums of the powers of every realization */
+    double making_bytes;     /* of the host, while a sampler makes a set (ps_sampler_work_bytes) */
 } ps_problem;
 
 /* That of white noise where nothing is known: 1, with a margin on the sphere. */

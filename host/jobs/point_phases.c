@@ -15,14 +15,15 @@ static double change_seconds(const ps_sampler_request *request) {
 }
 
 void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations,
-                      const ps_set_place *place) {
+                      const ps_sets_options *options) {
+    const ps_set_place *const place = &options->place;
     static const char name[] = "points";
     const double points = (double)request->num_points * realizations;
     const uint64_t num_kept = ps_sets_count_kept(request, place, (uint64_t)realizations);
     const double num_made = realizations - (double)num_kept;
     ps_phases_add_seconds(phases, name,
                           ps_sampler_seconds(request) * num_made /
-                              ps_sets_makers(request, (uint64_t)num_made) *
+                              ps_sets_makers(request, options, (uint64_t)num_made) *
                               ps_figures_host_scale(phases->host, request->sampler->name));
     ps_phases_add_seconds(phases, name, ps_set_store_seconds(request) * (double)num_kept);
     ps_phases_add(phases, name, PS_HOST_SCALAR, points * change_seconds(request));

@@ -9,7 +9,7 @@
 /* Adds the phase "points": so many realizations of a sampler are made, or read where they are
  * kept. */
 void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations,
-                      const ps_set_place *place);
+                      const ps_sets_options *options);
 
 /* Adds the phase "reading": all files are read whole. Returns their number of points, 0 where that
  * cannot be known. */

@@ -61,6 +61,10 @@ pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *reques
     return PSPEC_OK;
 }
 
+void ps_source_leave(ps_source *source, uint64_t taken) {
+    ps_sets_leave(source->sampled, taken);
+}
+
 const char *ps_source_trouble(ps_source *source) {
     return source->sampled != NULL ? ps_sets_trouble(source->sampled) : "";
 }

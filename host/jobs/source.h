@@ -21,6 +21,8 @@ typedef struct ps_source ps_source;
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
                                uint64_t num_realizations, const ps_sets_options *options,
                                const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+/* ps_sets_leave of a sampler's. */
+void ps_source_leave(ps_source *source, uint64_t taken);
 /* ps_sets_trouble of a sampler's; "" of others. */
 const char *ps_source_trouble(ps_source *source);
 

@@ -14,14 +14,26 @@ ps_height ps_height_of_area(bool on_hemisphere, double x) {
     return (ps_height){2 * x - 1, 2 * (x < 1 - x ? x : 1 - x)};
 }
 
-void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_DIMENSION]) {
+static void place(ps_height height, double cosine, double sine, double *point) {
     const double sine_theta = sqrt(height.t * (2 - height.t));
-    double cosine = 0;
-    double sine = 0;
-    ps_turns_cosine_sine(azimuth, &cosine, &sine);
     point[0] = sine_theta * cosine + 0.0; /* adding 0 makes a -0 positive */
     point[1] = sine_theta * sine + 0.0;
     point[2] = height.z + 0.0;
+}
+
+void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_DIMENSION]) {
+    double cosine = 0;
+    double sine = 0;
+    ps_turns_cosine_sine(azimuth, &cosine, &sine);
+    place(height, cosine, sine, point);
+}
+
+void ps_sphere_point_portable(ps_height height, ps_turns azimuth,
+                              double point[PS_VECTOR_DIMENSION]) {
+    double cosine = 0;
+    double sine = 0;
+    ps_turns_portable(azimuth, &cosine, &sine);
+    place(height, cosine, sine, point);
 }
 
 void ps_sphere_lift(bool on_hemisphere, size_t first, size_t end, double *points) {

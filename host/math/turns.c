@@ -1,5 +1,6 @@
 #include "math/turns.h"
 
+#include "math/cosine_sine.h"
 #include "math/pi.h"
 
 #include <math.h>
@@ -25,7 +26,10 @@ ps_turns ps_turns_of_fraction(uint64_t fraction) {
     return (ps_turns){(unsigned)quarters, rest * FRACTION_STEP};
 }
 
-/* |rest| <= 1/8. What 2 pi rest lacks of the angle turns cosine and sine a little further. */
+/* Of rest of a turn, |rest| <= 1/8. */
+typedef void rest_function(double rest, double *cosine, double *sine);
+
+/* What 2 pi rest lacks of the angle turns cosine and sine a little further. */
 static void cosine_sine_of_rest(double rest, double *cosine, double *sine) {
     const double angle = PS_TWO_PI * rest;
     const double low = fma(PS_TWO_PI, rest, -angle) + TWO_PI_LOW * rest;
@@ -35,7 +39,11 @@ static void cosine_sine_of_rest(double rest, double *cosine, double *sine) {
     *sine = s + low * c;
 }
 
-void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine) {
+static void portable_of_rest(double rest, double *cosine, double *sine) {
+    ps_cosine_sine(PS_TWO_PI * rest, cosine, sine);
+}
+
+static void of_turns(ps_turns angle, rest_function *of_rest, double *cosine, double *sine) {
     unsigned quarters = angle.quarters;
     double rest = angle.rest;
     if (fabs(rest) > EIGHTH) { /* between 1/8 and 1/4 the difference is exact */
@@ -44,7 +52,7 @@ void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine) {
     }
     double c = 0;
     double s = 0;
-    cosine_sine_of_rest(rest, &c, &s);
+    of_rest(rest, &c, &s);
     switch (quarters % QUARTERS) {
     case 0:
         *cosine = c, *sine = s;
@@ -59,4 +67,12 @@ void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine) {
         *cosine = s, *sine = -c;
         break;
     }
+}
+
+void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine) {
+    of_turns(angle, cosine_sine_of_rest, cosine, sine);
+}
+
+void ps_turns_portable(ps_turns angle, double *cosine, double *sine) {
+    of_turns(angle, portable_of_rest, cosine, sine);
 }

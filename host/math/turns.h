@@ -18,5 +18,8 @@ ps_turns ps_turns_of(double turns);
 ps_turns ps_turns_of_fraction(uint64_t fraction);
 
 void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine);
+/* By + - * / alone, the same bits on every machine: right to two units in the last place of each.
+ */
+void ps_turns_portable(ps_turns angle, double *cosine, double *sine);
 
 #endif

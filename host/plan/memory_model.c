@@ -83,7 +83,8 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
                 (ps_memory_of_set(problem, work) + work->point_bytes - moved) * (double)batch +
                 num * (2 * dimension * (double)sizeof(int32_t) + 3 * (double)sizeof(uint32_t) +
                        2 * (double)sizeof(double)) +
-                num * (double)problem->num_weighted * (double)sizeof(double)};
+                num * (double)problem->num_weighted * (double)sizeof(double) +
+                problem->making_bytes};
     if (limits == NULL || engine->rows_on_host) {
         sum.host += num * 4 * (double)sizeof(double); /* the sums of the accumulator */
     }

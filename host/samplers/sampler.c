@@ -64,6 +64,11 @@ double ps_sampler_seconds(const ps_sampler_request *request) {
                : ps_sampler_numbers(&own) * own.sampler->nanoseconds * PS_NANOSECOND;
 }
 
+double ps_sampler_work_bytes(const ps_sampler_request *request) {
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->work_bytes != NULL ? own.sampler->work_bytes(&own) : 0;
+}
+
 /* ---- checks -------------------------------------------------------------------------------- */
 
 static pspec_status check_dimension(const ps_sampler_request *request, ps_error *error) {

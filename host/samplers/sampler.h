@@ -94,6 +94,9 @@ struct ps_sampler {
      * coordinate, on the sphere of a point; or, where it is not so simple, seconds. */
     double nanoseconds;
     double (*seconds)(const ps_sampler_request *);
+    /* Bytes that are taken while a realization is made, besides its points, of the host and of a
+     * device. The member may be NULL: none worth counting. */
+    double (*work_bytes)(const ps_sampler_request *);
 
     /* Of the algorithm, raised by whoever changes the bits of a set, where sets are dear enough to
      * be kept on the disk; 0: they are made anew in less time. */
@@ -178,6 +181,8 @@ double ps_sampler_numbers(const ps_sampler_request *request);
 /* Seconds of a realization on one core of the machine of plan/host_cost.c, without what lift,
  * homogenize and morph add. */
 double ps_sampler_seconds(const ps_sampler_request *request);
+/* Bytes that are taken while it is made, besides its points; 0: none worth counting. */
+double ps_sampler_work_bytes(const ps_sampler_request *request);
 
 /* A bound of the expected power of the request's points at every frequency but 0; 0: none is known
  * but N. */

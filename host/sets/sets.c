@@ -1,6 +1,8 @@
 #include "sets/sets.h"
 
 #include "base/memory.h"
+#include "base/process/memory_limit.h"
+#include "base/text.h"
 #include "base/workers.h"
 #include "sets/ahead.h"
 
@@ -73,19 +75,53 @@ static void open_store(ps_sets *sets) {
     }
 }
 
+static uint64_t least(uint64_t a, uint64_t b) {
+    return a < b ? a : b;
+}
+
 static uint64_t find_room(const ps_sets *sets) {
     const uint64_t limit = sets->options.memory_limit / SHARE_OF_LIMIT;
     return sets->options.memory_limit > 0 && limit < ROOM_BYTES ? limit : ROOM_BYTES;
 }
 
-unsigned ps_sets_makers(const ps_sampler_request *request, uint64_t num) {
-    const unsigned processors = ps_workers_most();
-    const unsigned most = num < processors ? (unsigned)num : processors;
-    return most > 0 && ps_sampler_seconds(request) >= LEAST_SECONDS ? most : 1;
+/* Sets for whose working memory there is room at a time: what the limit leaves, or else half of
+ * what is free; one at least. */
+static uint64_t count_fitting(const ps_sampler_request *request, const ps_sets_options *options) {
+    const double each = ps_sampler_work_bytes(request);
+    ps_memory_room room = {options->memory_limit, ""};
+    if (each == 0) {
+        return UINT64_MAX;
+    }
+    if (options->memory_limit == 0) {
+        ps_memory_room_find(&room, 0);
+    }
+    const double left =
+        options->memory_limit > 0
+            ? (double)room.bytes - (double)(room.bytes / SHARE_OF_LIMIT) - (double)options->taken
+            : (double)room.bytes / 2;
+    return left < 2 * each ? 1 : (uint64_t)(left / each);
 }
 
-static uint64_t least(uint64_t a, uint64_t b) {
-    return a < b ? a : b;
+static pspec_status check_memory(const ps_sampler_request *request, const ps_sets_options *options,
+                                 ps_error *error) {
+    const double bytes = ps_sampler_work_bytes(request);
+    char needed[PS_SIZE_TEXT];
+    char allowed[PS_SIZE_TEXT];
+    return options->memory_limit == 0 || bytes <= (double)options->memory_limit
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "sampler %s: a set of %zu points takes %s of memory while it is made, "
+                         "above the limit of %s",
+                         request->sampler->name, request->num_points, ps_size_show(needed, bytes),
+                         ps_size_show(allowed, (double)options->memory_limit));
+}
+
+unsigned ps_sets_makers(const ps_sampler_request *request, const ps_sets_options *options,
+                        uint64_t num) {
+    const unsigned processors = ps_workers_most();
+    const uint64_t fitting = least(num, count_fitting(request, options));
+    const unsigned most = fitting < processors ? (unsigned)fitting : processors;
+    return most > 0 && ps_sampler_seconds(request) >= LEAST_SECONDS ? most : 1;
 }
 
 /* Dear sets come one by one. */
@@ -111,7 +147,7 @@ static pspec_status begin_ahead(ps_sets *sets, unsigned num_slots, ps_error *err
         .payload = sets,
         .num_things = (sets->end - sets->next + sets->block - 1) / sets->block,
         .num_slots = num_slots,
-        .num_threads = ps_sets_makers(&sets->request, num_slots),
+        .num_threads = ps_sets_makers(&sets->request, &sets->options, num_slots),
     };
     const size_t num = (size_t)(num_slots * sets->block);
     PS_TRY(PS_NEW(&sets->room, num * sets->stride, "sets made ahead", error));
@@ -146,6 +182,7 @@ pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
     ps_sets *sets = NULL;
     *out = NULL;
     PS_TRY(ps_sampler_check(request, error));
+    PS_TRY(check_memory(request, options, error));
     PS_TRY(PS_NEW(&sets, 1, "realizations of a sampler", error));
     sets->request = *request;
     sets->request.device = options->device;
@@ -163,6 +200,10 @@ void ps_sets_destroy(ps_sets *sets) {
         ps_set_store_close(sets->store);
         free(sets);
     }
+}
+
+void ps_sets_leave(ps_sets *sets, uint64_t taken) {
+    sets->options.taken = taken;
 }
 
 void ps_sets_rewind(ps_sets *sets) {

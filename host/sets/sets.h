@@ -15,10 +15,12 @@ typedef struct ps_sets_options {
     uint64_t memory_limit; /* of the job, of which sets made ahead take a 16th; 0: none */
     uint64_t first;        /* realization */
     const char *device;    /* selector of the one that makes sets; NULL: the first */
+    uint64_t taken;        /* of the limit, by the rest of the job: what is left bounds makers */
 } ps_sets_options;
 
 /* Realizations first .. first + num_realizations - 1; request is resolved, and copied, and so are
- * options, but for the names of folder and device. */
+ * options, but for the names of folder and device. PSPEC_ERROR_MEMORY where the limit is less than
+ * one set takes while it is made. */
 pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
                             uint64_t num_realizations, const ps_sets_options *options,
                             ps_error *error) PS_MUST_CHECK;
@@ -32,8 +34,12 @@ pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, con
 /* Back to the first. */
 void ps_sets_rewind(ps_sets *sets);
 
-/* Processors that make num realizations of the request. */
-unsigned ps_sets_makers(const ps_sampler_request *request, uint64_t num);
+/* Before the first is asked for: so much of the limit the rest of the job takes. */
+void ps_sets_leave(ps_sets *sets, uint64_t taken);
+
+/* Processors that make num realizations of the request: fewer where there is no memory for more. */
+unsigned ps_sets_makers(const ps_sampler_request *request, const ps_sets_options *options,
+                        uint64_t num);
 
 /* What was wrong with the store, in a sentence, or "": sets that were damaged, a full disk. Ends
  * what is made ahead, until the next call of ps_sets_next. */

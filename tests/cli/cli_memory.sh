@@ -102,6 +102,18 @@ fi
 
 says 1 '1000000 points in 2 dimensions take 15.26M of memory, above the limit of 1M$' \
     "$program" sample --sampler white -n 1e6 --memory 1M
+large=(--sampler ccvt:M=1024 -n 4096)
+says 1 'sample: 4096 points in 2 dimensions take 224.3M of memory with what makes a set of them, above the limit of 100M$' \
+    "$program" sample "${large[@]}" --memory 100M
+makes_too_much() { # COMMAND...
+    says 1 ': sampler ccvt: a set of 4096 points takes 224.3M of memory while it is made, above the limit of 100M$' \
+        env POINTSPEC_MEMORY=100M "$program" "$@" "${large[@]}" -k 4
+}
+makes_too_much power
+makes_too_much plan power
+makes_too_much variance --integrand disk
+says 0 '^host,chosen,[0-9.e+-]*,235225088,' "$program" plan sample "${large[@]}"
+says 0 'torus_nufft:single,infeasible,.*needs 2.38e.08 bytes of memory, above the limit of 2.36e.08' "$program" plan power "${large[@]}" -k 100 --memory 225M
 says 2 'power: --memory: "4X" is not a size above 0, such as 400M, 1.5G or 2e9$' \
     "$program" power --sampler white --memory 4X
 says 2 '^pointspec power: POINTSPEC_MEMORY: "much" is not a size' \

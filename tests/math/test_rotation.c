@@ -39,6 +39,21 @@ static void turns_have_right_cosines_and_sines(void **state) {
     }
 }
 
+/* By the series, up to 2 units in the last place. */
+static void portable_turns_are_nearly_as_right(void **state) {
+    (void)state;
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
+    for (unsigned i = 0; i < 20000 + 64; i++) {
+        const double turns = i < 64 ? i / 64.0 : ps_random_uniform(&random);
+        double cosine = 0;
+        double sine = 0;
+        ps_turns_portable(ps_turns_of(turns), &cosine, &sine);
+        assert_true(fabsl(cosine - cosl(PS_TWO_PI_L * turns)) <= 0x1p-52);
+        assert_true(fabsl(sine - sinl(PS_TWO_PI_L * turns)) <= 0x1p-52);
+        assert_true(i >= 64 || i % 16 != 0 || fabs(cosine) + fabs(sine) == 1); /* quarters */
+    }
+}
+
 /* Near a multiple of a quarter, what is small is right to its own last place. */
 static void small_angles_keep_their_digits(void **state) {
     (void)state;
@@ -80,6 +95,21 @@ static void random_rotations_are_rotations(void **state) {
             }
         }
         assert_true(fabs(determinant(&r) - 1) <= 1e-15);
+    }
+}
+
+static void portable_rotations_are_the_same(void **state) {
+    (void)state;
+    for (uint64_t r = 0; r < 10000; r++) {
+        ps_random random = ps_random_init(7, PS_STREAM_ROTATION, r);
+        ps_random again = random;
+        const ps_rotation rotation = ps_rotation_random(&random);
+        const ps_rotation portable = ps_rotation_random_portable(&again);
+        for (unsigned i = 0; i < 9; i++) {
+            assert_true(fabs(rotation.matrix[i / 3][i % 3] - portable.matrix[i / 3][i % 3]) <=
+                        0x1p-50);
+        }
+        assert_true(ps_random_u64(&random) == ps_random_u64(&again));
     }
 }
 
@@ -134,8 +164,10 @@ static void quaternions_turn_as_they_say(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(turns_have_right_cosines_and_sines),
+        cmocka_unit_test(portable_turns_are_nearly_as_right),
         cmocka_unit_test(small_angles_keep_their_digits),
         cmocka_unit_test(random_rotations_are_rotations),
+        cmocka_unit_test(portable_rotations_are_the_same),
         cmocka_unit_test(random_rotations_are_uniform),
         cmocka_unit_test(quaternions_turn_as_they_say),
     };

@@ -2,6 +2,7 @@
  * samplers: costs, numbers of points, one way to make them. */
 #include "test_samplers.h"
 
+#include <malloc.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -76,6 +77,57 @@ static void every_sampler_keeps_to_its_room(void **state) {
     }
 }
 
+/* Bytes that malloc has given out, as the watch finds them before it asks to stop. */
+typedef struct tally {
+    double before, most;
+    unsigned calls;
+} tally;
+enum { MOST_CALLS = 50 };
+
+static double allocated(void) {
+    const struct mallinfo2 now = mallinfo2();
+    return (double)now.uordblks + (double)now.hblkhd;
+}
+
+static int keep_most(const ps_watch_report *report, void *payload) {
+    tally *const self = payload;
+    const double now = allocated() - self->before;
+    (void)report;
+    self->most = now > self->most ? now : self->most;
+    return ++self->calls == MOST_CALLS;
+}
+
+/* Of the host; sanitizers count for themselves. */
+static void what_a_set_takes_is_what_is_allocated(void **state) {
+    (void)state;
+    enum { MOST = 1000, FEW = 1 << 14 /* a cell in the making */ };
+    static const struct {
+        const char *text;
+        size_t num;
+        unsigned dimension;
+    } cases[] = {
+        {"ccvt:M=1024", MOST, 2},
+        {"ccvt-sphere:M=1024", MOST, 3},
+        {"bnot:eps=10", MOST, 2},
+        {"fpo:distance=0.5", MOST, 2},
+        {"gaussian-blue-noise", 200, 2} /* so few without a device, whose sums it lacks */};
+    static double points[3 * MOST];
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const ps_sampler_request request =
+            make_request(cases[i].text, cases[i].num, cases[i].dimension);
+        const double expected = ps_sampler_work_bytes(&request);
+        tally heard = {.before = allocated()};
+        const ps_watch watch = {keep_most, &heard};
+        ps_error error = {0};
+        const pspec_status status = ps_sampler_generate(&request, 0, points, NULL, &watch, &error);
+        assert_true(status == PSPEC_OK || status == PSPEC_ERROR_CANCELLED);
+        const bool is_near = heard.most > 0.5 * expected && heard.most < 1.02 * expected + FEW;
+        if (!is_near && heard.before > 0) {
+            fail_msg("%s: %g bytes, and %g were said", cases[i].text, heard.most, expected);
+        }
+    }
+}
+
 /* Scrambling by Owen's tree is priced as what it is, lifted or not. */
 static void parameters_change_the_cost(void **state) {
     (void)state;
@@ -92,6 +144,7 @@ int main(void) {
         cmocka_unit_test(every_sampler_says_what_it_costs),
         cmocka_unit_test(every_sampler_keeps_to_its_room),
         cmocka_unit_test(parameters_change_the_cost),
+        cmocka_unit_test(what_a_set_takes_is_what_is_allocated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

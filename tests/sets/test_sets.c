@@ -26,7 +26,7 @@ static ps_sampler_request ask(const char *text, unsigned dimension) {
 
 static ps_sets *open_sets(void **state, const ps_sampler_request *request) {
     const test_folder *const folder = *state;
-    const ps_sets_options options = {{folder->path, 1 << 30}, 0, 0, NULL};
+    const ps_sets_options options = {{folder->path, 1 << 30}, 0, 0, NULL, 0};
     ps_sets *sets = NULL;
     assert_int_equal(ps_sets_create(&sets, request, NUM_SETS, &options, NULL), PSPEC_OK);
     return sets;
@@ -123,9 +123,9 @@ static void one_set_serves_all_places(void **state) {
 static void nothing_is_kept_without_a_place(void **state) {
     const test_folder *const folder = *state;
     const ps_sampler_request request = ask("bnot", 2);
-    const ps_sets_options none[] = {{{NULL, 1 << 30}, 0, 0, NULL},
-                                    {{folder->path, 0}, 0, 0, NULL},
-                                    {{folder->path, 2048}, 0, 0, NULL}};
+    const ps_sets_options none[] = {{{NULL, 1 << 30}, 0, 0, NULL, 0},
+                                    {{folder->path, 0}, 0, 0, NULL, 0},
+                                    {{folder->path, 2048}, 0, 0, NULL, 0}};
     for (unsigned i = 0; i < sizeof none / sizeof none[0]; i++) {
         ps_sets *sets = NULL;
         assert_int_equal(ps_sets_create(&sets, &request, NUM_SETS, &none[i], NULL), PSPEC_OK);
@@ -158,7 +158,7 @@ static void sets_may_begin_later(void **state) {
     static set expected, found;
     for (unsigned i = 0; i < 6; i++) {
         const ps_sampler_request request = ask(texts[i % 2], 2);
-        const ps_sets_options options = {{i < 4 ? folder->path : NULL, 1 << 30}, 0, FIRST, NULL};
+        const ps_sets_options options = {{i < 4 ? folder->path : NULL, 1 << 30}, 0, FIRST, NULL, 0};
         ps_sets *sets = NULL;
         assert_int_equal(ps_sets_create(&sets, &request, MORE, &options, NULL), PSPEC_OK);
         for (uint64_t r = 0; r < 2 * MORE; r++) {
@@ -192,7 +192,7 @@ static void blocks_change_no_bit(void **state) {
     static set expected, found;
     const ps_sampler_request request = ask("white", 2);
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
-        const ps_sets_options options = {{NULL, 0}, limits[i], FIRST, NULL};
+        const ps_sets_options options = {{NULL, 0}, limits[i], FIRST, NULL, 0};
         ps_sets *sets = NULL;
         assert_int_equal(ps_sets_create(&sets, &request, MANY, &options, NULL), PSPEC_OK);
         for (uint64_t r = 0; r < MIDDLE; r++) {
@@ -221,9 +221,10 @@ static void blocks_change_no_bit(void **state) {
 static void a_limit_of_memory_changes_no_bit(void **state) {
     (void)state;
     const ps_sampler_request request = ask("bnot", 2);
-    for (uint64_t limit = 1; limit < (uint64_t)1 << 24; limit *= 8) {
+    const uint64_t least = (uint64_t)ps_sampler_work_bytes(&request) + 1;
+    for (uint64_t limit = least; limit < (uint64_t)1 << 24; limit *= 4) {
         ps_sets *sets = NULL;
-        const ps_sets_options options = {{NULL, 0}, limit, 0, NULL};
+        const ps_sets_options options = {{NULL, 0}, limit, 0, NULL, 0};
         assert_int_equal(ps_sets_create(&sets, &request, NUM_SETS, &options, NULL), PSPEC_OK);
         take_all(sets, &request);
         ps_sets_destroy(sets);
@@ -269,7 +270,7 @@ static void versions_stand_for_bits(void **state) {
         {"bnot", 2, 1, UINT64_C(0xdb0b703c6b38706a)},
         {"fpo", 2, 1, UINT64_C(0x6ccc9a3147f8efcc)},
         {"ccvt", 2, 1, UINT64_C(0xc1e5432d365dcec7)},
-        {"ccvt-sphere", 3, 1, UINT64_C(0x03df70bed6c0ee26)},
+        {"ccvt-sphere", 3, 2, UINT64_C(0x808ed05c4ceab415)},
         {"gaussian-blue-noise", 2, 2, UINT64_C(0x36e8b9f0915103fb)},
         {"step", 2, 2, UINT64_C(0x9845960c79215b36)},
     };

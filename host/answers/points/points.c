@@ -32,18 +32,25 @@ typedef struct points_answer {
 
 /* ---- the question -------------------------------------------------------------------------- */
 
+double ps_points_bytes(const ps_sampler_request *sampler, double num_sets) {
+    const double points = num_sets * (double)ps_sampler_most_points(sampler);
+    return points * sampler->dimension * (double)sizeof(double) + ps_sampler_work_bytes(sampler);
+}
+
 pspec_status ps_points_check_memory(const ps_sampler_request *sampler, double num_sets,
                                     uint64_t limit, ps_error *error) {
-    const double points = num_sets * (double)ps_sampler_most_points(sampler);
-    const double bytes = points * sampler->dimension * (double)sizeof(double);
+    const double bytes = ps_points_bytes(sampler, num_sets);
+    const bool has_work = ps_sampler_work_bytes(sampler) > 0;
     char needed[PS_SIZE_TEXT];
     char allowed[PS_SIZE_TEXT];
     return limit == 0 || bytes <= (double)limit
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_MEMORY,
-                         "%.0f points in %u dimensions take %s of memory, above the limit of %s",
+                         "%.0f points in %u dimensions take %s of memory%s, above the limit of %s",
                          num_sets * (double)sampler->num_points, sampler->dimension,
-                         ps_size_show(needed, bytes), ps_size_show(allowed, (double)limit));
+                         ps_size_show(needed, bytes),
+                         has_work ? " with what makes a set of them" : "",
+                         ps_size_show(allowed, (double)limit));
 }
 
 /* Sets that the answer has whole: all, the first for a picture, or none. */
@@ -81,8 +88,9 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     PS_TRY(find_sampler(&sampler, request, error));
     ps_phases_start(&phases, NULL);
     const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
-    ps_phases_sample(&phases, &sampler, (double)request->num_realizations, &kept.place);
+    ps_phases_sample(&phases, &sampler, (double)request->num_realizations, &kept);
     return ps_plan_table_add_host(planner, &phases,
+                                  ps_points_bytes(&sampler, (double)count_kept(request) + 1),
                                   "points of one sampler, one realization at a time", error);
 }
 

@@ -4,6 +4,8 @@
 
 #include "samplers/sampler.h"
 
+/* Of so many sets, and of what makes one of them. */
+double ps_points_bytes(const ps_sampler_request *sampler, double num_sets);
 /* So many sets are in memory at a time: PSPEC_ERROR_MEMORY where they take more than the limit in
  * bytes; 0: none. */
 pspec_status ps_points_check_memory(const ps_sampler_request *sampler, double num_sets,

@@ -46,7 +46,7 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     PS_TRY(check_question(request, error));
     PS_TRY(ps_truncation_phases(&question, &phases, error));
     ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_host(planner, &phases, "series of the lobe, in double precision",
+    return ps_plan_table_add_host(planner, &phases, 0, "series of the lobe, in double precision",
                                   error);
 }
 

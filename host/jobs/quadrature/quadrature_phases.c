@@ -48,7 +48,7 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
     const double planned = (double)setup->planned_realizations;
     if (question->sampler != NULL) {
         const ps_sets_options sets = ps_limits_sets(&question->limits, question->accuracy.no_skip);
-        ps_phases_sample(phases, question->sampler, planned > 0 ? planned : 1, &sets.place);
+        ps_phases_sample(phases, question->sampler, planned > 0 ? planned : 1, &sets);
         return planned > 0 ? planned : 1;
     }
     const double points = ps_phases_read(phases, question->paths, question->num_paths,

@@ -17,8 +17,8 @@
 static pspec_status open_source(ps_rules *rules, ps_error *error) {
     const ps_quadrature_question *const question = rules->question;
     if (question->sampler != NULL) {
-        const ps_sets_options options =
-            ps_limits_sets(&question->limits, question->accuracy.no_skip);
+        ps_sets_options options = ps_limits_sets(&question->limits, question->accuracy.no_skip);
+        options.taken = options.memory_limit / 2; /* by sums, rules and their weights */
         return ps_source_sampler(&rules->source, question->sampler, question->num_realizations,
                                  &options, &question->watch, error);
     }

@@ -91,18 +91,19 @@ static ps_problem make_problem(const ps_quadrature_setup *setup,
                                const ps_quadrature_question *question, const ps_rule_shape *shape) {
     /* |dc_lm| is e relative to white noise: Q is then off by 4 e at most */
     const double amplitudes = 4;
-    return (ps_problem){.frequencies = &setup->frequencies,
-                        .num_points = shape->most_points,
-                        .planned_points = shape->num_points,
-                        .num_realizations = setup->planned_realizations,
-                        .has_weights = true,
-                        .measure = setup->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
-                        .tolerance = setup->by_pairs ? question->accuracy.tolerance
-                                                     : question->accuracy.tolerance / amplitudes,
-                        .expected_power = setup->by_pairs
-                                              ? expect_power(&setup->representer, setup->max_degree,
-                                                             shape->num_points)
-                                              : 0};
+    return (ps_problem){
+        .frequencies = &setup->frequencies,
+        .num_points = shape->most_points,
+        .planned_points = shape->num_points,
+        .num_realizations = setup->planned_realizations,
+        .has_weights = true,
+        .making_bytes = question->sampler != NULL ? ps_sampler_work_bytes(question->sampler) : 0,
+        .measure = setup->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+        .tolerance = setup->by_pairs ? question->accuracy.tolerance
+                                     : question->accuracy.tolerance / amplitudes,
+        .expected_power = setup->by_pairs ? expect_power(&setup->representer, setup->max_degree,
+                                                         shape->num_points)
+                                          : 0};
 }
 
 static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_question *question,

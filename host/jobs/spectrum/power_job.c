@@ -139,6 +139,17 @@ static pspec_status check_names(ps_power_job *job, ps_error *error) {
     return question->limits.device != NULL ? open_device(job, error) : PSPEC_OK;
 }
 
+/* The plan counts one set in the making; more are made at a time where the limit leaves room. */
+static pspec_status plan(void *payload, ps_error *error) {
+    ps_power_job *const job = payload;
+    PS_TRY(ps_power_needs_plan(job, error));
+    if (job->question->sampler != NULL && job->plan.chosen != NULL) {
+        const double others = job->plan.chosen->bytes - job->problem.making_bytes;
+        ps_source_leave(job->sets.source, others > 0 ? (uint64_t)others : 0);
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(check_names(job, error));
@@ -171,9 +182,10 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .floor = question->wants_pair_sums ? question->accuracy.floor : 0,
         .tolerance = ps_power_needs_tolerance(question),
         .num_weighted = question->num_weighted,
+        .making_bytes = question->sampler != NULL ? ps_sampler_work_bytes(question->sampler) : 0,
     };
     PS_TRY(open_device(job, error));
-    return ps_power_needs_plan(job, error);
+    return plan(job, error);
 }
 
 pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
@@ -248,10 +260,6 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
         ps_sequential_find(bins, job->means, job->question->accuracy.floor, job->runner.num_done);
     *largest = job->look.corrected;
     return PSPEC_OK;
-}
-
-static pspec_status plan(void *payload, ps_error *error) {
-    return ps_power_needs_plan(payload, error);
 }
 
 static pspec_status begin(void *payload, ps_error *error) {

@@ -88,6 +88,7 @@ static double count_bytes(const measurement *self) {
     double sum =
         sets * (double)plan->most_points * numbers + trials * (double)(move_numbers(self) + 1);
     sum *= (double)sizeof(double);
+    sum += plan->making_bytes;
     for (size_t i = 0; i < plan->num_integrands; i++) {
         sum += ps_trials_bytes(plan->integrands[i], &options, plan->device);
     }

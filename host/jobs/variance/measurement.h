@@ -18,6 +18,7 @@ typedef struct ps_measurement_plan {
     uint64_t seed; /* of the moves */
     bool is_moved;
     uint64_t memory_limit; /* bytes that somebody typed; 0: none */
+    double making_bytes;   /* while the source makes a set */
     ps_device *device;     /* NULL: values are made on the host */
     const ps_watch *watch;
 } ps_measurement_plan;

@@ -66,6 +66,7 @@ static ps_measurement_plan plan_measurement(const ps_variance_job *job) {
         .num_shifts = is_one_set ? 1 : job->trials.num_shifts,
         .is_moved = question->is_moved,
         .memory_limit = spectrum->limits.constraints.memory_limit,
+        .making_bytes = spectrum->sampler != NULL ? ps_sampler_work_bytes(spectrum->sampler) : 0,
         .device = ps_power_job_device(job->spectrum),
         .watch = &spectrum->watch,
     };
@@ -92,6 +93,7 @@ static pspec_status open_source(ps_variance_job *job, ps_measurement_plan *plan,
     ps_sets_options sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip);
     sampler.homogenize = false;
     sets.first = plan->first;
+    sets.taken = (uint64_t)fmax(job->trial_bytes - plan->making_bytes, 0);
     PS_TRY(
         ps_source_sampler(owned, &sampler, job->trials.num_sets, &sets, &spectrum->watch, error));
     plan->source = *owned;
@@ -195,7 +197,7 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
         return;
     }
     if (spectrum->sampler != NULL) {
-        ps_phases_sample(phases, spectrum->sampler, num_sets, &sets.place);
+        ps_phases_sample(phases, spectrum->sampler, num_sets, &sets);
     } else {
         add_reading(job, phases);
     }

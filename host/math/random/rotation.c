@@ -25,19 +25,48 @@ ps_rotation ps_rotation_of_quaternion(double w, double x, double y, double z) {
     return rotation;
 }
 
-ps_rotation ps_rotation_random(ps_random *random) {
+/* In double; each entry of a pair is one fused operation, where compilers might fuse one of two. */
+static ps_rotation portable_of_quaternion(const double q[4]) {
+    const double s = 2 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    ps_rotation rotation = {{{0}}};
+    for (unsigned i = 0; i < 3; i++) {
+        const unsigned j = (i + 1) % 3;
+        const unsigned k = (i + 2) % 3;
+        const double across = q[0] * q[1 + k];
+        const double others = q[1 + j] * q[1 + j] + q[1 + k] * q[1 + k];
+        rotation.matrix[i][i] = 1 - s * others;
+        rotation.matrix[i][j] = s * fma(q[1 + i], q[1 + j], -across);
+        rotation.matrix[j][i] = s * fma(q[1 + i], q[1 + j], across);
+    }
+    return rotation;
+}
+
+typedef void turns_function(ps_turns angle, double *cosine, double *sine);
+
+static void draw_quaternion(ps_random *random, turns_function *of_turns, double q[4]) {
     const double u = ps_random_uniform(random);
     const ps_turns first = ps_turns_of(ps_random_uniform(random));
     const ps_turns second = ps_turns_of(ps_random_uniform(random));
-    double w = 0;
-    double x = 0;
-    double y = 0;
-    double z = 0;
-    ps_turns_cosine_sine(first, &w, &x);
-    ps_turns_cosine_sine(second, &y, &z);
     const double a = sqrt(u);
     const double b = sqrt(1 - u);
-    return ps_rotation_of_quaternion(a * w, a * x, b * y, b * z);
+    of_turns(first, &q[0], &q[1]);
+    of_turns(second, &q[2], &q[3]);
+    q[0] *= a;
+    q[1] *= a;
+    q[2] *= b;
+    q[3] *= b;
+}
+
+ps_rotation ps_rotation_random(ps_random *random) {
+    double q[4];
+    draw_quaternion(random, ps_turns_cosine_sine, q);
+    return ps_rotation_of_quaternion(q[0], q[1], q[2], q[3]);
+}
+
+ps_rotation ps_rotation_random_portable(ps_random *random) {
+    double q[4];
+    draw_quaternion(random, ps_turns_portable, q);
+    return portable_of_quaternion(q);
 }
 
 void ps_rotate(const ps_rotation *rotation, double *vectors, size_t num_vectors) {

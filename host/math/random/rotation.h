@@ -15,6 +15,9 @@ typedef struct ps_rotation {
 
 /* Uniform (Haar) over all rotations. Takes three uniform numbers. */
 ps_rotation ps_rotation_random(ps_random *random);
+/* The same numbers, by + - * / sqrt and fma alone: the same bits on every machine, entries right to
+ * 2^-50. */
+ps_rotation ps_rotation_random_portable(ps_random *random);
 
 /* The rotation by the quaternion w + x i + y j + z k, of any length but 0. */
 ps_rotation ps_rotation_of_quaternion(double w, double x, double y, double z);

@@ -51,11 +51,25 @@ static pspec_status allocate(ps_ccvt *c, ps_error *error) {
     return ps_ccvt_grid_create(&c->grid, c->space->room, c->num, error);
 }
 
+/* Two orders of all points while they are sorted, 16 bytes each (ccvt_start.c), and a grid of four
+ * cells a site. */
+double ps_ccvt_bytes(const ps_ccvt_space *space, size_t num, size_t capacity) {
+    const size_t order = 16;
+    const size_t grid = 24;
+    const size_t place = space->room.axes * sizeof(double);
+    const size_t of_point = place + sizeof(double) + 2 * order;
+    const size_t of_site = place + sizeof(double) + 2 * sizeof(uint32_t) + grid;
+    const size_t of_slot = 2 * (sizeof(double) + sizeof(ps_ccvt_offer));
+    return (double)num * (double)capacity * (double)of_point + (double)num * (double)of_site +
+           (double)capacity * (double)of_slot;
+}
+
 pspec_status ps_ccvt_create(ps_ccvt *c, const ps_ccvt_space *space, size_t num, size_t capacity,
-                            const ps_watch *watch, ps_error *error) {
+                            ps_random *random, const ps_watch *watch, ps_error *error) {
     *c = (ps_ccvt){.space = space, .num = num, .capacity = capacity, .watch = watch};
     PS_TRY(ps_ccvt_check(num, capacity, error));
-    return allocate(c, error);
+    PS_TRY(allocate(c, error));
+    return space->draw(c, random, error);
 }
 
 void ps_ccvt_destroy(ps_ccvt *c) {
@@ -115,7 +129,6 @@ static bool can_meet(const ps_ccvt *c, const double *place, uint32_t i, uint32_t
 static pspec_status visit(ps_ccvt *c, uint32_t i, ps_error *error) {
     const size_t num_near = ps_ccvt_grid_later(&c->grid, i, c->near);
     double place[PS_CCVT_AXES] = {0};
-    size_t met = 0;
     ps_ccvt_place(c->site, i, c->space->room.axes, place);
     for (size_t k = 0; k < num_near; k++) {
         const uint32_t j = c->near[k];
@@ -123,10 +136,10 @@ static pspec_status visit(ps_ccvt *c, uint32_t i, ps_error *error) {
             c->changed[i] + 1 >= c->num_passes || c->changed[j] + 1 >= c->num_passes;
         if (is_new && can_meet(c, place, i, j)) {
             ps_ccvt_exchange(c, i, j);
-            met++;
+            PS_TRY(ps_ccvt_go_on(c, 2 * c->capacity, error));
         }
     }
-    return ps_ccvt_go_on(c, num_near + 2 * met * c->capacity, error);
+    return ps_ccvt_go_on(c, num_near, error);
 }
 
 static void change_all(ps_ccvt *c) {
@@ -152,6 +165,7 @@ pspec_status ps_ccvt_pass(ps_ccvt *c, ps_error *error) {
         most = c->reach[i] > most ? c->reach[i] : most;
     }
     c->least_gain = LEAST_GAIN * ps_ccvt_energy(c) / ((double)c->num * (double)c->capacity);
+    PS_TRY(ps_ccvt_go_on(c, c->num * c->capacity, error));
     ps_ccvt_grid_fill(&c->grid, c->site, 2 * most);
     c->num_passes++;
     for (size_t i = 0; i < c->num; i++) {
@@ -204,4 +218,19 @@ void ps_ccvt_give(const ps_ccvt *c, double *points, ps_ccvt_outcome *outcome) {
     if (outcome != NULL) {
         *outcome = (ps_ccvt_outcome){c->num_passes, c->num_swaps, ps_ccvt_energy(c)};
     }
+}
+
+pspec_status ps_ccvt_make(const ps_ccvt_space *space, size_t num, size_t capacity,
+                          ps_random *random, const ps_watch *watch, double *points,
+                          ps_ccvt_outcome *outcome, ps_error *error) {
+    ps_ccvt c;
+    pspec_status status = ps_ccvt_create(&c, space, num, capacity, random, watch, error);
+    if (status == PSPEC_OK) {
+        status = ps_ccvt_run(&c, error);
+    }
+    if (status == PSPEC_OK) {
+        ps_ccvt_give(&c, points, outcome);
+    }
+    ps_ccvt_destroy(&c);
+    return status;
 }

@@ -11,6 +11,7 @@
 #define PS_SAMPLERS_CCVT_CCVT_H
 
 #include "base/watch.h"
+#include "math/random/random.h"
 #include "samplers/ccvt/ccvt_grid.h"
 
 #include <stdbool.h>
@@ -22,9 +23,14 @@
 enum { PS_CCVT_LEAST_CAPACITY = 4, PS_CCVT_MOST_CAPACITY = 1 << 14 };
 #define PS_CCVT_MOST_BACKGROUND (UINT64_C(1) << 24)
 
+typedef struct ps_ccvt ps_ccvt;
+
 /* What torus and sphere have of their own. */
 typedef struct ps_ccvt_space {
     ps_ccvt_room room; /* where coordinates are */
+    const char *phase; /* that the watch hears */
+    /* Draws the sites, then the background. */
+    pspec_status (*draw)(ps_ccvt *ccvt, ps_random *random, ps_error *error);
     /* Squared distances from points first .. first + num - 1 to the place. */
     void (*costs)(double *const *at, size_t first, size_t num, const double *place, double *out);
     /* Moves the place to where the sum of squared distances of these points is least; on the sphere
@@ -42,7 +48,7 @@ typedef struct ps_ccvt_offer {
     uint32_t slot;
 } ps_ccvt_offer;
 
-typedef struct ps_ccvt {
+struct ps_ccvt {
     const ps_ccvt_space *space;
     size_t num, capacity;
     double *site[PS_CCVT_AXES]; /* coordinates of sites, and of background points by sites */
@@ -59,7 +65,7 @@ typedef struct ps_ccvt {
     size_t untold; /* distances that were taken since the watch was told */
     uint32_t num_passes;
     uint64_t num_swaps;
-} ps_ccvt;
+};
 
 typedef struct ps_ccvt_outcome {
     uint32_t passes; /* over pairs of sites */
@@ -70,9 +76,11 @@ typedef struct ps_ccvt_outcome {
 /* Refuses numbers outside the limits with a sentence. */
 pspec_status ps_ccvt_check(size_t num, uint64_t capacity, ps_error *error) PS_MUST_CHECK;
 
-/* Room for it; whoever calls fills site and at. ps_ccvt_destroy also after an error. */
+/* Sites at random and the background, before anything is optimised. ps_ccvt_destroy also after an
+ * error. */
 pspec_status ps_ccvt_create(ps_ccvt *ccvt, const ps_ccvt_space *space, size_t num, size_t capacity,
-                            const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+                            ps_random *random, const ps_watch *watch,
+                            ps_error *error) PS_MUST_CHECK;
 void ps_ccvt_destroy(ps_ccvt *ccvt);
 
 /* Sorts sites and points along bands and gives each site the points that have its place there. */
@@ -89,10 +97,18 @@ pspec_status ps_ccvt_run(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
 /* Sites as points [num][axes]. outcome may be NULL. */
 void ps_ccvt_give(const ps_ccvt *ccvt, double *points, ps_ccvt_outcome *outcome);
 
+/* What ps_ccvt_make allocates, 56 and 64 bytes of a background point and more of few sites. */
+double ps_ccvt_bytes(const ps_ccvt_space *space, size_t num, size_t capacity);
+
+/* All of it. outcome may be NULL. */
+pspec_status ps_ccvt_make(const ps_ccvt_space *space, size_t num, size_t capacity,
+                          ps_random *random, const ps_watch *watch, double *points,
+                          ps_ccvt_outcome *outcome, ps_error *error) PS_MUST_CHECK;
+
 double ps_ccvt_energy(const ps_ccvt *ccvt);
 
-/* Exchanges what sites i and j both gain by. True where there was such a pair of points. */
-bool ps_ccvt_exchange(ps_ccvt *ccvt, uint32_t i, uint32_t j);
+/* Exchanges what sites i and j both gain by. */
+void ps_ccvt_exchange(ps_ccvt *ccvt, uint32_t i, uint32_t j);
 
 /* Squared distances between two words to the watch: about 10 ms. */
 enum { PS_CCVT_WORK_AT_A_TIME = 1 << 20 };
@@ -104,8 +120,7 @@ static inline pspec_status ps_ccvt_go_on(ps_ccvt *ccvt, size_t work, ps_error *e
         return PSPEC_OK;
     }
     ccvt->untold = 0;
-    return ps_watch_tell(ccvt->watch, "sampler: ccvt, passes over all pairs", ccvt->num_passes, 0,
-                         NULL, error);
+    return ps_watch_tell(ccvt->watch, ccvt->space->phase, ccvt->num_passes, 0, NULL, error);
 }
 
 /* Coordinates of number i of such arrays as one place. */

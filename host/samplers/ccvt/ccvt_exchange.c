@@ -89,10 +89,10 @@ static void exchange_tops(ps_ccvt *c, uint32_t i, uint32_t j) {
     c->num_swaps++;
 }
 
-bool ps_ccvt_exchange(ps_ccvt *c, uint32_t i, uint32_t j) {
+void ps_ccvt_exchange(ps_ccvt *c, uint32_t i, uint32_t j) {
     const double most[2] = {try_points(c, i, j, 0), try_points(c, j, i, 1)};
     if (!(most[0] + most[1] > c->least_gain)) {
-        return false;
+        return;
     }
     size_t num[2] = {pile_up(c, i, 0, c->least_gain - most[1]),
                      pile_up(c, j, 1, c->least_gain - most[0])};
@@ -103,5 +103,4 @@ bool ps_ccvt_exchange(ps_ccvt *c, uint32_t i, uint32_t j) {
     }
     c->changed[i] = c->num_passes;
     c->changed[j] = c->num_passes;
-    return true;
 }

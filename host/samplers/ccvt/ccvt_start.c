@@ -92,6 +92,7 @@ static pspec_status sort_bands(sorting *s, ps_error *error) {
     const size_t bands = num_bands(s->ccvt);
     for (size_t k = 0; k < s->num; k++) {
         s->order[k].number = (uint32_t)k;
+        PS_TRY(ps_ccvt_go_on(s->ccvt, 1, error));
     }
     PS_TRY(set_keys(s, 0, s->num, space->height, error));
     PS_TRY(sort(s, 0, s->num, error));

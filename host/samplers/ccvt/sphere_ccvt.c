@@ -85,16 +85,6 @@ static double along(const double *place) {
     return y < 0 ? quarter - 1 : 1 - quarter;
 }
 
-/* B bands of N/B parts have the height 2/B and at the equator the width 2 pi B/N. */
-const ps_ccvt_space ps_sphere_ccvt_space = {
-    .room = {.axes = 3, .low = -1, .width = 2},
-    .costs = costs,
-    .move = move,
-    .height = height,
-    .along = along,
-    .aspect = 1 / PS_PI,
-};
-
 /* numbers: [..][3], of points first and following. */
 static void keep(double *const *at, size_t first, size_t num, const double *numbers) {
     for (size_t k = 0; k < num; k++) {
@@ -110,7 +100,7 @@ static pspec_status make_background(ps_ccvt *c, const ps_rotation *rotation, dou
     for (size_t first = 0; first < num; first += PIECE) {
         const size_t end = first + PIECE < num ? first + PIECE : num;
         for (size_t j = first; j < end; j++) {
-            ps_fibonacci_point(j, num, piece + PS_CCVT_AXES * (j - first));
+            ps_fibonacci_point_portable(j, num, piece + PS_CCVT_AXES * (j - first));
         }
         ps_rotate(rotation, piece, end - first);
         keep(c->at, first, end - first, piece);
@@ -119,38 +109,38 @@ static pspec_status make_background(ps_ccvt *c, const ps_rotation *rotation, dou
     return PSPEC_OK;
 }
 
-static void draw_sites(ps_ccvt *c, ps_random *random, double *piece) {
-    for (size_t first = 0; first < c->num; first += PIECE) {
-        const size_t num = first + PIECE < c->num ? PIECE : c->num - first;
-        ps_random_fill_uniform(random, piece, 2 * num);
-        ps_sphere_lift(false, 0, num, piece);
-        keep(c->site, first, num, piece);
+static pspec_status draw_sites(ps_ccvt *c, ps_random *random, ps_error *error) {
+    for (size_t i = 0; i < c->num; i++) {
+        double point[PS_CCVT_AXES];
+        const ps_height height = ps_height_of_area(false, ps_random_uniform(random));
+        const ps_turns azimuth = ps_turns_of(ps_random_uniform(random));
+        ps_sphere_point_portable(height, azimuth, point);
+        keep(c->site, i, 1, point);
+        PS_TRY(ps_ccvt_go_on(c, 1, error));
     }
+    return PSPEC_OK;
 }
 
-pspec_status ps_sphere_ccvt_create(ps_ccvt *c, size_t num, size_t capacity, ps_random *random,
-                                   const ps_watch *watch, ps_error *error) {
+static pspec_status draw(ps_ccvt *c, ps_random *random, ps_error *error) {
     double *piece = NULL;
-    PS_TRY(ps_ccvt_create(c, &ps_sphere_ccvt_space, num, capacity, watch, error));
     PS_TRY(PS_NEW(&piece, PIECE * PS_CCVT_AXES, "background points", error));
-    draw_sites(c, random, piece);
-    const ps_rotation rotation = ps_rotation_random(random);
-    const pspec_status status = make_background(c, &rotation, piece, error);
+    pspec_status status = draw_sites(c, random, error);
+    if (status == PSPEC_OK) {
+        const ps_rotation rotation = ps_rotation_random_portable(random);
+        status = make_background(c, &rotation, piece, error);
+    }
     free(piece);
     return status;
 }
 
-pspec_status ps_sphere_ccvt_make(size_t num, size_t capacity, ps_random *random,
-                                 const ps_watch *watch, double *points, ps_ccvt_outcome *outcome,
-                                 ps_error *error) {
-    ps_ccvt c;
-    pspec_status status = ps_sphere_ccvt_create(&c, num, capacity, random, watch, error);
-    if (status == PSPEC_OK) {
-        status = ps_ccvt_run(&c, error);
-    }
-    if (status == PSPEC_OK) {
-        ps_ccvt_give(&c, points, outcome);
-    }
-    ps_ccvt_destroy(&c);
-    return status;
-}
+/* B bands of N/B parts have the height 2/B and at the equator the width 2 pi B/N. */
+const ps_ccvt_space ps_sphere_ccvt_space = {
+    .room = {.axes = 3, .low = -1, .width = 2},
+    .phase = "sampler: ccvt-sphere, passes over all pairs",
+    .draw = draw,
+    .costs = costs,
+    .move = move,
+    .height = height,
+    .along = along,
+    .aspect = 1 / PS_PI,
+};

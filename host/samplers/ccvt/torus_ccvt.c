@@ -44,15 +44,6 @@ static double along(const double *place) {
     return place[X];
 }
 
-const ps_ccvt_space ps_torus_ccvt_space = {
-    .room = {.axes = PLANE, .is_periodic = true, .low = 0, .width = 1},
-    .costs = costs,
-    .move = move,
-    .height = height,
-    .along = along,
-    .aspect = 1,
-};
-
 /* ---- background ---------------------------------------------------------------------------- */
 
 /* The largest number of the continued fraction of g / num; num where they have a common divisor. */
@@ -99,27 +90,22 @@ static pspec_status make_background(ps_ccvt *c, ps_random *random, ps_error *err
     return PSPEC_OK;
 }
 
-pspec_status ps_torus_ccvt_create(ps_ccvt *c, size_t num, size_t capacity, ps_random *random,
-                                  const ps_watch *watch, ps_error *error) {
-    PS_TRY(ps_ccvt_create(c, &ps_torus_ccvt_space, num, capacity, watch, error));
-    for (size_t i = 0; i < num; i++) {
+static pspec_status draw(ps_ccvt *c, ps_random *random, ps_error *error) {
+    for (size_t i = 0; i < c->num; i++) {
         c->site[X][i] = ps_random_uniform(random);
         c->site[Y][i] = ps_random_uniform(random);
+        PS_TRY(ps_ccvt_go_on(c, 1, error));
     }
     return make_background(c, random, error);
 }
 
-pspec_status ps_torus_ccvt_make(size_t num, size_t capacity, ps_random *random,
-                                const ps_watch *watch, double *points, ps_ccvt_outcome *outcome,
-                                ps_error *error) {
-    ps_ccvt c;
-    pspec_status status = ps_torus_ccvt_create(&c, num, capacity, random, watch, error);
-    if (status == PSPEC_OK) {
-        status = ps_ccvt_run(&c, error);
-    }
-    if (status == PSPEC_OK) {
-        ps_ccvt_give(&c, points, outcome);
-    }
-    ps_ccvt_destroy(&c);
-    return status;
-}
+const ps_ccvt_space ps_torus_ccvt_space = {
+    .room = {.axes = PLANE, .is_periodic = true, .low = 0, .width = 1},
+    .phase = "sampler: ccvt, passes over all pairs",
+    .draw = draw,
+    .costs = costs,
+    .move = move,
+    .height = height,
+    .along = along,
+    .aspect = 1,
+};

@@ -18,14 +18,4 @@ extern const ps_ccvt_space ps_torus_ccvt_space;
  * mean spectra would have its directions. num > 1. */
 uint64_t ps_torus_ccvt_generator(uint64_t num, ps_random *random);
 
-/* Sites at random and the background, before anything is optimised. ps_ccvt_destroy also after an
- * error. */
-pspec_status ps_torus_ccvt_create(ps_ccvt *ccvt, size_t num, size_t capacity, ps_random *random,
-                                  const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
-
-/* Points [num][2]. outcome may be NULL. */
-pspec_status ps_torus_ccvt_make(size_t num, size_t capacity, ps_random *random,
-                                const ps_watch *watch, double *points, ps_ccvt_outcome *outcome,
-                                ps_error *error) PS_MUST_CHECK;
-
 #endif

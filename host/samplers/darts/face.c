@@ -1,28 +1,15 @@
 #include "samplers/darts/face.h"
 
+#include "math/cosine_sine.h"
 #include "math/pi.h"
 
 #include <math.h>
 #include <stdint.h>
 
-/* Taylor's series up to an eighth of a turn: what is left out is below 3e-18 of either. */
-static void cosine_sine(double angle, double *cosine, double *sine) {
-    enum { LAST = 8 };
-    const double square = angle * angle;
-    double c = 1;
-    double s = 1;
-    for (int i = LAST; i >= 1; i--) {
-        c = 1 - square * c / ((2 * i - 1) * (2 * i));
-        s = 1 - square * s / ((2 * i) * (2 * i + 1));
-    }
-    *cosine = c;
-    *sine = angle * s;
-}
-
 double ps_chord(double angle) {
     double cosine = 0;
     double sine = 0;
-    cosine_sine(angle / 4, &cosine, &sine); /* angle/4 is an eighth of a turn at most */
+    ps_cosine_sine(angle / 4, &cosine, &sine); /* angle/4 is an eighth of a turn at most */
     return 4 * sine * cosine;
 }
 
@@ -33,7 +20,7 @@ static void place(double z, double sine_theta, unsigned eighths, double part, do
     const double root_half = 0.70710678118654752440;
     double c = 0;
     double s = 0;
-    cosine_sine(part * (PS_PI / 4), &c, &s);
+    ps_cosine_sine(part * (PS_PI / 4), &c, &s);
     const double x = eighths % 2 == 0 ? c : (c - s) * root_half;
     const double y = eighths % 2 == 0 ? s : (c + s) * root_half;
     const double cosines[] = {x, -y, -x, y}; /* after so many quarters */

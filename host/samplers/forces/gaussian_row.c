@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "samplers/forces/gaussian.h"
+#include "samplers/forces/gaussian_sums.h"
 #include "samplers/values.h"
 
 #include <math.h>
@@ -65,6 +66,13 @@ static pspec_status open_device(const ps_sampler_request *request, ps_device **d
     return status == PSPEC_OK ? status : ps_fail(error, status, "%s", none.message);
 }
 
+/* Points and forces before and after a step, and the sums, which a device has once more. */
+static double work_bytes(const ps_sampler_request *request) {
+    const double steps = 4 * (double)sizeof(double) * request->dimension;
+    return (double)request->num_points * steps +
+           2 * ps_gaussian_sums_bytes(request->num_points, request->dimension);
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
@@ -90,6 +98,7 @@ const ps_sampler ps_sampler_gaussian_blue_noise = {
                     "0.5 to 2, width of the Gaussians in N^(-1/d); larger ones order more"}},
     .version = 2,
     .seconds = seconds,
+    .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

@@ -41,6 +41,13 @@ static uint32_t count_cells(double unit) {
     return cells < 1 ? 1 : (uint32_t)cells;
 }
 
+double ps_gaussian_sums_bytes(size_t num, unsigned dimension) {
+    const double side = count_cells(ps_gaussian_unit(num, dimension));
+    const double cells = side * side * (dimension == SPACE ? side : 1);
+    return (double)num * (double)((1 + 2 * dimension) * sizeof(double) + sizeof(uint32_t)) +
+           cells * (double)sizeof(uint32_t);
+}
+
 pspec_status ps_gaussian_sums_create(ps_gaussian_sums *s, size_t num, unsigned dimension,
                                      double sigma, ps_error *error) {
     const double unit = ps_gaussian_unit(num, dimension);

@@ -28,6 +28,9 @@ struct ps_gaussian_sums {
 /* N^(-1/d), the same bits on any machine. */
 double ps_gaussian_unit(size_t num, unsigned dimension);
 
+/* What ps_gaussian_sums_create allocates. */
+double ps_gaussian_sums_bytes(size_t num, unsigned dimension);
+
 /* sigma in units of N^(-1/d). Destroy also after a failure. */
 pspec_status ps_gaussian_sums_create(ps_gaussian_sums *s, size_t num, unsigned dimension,
                                      double sigma, ps_error *error) PS_MUST_CHECK;

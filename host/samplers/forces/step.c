@@ -120,6 +120,12 @@ static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Points, forces and the best; counts, a table and four distributions. */
+double ps_step_bytes(size_t num) {
+    const size_t numbers = 3 * AXES + 6;
+    return ps_step_pairs_bytes(num, num) + (double)(numbers * num * sizeof(double));
+}
+
 pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, const char *selector,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) {

@@ -31,6 +31,13 @@ static size_t count_copies(const step_layout *layout) {
     return (layout->num_blocks + 1) / 2;
 }
 
+double ps_step_pairs_bytes(size_t num, size_t num_bins) {
+    const step_layout l = make_layout(num, num_bins);
+    const double plane = (double)(AXES * sizeof(double)) * l.stride;
+    const double copies = (double)count_copies(&l) * (double)(num_bins + 1) * sizeof(uint32_t);
+    return plane * (3 + l.num_blocks) + 2 * copies + (double)(num_bins + 1) * sizeof(double);
+}
+
 static pspec_status create_kernels(ps_step_pairs *p, ps_error *error) {
     const char *const options = p->has_shared_counts ? "-DSHARED=1" : "-DSHARED=0";
     PS_TRY(ps_kernel_create(p->device, &p->count, "samplers/step_counts.cl", "step_counts", options,

@@ -17,6 +17,9 @@ typedef struct ps_step_pairs {
     uint32_t *copies;    /* [(num_blocks + 1) / 2][num_bins + 1] */
 } ps_step_pairs;
 
+/* Bytes of all arrays and buffers: forces of up to 64 blocks are 1 KB a point. */
+double ps_step_pairs_bytes(size_t num, size_t num_bins);
+
 /* The device is borrowed, and refused without double precision; destroy also after a failure. */
 pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t num, size_t num_bins,
                                   ps_error *error) PS_MUST_CHECK;

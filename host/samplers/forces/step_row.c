@@ -35,6 +35,10 @@ static double seconds(const ps_sampler_request *request) {
     return 0.2 + rounds * num * (num / 2 * 2.5e-9 + 0.2e-6);
 }
 
+static double work_bytes(const ps_sampler_request *request) {
+    return ps_step_bytes(request->num_points);
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
@@ -55,6 +59,7 @@ const ps_sampler ps_sampler_step = {
                     "1 to 10000, moves of all points after which it ends with the best so far"}},
     .version = 2,
     .seconds = seconds,
+    .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

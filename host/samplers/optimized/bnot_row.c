@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "samplers/optimized/bnot.h"
+#include "samplers/optimized/bnot_weights.h"
 #include "samplers/optimized/cells.h"
 #include "samplers/values.h"
 
@@ -31,6 +32,10 @@ static double seconds(const ps_sampler_request *request) {
                : 0;
 }
 
+static double work_bytes(const ps_sampler_request *request) {
+    return ps_bnot_bytes(request->num_points);
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
@@ -50,6 +55,7 @@ const ps_sampler ps_sampler_bnot = {
                     "0.02 to 10, how near to the centroids of cells; smaller is more regular"}},
     .version = 1,
     .seconds = seconds,
+    .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

@@ -34,6 +34,15 @@ static pspec_status allocate(ps_bnot *b, size_t num, ps_error *error) {
     return PS_NEW(&b->edges.slope, b->most_edges, "edges of cells", error);
 }
 
+double ps_bnot_bytes(size_t num) {
+    const size_t numbers = 9;
+    const size_t of_edge = 2 * sizeof(ps_image) + sizeof *((ps_bnot *)NULL)->edges.to +
+                           sizeof *((ps_bnot *)NULL)->edges.slope;
+    const size_t first = 3 * sizeof(uint32_t);
+    return ps_power_cells_bytes(num) +
+           (double)num * (double)(numbers * sizeof(double) + NEIGHBOURS_PER_CELL * of_edge + first);
+}
+
 pspec_status ps_bnot_create(ps_bnot *b, size_t num, const double *points, const ps_watch *watch,
                             ps_error *error) {
     *b = (ps_bnot){.watch = watch};

@@ -33,6 +33,9 @@ typedef struct ps_bnot {
     ps_cell cell;
 } ps_bnot;
 
+/* What ps_bnot_create allocates. */
+double ps_bnot_bytes(size_t num);
+
 pspec_status ps_bnot_create(ps_bnot *bnot, size_t num, const double *points, const ps_watch *watch,
                             ps_error *error) PS_MUST_CHECK;
 void ps_bnot_destroy(ps_bnot *bnot);

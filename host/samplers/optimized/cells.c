@@ -31,6 +31,11 @@ static pspec_status allocate(ps_power_cells *cells, ps_error *error) {
     return PS_NEW(&cells->first, num_squares + 1, "squares of the torus", error);
 }
 
+double ps_power_cells_bytes(size_t num) {
+    const size_t numbers = 6;
+    return (double)num * (double)(numbers * sizeof(double) + 2 * sizeof(uint32_t));
+}
+
 pspec_status ps_power_cells_create(ps_power_cells *cells, size_t num, const double *points,
                                    ps_error *error) {
     *cells = (ps_power_cells){.num = num};

@@ -29,6 +29,9 @@ typedef struct ps_power_cells {
 /* Refuses a number of points outside the limits with a sentence. */
 pspec_status ps_power_cells_check(size_t num, ps_error *error) PS_MUST_CHECK;
 
+/* What ps_power_cells_create allocates. */
+double ps_power_cells_bytes(size_t num);
+
 /* Takes points [num][2] of [0,1)^2, with weights 0. */
 pspec_status ps_power_cells_create(ps_power_cells *cells, size_t num, const double *points,
                                    ps_error *error) PS_MUST_CHECK;

@@ -52,6 +52,14 @@ static pspec_status allocate(ps_fpo_mesh *mesh, size_t num, ps_error *error) {
     return ps_tournament_create(&mesh->reach2, num, error);
 }
 
+/* Cells of the plane are there while the mesh is filled; a tournament has up to two leaves a point.
+ */
+double ps_fpo_mesh_bytes(size_t num) {
+    const size_t leaf = sizeof(double) + sizeof(uint32_t);
+    return ps_power_cells_bytes(num) +
+           (double)num * (double)(2 * sizeof(double) + sizeof(ps_fpo_cell) + 2 * leaf);
+}
+
 static pspec_status fill(ps_fpo_mesh *mesh, const ps_power_cells *cells, ps_error *error) {
     for (size_t i = 0; i < mesh->num; i++) {
         mesh->x[i] = cells->x[i];

@@ -34,6 +34,9 @@ typedef struct ps_fpo_mesh {
     bool has_no_room; /* a cell had too many edges: the mesh is of no use */
 } ps_fpo_mesh;
 
+/* What ps_fpo_mesh_create allocates, at most. */
+double ps_fpo_mesh_bytes(size_t num);
+
 /* Of points [num][2], which it takes in the order of ps_power_cells. */
 pspec_status ps_fpo_mesh_create(ps_fpo_mesh *mesh, size_t num, const double *points,
                                 ps_error *error) PS_MUST_CHECK;

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "samplers/optimized/cells.h"
 #include "samplers/optimized/fpo.h"
+#include "samplers/optimized/fpo_mesh.h"
 #include "samplers/values.h"
 
 #include <math.h>
@@ -34,6 +35,10 @@ static double seconds(const ps_sampler_request *request) {
                : 0;
 }
 
+static double work_bytes(const ps_sampler_request *request) {
+    return ps_fpo_mesh_bytes(request->num_points);
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
@@ -53,6 +58,7 @@ const ps_sampler ps_sampler_fpo = {
                     "0.5 to 0.93 of hexagonal packing's, least distance of two points"}},
     .version = 1,
     .seconds = seconds,
+    .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

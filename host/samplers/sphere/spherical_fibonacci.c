@@ -25,10 +25,19 @@ uint64_t ps_fibonacci_fraction(uint64_t j) {
     return j * INVERSE_PHI_HIGH + product_high(j, INVERSE_PHI_LOW); /* whole turns drop out */
 }
 
-void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point) {
+static ps_height height_of(size_t j, uint64_t num_heights) {
     const double denominator = (double)num_heights;
-    const ps_height height = ps_height_of_ratio(denominator - (2 * (double)j + 1), denominator);
-    ps_sphere_point(height, ps_turns_of_fraction(ps_fibonacci_fraction(j)), point);
+    return ps_height_of_ratio(denominator - (2 * (double)j + 1), denominator);
+}
+
+void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point) {
+    ps_sphere_point(height_of(j, num_heights), ps_turns_of_fraction(ps_fibonacci_fraction(j)),
+                    point);
+}
+
+void ps_fibonacci_point_portable(size_t j, uint64_t num_heights, double *point) {
+    ps_sphere_point_portable(height_of(j, num_heights),
+                             ps_turns_of_fraction(ps_fibonacci_fraction(j)), point);
 }
 
 void ps_fibonacci_points(size_t first, size_t end, uint64_t num_heights, double *points) {

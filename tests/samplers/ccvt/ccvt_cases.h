@@ -16,11 +16,6 @@
 #include "samplers/ccvt/sphere_ccvt.h"
 #include "samplers/ccvt/torus_ccvt.h"
 
-typedef pspec_status ccvt_create(ps_ccvt *, size_t, size_t, ps_random *, const ps_watch *,
-                                 ps_error *);
-typedef pspec_status ccvt_make(size_t, size_t, ps_random *, const ps_watch *, double *,
-                               ps_ccvt_outcome *, ps_error *);
-
 /* The square of the angle of unit vectors, by their chord: right also where it is small. */
 static inline double ccvt_square_angle(const double *u, const double *v) {
     const double x = u[0] - v[0];
@@ -39,14 +34,12 @@ static inline double ccvt_square_wrapped(const double *u, const double *v) {
 typedef struct ccvt_case {
     const char *name;
     unsigned axes;
-    ccvt_create *create;
-    ccvt_make *make;
+    const ps_ccvt_space *space;
     double (*square)(const double *, const double *);
 } ccvt_case;
 
-static const ccvt_case ccvt_cases[] = {
-    {"torus", 2, ps_torus_ccvt_create, ps_torus_ccvt_make, ccvt_square_wrapped},
-    {"sphere", 3, ps_sphere_ccvt_create, ps_sphere_ccvt_make, ccvt_square_angle}};
+static const ccvt_case ccvt_cases[] = {{"torus", 2, &ps_torus_ccvt_space, ccvt_square_wrapped},
+                                       {"sphere", 3, &ps_sphere_ccvt_space, ccvt_square_angle}};
 enum { CCVT_CASES = sizeof ccvt_cases / sizeof ccvt_cases[0] };
 
 static inline void ccvt_assert_ok(pspec_status status, const ps_error *error) {
@@ -60,7 +53,7 @@ static inline void ccvt_begin_case(ps_ccvt *c, const ccvt_case *which, size_t nu
                                    uint64_t realization) {
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
     ps_error error = {0};
-    ccvt_assert_ok(which->create(c, num, capacity, &random, NULL, &error), &error);
+    ccvt_assert_ok(ps_ccvt_create(c, which->space, num, capacity, &random, NULL, &error), &error);
 }
 
 static inline ps_ccvt_outcome ccvt_make_case(const ccvt_case *which, size_t num, size_t capacity,
@@ -68,7 +61,8 @@ static inline ps_ccvt_outcome ccvt_make_case(const ccvt_case *which, size_t num,
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
     ps_ccvt_outcome outcome = {0};
     ps_error error = {0};
-    ccvt_assert_ok(which->make(num, capacity, &random, NULL, points, &outcome, &error), &error);
+    ccvt_assert_ok(
+        ps_ccvt_make(which->space, num, capacity, &random, NULL, points, &outcome, &error), &error);
     return outcome;
 }
 
