@@ -14,7 +14,8 @@ typedef struct ps_sets_options {
     ps_set_place place;
     uint64_t memory_limit; /* of the job, of which sets made ahead take a 16th; 0: none */
     uint64_t first;        /* realization */
-    const char *device;    /* selector of the one that makes sets; NULL: the first */
+    const char *device; /* selector of the one that makes sets, opened when one must be made by it,
+                            * and kept as long as the sets; NULL: the first */
 } ps_sets_options;
 
 /* Realizations first .. first + num_realizations - 1; request is resolved, and copied, and so are

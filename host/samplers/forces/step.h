@@ -10,6 +10,7 @@
 #define PS_SAMPLERS_FORCES_STEP_H
 
 #include "base/watch.h"
+#include "device/device.h"
 #include "math/random/random.h"
 
 #include <stddef.h>
@@ -25,9 +26,9 @@ typedef struct ps_step_outcome {
     double first, last; /* distance of the distribution from that of a step spectrum */
 } ps_step_outcome;
 
-/* Points [num][2], from uniform random ones, by the device that selector means (NULL: the first).
- * outcome may be NULL. */
-pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, const char *selector,
+/* Points [num][2], from uniform random ones, by the device, which has double precision. outcome may
+ * be NULL. */
+pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, ps_device *device,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) PS_MUST_CHECK;
 
