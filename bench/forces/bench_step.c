@@ -75,12 +75,14 @@ static void time_set(size_t num, ps_device *device) {
     ps_step_curves curves;
     ps_step_outcome outcome;
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-    BENCH_TRY(ps_step_make(num, 1, &random, device, NULL, s.x, NULL, error)); /* builds */
+    BENCH_TRY(ps_step_make(num, (ps_step_options){1, PS_STEP_SMOOTHING}, &random, device, NULL, s.x,
+                           NULL, error)); /* builds */
     random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
     const double begin = bench_seconds();
-    BENCH_TRY(ps_step_make(num, PS_STEP_MOST_ROUNDS, &random, device, NULL, s.x, &outcome, error));
+    BENCH_TRY(ps_step_make(num, (ps_step_options){PS_STEP_MOST_ROUNDS, PS_STEP_SMOOTHING}, &random,
+                           device, NULL, s.x, &outcome, error));
     const double whole = bench_seconds() - begin;
-    BENCH_TRY(ps_step_curves_create(&curves, num, num, error));
+    BENCH_TRY(ps_step_curves_create(&curves, num, num, PS_STEP_SMOOTHING, error));
     const double plain = time_plain(&s, &curves);
     const double on_device = time_device(&s, &curves, device);
     printf("%6zu %6u %8.4f %10.2f %10.2f %6.1f %9.2f %9.2f %6.1f\n", num, outcome.rounds,

@@ -28,7 +28,8 @@ typedef struct search {
     double *best_found; /* [num_bins], the distribution of the best */
     double best_off;    /* its distance from the target */
     double length;      /* of the longest move of a step, in 1/sqrt(N) */
-    unsigned tries, most_rounds;
+    unsigned tries;
+    ps_step_options options;
     size_t num;
     const ps_watch *watch;
 } search;
@@ -36,7 +37,7 @@ typedef struct search {
 static pspec_status create(search *s, ps_device *device, ps_error *error) {
     const size_t num_bins = s->num;
     PS_TRY(ps_step_pairs_create(&s->pairs, device, s->num, num_bins, error));
-    PS_TRY(ps_step_curves_create(&s->curves, s->num, num_bins, error));
+    PS_TRY(ps_step_curves_create(&s->curves, s->num, num_bins, s->options.smoothing, error));
     PS_TRY(PS_NEW(&s->counts, num_bins, "counts of pairs", error));
     PS_TRY(PS_NEW(&s->table, num_bins + 1, "forces over distances", error));
     PS_TRY(PS_NEW(&s->best_found, num_bins, "distributions of distances", error));
@@ -99,7 +100,7 @@ static void move(search *s) {
 }
 
 static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
-    while (s->length >= LAST_LENGTH && outcome->rounds < s->most_rounds) {
+    while (s->length >= LAST_LENGTH && outcome->rounds < s->options.most_rounds) {
         PS_TRY(ps_watch_tell(s->watch, "sampler: step, moves of all points", outcome->rounds, 0,
                              NULL, error));
         PS_TRY(ps_step_pairs_count(&s->pairs, s->x, s->counts, s->watch, error));
@@ -115,11 +116,11 @@ static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, ps_device *device,
+pspec_status ps_step_make(size_t num, ps_step_options options, ps_random *random, ps_device *device,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) {
     search s = {.num = num,
-                .most_rounds = most_rounds,
+                .options = options,
                 .watch = watch,
                 .length = FIRST_LENGTH,
                 .best_off = HUGE_VAL};

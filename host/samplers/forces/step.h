@@ -12,6 +12,7 @@
 #include "base/watch.h"
 #include "device/device.h"
 #include "math/random/random.h"
+#include "samplers/forces/step_curves.h"
 
 #include <stddef.h>
 
@@ -21,6 +22,11 @@ enum { PS_STEP_LEAST_POINTS = 64, PS_STEP_MOST_POINTS = 1 << 16 };
 /* Rounds after which it ends with the best so far: never before its own end. */
 enum { PS_STEP_MOST_ROUNDS = 10000 };
 
+typedef struct ps_step_options {
+    unsigned most_rounds;
+    ps_step_smoothing smoothing; /* PS_STEP_SMOOTHING */
+} ps_step_options;
+
 typedef struct ps_step_outcome {
     unsigned rounds;    /* that points were moved */
     double first, last; /* distance of the distribution from that of a step spectrum */
@@ -28,7 +34,7 @@ typedef struct ps_step_outcome {
 
 /* Points [num][2], from uniform random ones, by the device, which has double precision. outcome may
  * be NULL. */
-pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, ps_device *device,
+pspec_status ps_step_make(size_t num, ps_step_options options, ps_random *random, ps_device *device,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) PS_MUST_CHECK;
 

@@ -44,8 +44,8 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     PS_TRY(rounds_of(request, &rounds, error));
     pspec_status status = ps_loan_begin(&loan, request, false, error);
     if (status == PSPEC_OK) {
-        status = ps_step_make(request->num_points, rounds, &random, loan.device, request->watch,
-                              points, NULL, error);
+        status = ps_step_make(request->num_points, (ps_step_options){rounds, PS_STEP_SMOOTHING},
+                              &random, loan.device, request->watch, points, NULL, error);
     }
     ps_loan_end(&loan);
     return status;

@@ -15,6 +15,7 @@
 
 enum { NUM = 256 };
 
+static const ps_step_options whole = {PS_STEP_MOST_ROUNDS, {8, false}};
 static ps_device *device;
 static ps_lender *lender; /* of the same */
 
@@ -22,8 +23,7 @@ static ps_step_outcome make(size_t num, uint64_t realization, double *x) {
     ps_step_outcome outcome = {0};
     ps_error error = {0};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
-    if (ps_step_make(num, PS_STEP_MOST_ROUNDS, &random, device, NULL, x, &outcome, &error) !=
-        PSPEC_OK) {
+    if (ps_step_make(num, whole, &random, device, NULL, x, &outcome, &error) != PSPEC_OK) {
         fail_msg("%s", error.message);
     }
     for (size_t k = 0; k < 2 * num; k++) {
@@ -55,7 +55,8 @@ static void curves_are_those_of_counts(void **state) {
     double table[BINS + 1];
     ps_step_curves c;
     ps_error error = {0};
-    assert_int_equal(ps_step_curves_create(&c, 1U << 16, BINS, &error), PSPEC_OK);
+    assert_int_equal(ps_step_curves_create(&c, 1U << 16, BINS, PS_STEP_SMOOTHING, &error),
+                     PSPEC_OK);
     const double pairs = 65536.0 * 65535 / 2;
     double off = 0;
     for (int b = 0; b < BINS; b++) {
@@ -73,6 +74,29 @@ static void curves_are_those_of_counts(void **state) {
     ps_step_curves_force(&c, table);
     assert_true(table[BINS / 2] < 0);
     ps_step_curves_destroy(&c);
+}
+
+/* What has the target's pairs is nearer to the smoothed target than to the target itself. */
+static void smoothing_may_be_of_both_curves(void **state) {
+    (void)state;
+    enum { BINS = 400 };
+    const double pi = acos(-1);
+    uint64_t counts[BINS];
+    double off[2];
+    ps_step_curves c[2];
+    for (int k = 0; k < 2; k++) {
+        const ps_step_smoothing smoothing = {8, k == 1};
+        assert_ok(ps_step_curves_create(&c[k], 1U << 16, BINS, smoothing, error));
+    }
+    for (int b = 0; b < BINS; b++) {
+        const double ring = 65536.0 * 65535 / 2 * pi * (2 * b + 1) / (4.0 * BINS * BINS);
+        counts[b] = (uint64_t)(ring * c[0].target[b] + 0.5);
+    }
+    for (int k = 0; k < 2; k++) {
+        off[k] = ps_step_curves_measure(&c[k], counts);
+        ps_step_curves_destroy(&c[k]);
+    }
+    assert_true(off[0] > 1e-2 && off[1] < 1e-4);
 }
 
 /* ---- sets ---- */
@@ -168,7 +192,7 @@ static void what_cannot_be_made_is_refused(void **state) {
     refuse("step", 64, 3, "dimension 3");
     refuse("step:rounds=0", 64, 2, "rounds");
     refuse("step:rounds=many", 64, 2, "rounds");
-    assert_int_equal(ps_step_make(63, 1, &random, device, NULL, x, NULL, &error),
+    assert_int_equal(ps_step_make(63, whole, &random, device, NULL, x, NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(error.message, "from 64"));
 }
@@ -258,9 +282,8 @@ static void whoever_watches_may_stop_it(void **state) {
     const ps_watch watch = {stop_at_the_third, &calls};
     ps_error error = {0};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-    assert_int_equal(
-        ps_step_make(NUM, PS_STEP_MOST_ROUNDS, &random, device, &watch, x, NULL, &error),
-        PSPEC_ERROR_CANCELLED);
+    assert_int_equal(ps_step_make(NUM, whole, &random, device, &watch, x, NULL, &error),
+                     PSPEC_ERROR_CANCELLED);
     assert_int_equal(calls, 3);
 }
 
@@ -294,6 +317,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_bessel_function_is_right),
         cmocka_unit_test(curves_are_those_of_counts),
+        cmocka_unit_test(smoothing_may_be_of_both_curves),
         cmocka_unit_test(a_device_without_double_precision_is_refused),
         cmocka_unit_test(seconds_are_those_that_were_measured),
     };
