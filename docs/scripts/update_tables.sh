@@ -80,6 +80,14 @@ table_bench_blue_noise_peers() {
     [[ -n ${UTK_CLONE-} ]] || { echo "update_tables: UTK_CLONE names no clone" >&2; return 1; }
     need bench/bench_blue_noise && BUILD=$build "$docs/../bench/bench_blue_noise_peers.sh" "$UTK_CLONE"
 }
+bench_forces() { # TABLE
+    need bench/bench_forces && "$build/bench/bench_forces" "$1"
+}
+# Four minutes of a processor; seconds of the first two want a quiet machine.
+table_bench_forces_gaussian() { bench_forces gaussian; }
+table_bench_forces_step() { bench_forces step; }
+table_bench_forces_powers() { bench_forces powers; }
+table_bench_forces_smoothings() { bench_forces smoothings; }
 # Four minutes; POINTSPEC_TEST_DATA as in ./dev.
 table_published_sets() {
     need pointspec &&

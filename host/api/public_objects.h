@@ -4,7 +4,7 @@
 
 #include "base/log.h"
 #include "base/watch.h"
-#include "device/device.h"
+#include "device/lender.h"
 #include "spectra/spectrum_sums.h"
 #include "tables/table.h"
 
@@ -12,6 +12,7 @@ struct pspec_context {
     ps_error error;
     char *selector;
     ps_device *device; /* NULL until a plan needs it */
+    ps_lender *lender; /* NULL until a sampler wants it */
     uint64_t memory_limit;
     ps_watch watch; /* the progress callback */
     ps_log log;
@@ -24,6 +25,9 @@ pspec_status ps_public_table(pspec_table **out, ps_table *table, const char *ver
 
 /* Opens the context's device unless it is open. */
 pspec_status ps_context_open_device(pspec_context *context) PS_MUST_CHECK;
+
+/* Of devices for samplers, opened when they are needed and kept as long as the context. */
+pspec_status ps_context_lend(pspec_context *context, ps_lender **lender) PS_MUST_CHECK;
 
 /* A spectrum of sums, which are taken over even when it fails. */
 pspec_status ps_public_spectrum(pspec_spectrum **out, ps_spectrum_sums *sums, const ps_bins *bins,

@@ -64,7 +64,9 @@ pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context 
                        "to realization");
     }
     ps_sampler_request request = sampler->request;
-    request.device = context->selector;
+    if (ps_sampler_uses_device(&request)) {
+        PS_TRY(ps_context_lend(context, &request.lender));
+    }
     return ps_sampler_generate(&request, realization, points, num_points, &context->watch, error);
 }
 

@@ -185,6 +185,15 @@ static pspec_status sample_one(const ps_request *request, size_t question,
     return status;
 }
 
+/* All of them before the first is made. */
+static pspec_status check_samplers(const ps_request *request, ps_error *error) {
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        ps_sampler_request sampler = {0};
+        PS_TRY(ps_sampler_request_make(&sampler, request, i, error));
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) {
     const size_t num = ps_request_num_questions(request);
@@ -192,6 +201,7 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
     pspec_status status = PSPEC_OK;
     PS_TRY(ps_points_check_words(request, ps_request_only_draws(request), error));
     PS_TRY(ps_points_drawing_check(request, hooks, error));
+    PS_TRY(check_samplers(request, error));
     for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
         status = sample_one(request, i, request->plot != NULL ? &picture : NULL, hooks, error);
     }

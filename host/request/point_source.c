@@ -84,8 +84,24 @@ pspec_status ps_sampler_request_read(ps_sampler_request *out, const ps_request *
     return ps_sampler_parse(out, ps_request_sampler(arguments, question), error);
 }
 
+/* Kept sets need no device. */
+static pspec_status check_device(const ps_sampler_request *request, const ps_request *arguments,
+                                 ps_error *error) {
+    const uint64_t num = ps_num_realizations_asked(arguments);
+    const ps_sets_options sets = ps_limits_sets(&arguments->limits, arguments->accuracy.no_skip);
+    return !ps_sampler_uses_device(request) || ps_sets_count_kept(request, &sets.place, num) == num
+               ? PSPEC_OK
+               : ps_sampler_check_device(request, arguments->limits.device, error);
+}
+
+pspec_status ps_sampler_request_resolve(ps_sampler_request *out, const ps_request *arguments,
+                                        ps_error *error) {
+    PS_TRY(ps_sampler_resolve(out, error));
+    return check_device(out, arguments, error);
+}
+
 pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t question, ps_error *error) {
     PS_TRY(ps_sampler_request_read(out, arguments, question, error));
-    return ps_sampler_resolve(out, error);
+    return ps_sampler_request_resolve(out, arguments, error);
 }

@@ -9,7 +9,10 @@
 /* What the sampler of a question is asked for: parsed, options that were not given left open. */
 pspec_status ps_sampler_request_read(ps_sampler_request *out, const ps_request *arguments,
                                      size_t question, ps_error *error) PS_MUST_CHECK;
-/* The same, resolved and checked. */
+/* Resolves and checks it, and the device that has to make its sets, but for those that are kept. */
+pspec_status ps_sampler_request_resolve(ps_sampler_request *out, const ps_request *arguments,
+                                        ps_error *error) PS_MUST_CHECK;
+/* Both. */
 pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t question, ps_error *error) PS_MUST_CHECK;
 

@@ -199,6 +199,17 @@ static pspec_status homogenize_points(const ps_sampler_request *request, uint64_
                                             : shift_points(request, realization, points, error);
 }
 
+bool ps_sampler_uses_device(const ps_sampler_request *request) {
+    return request->sampler->check_device != NULL;
+}
+
+pspec_status ps_sampler_check_device(const ps_sampler_request *request, const char *selector,
+                                     ps_error *error) {
+    return ps_sampler_uses_device(request)
+               ? request->sampler->check_device(request, selector, error)
+               : PSPEC_OK;
+}
+
 pspec_status ps_sampler_make(const ps_sampler_request *request, uint64_t realization,
                              double *points, size_t *num_points, const ps_watch *watch,
                              ps_error *error) {

@@ -60,6 +60,7 @@ typedef enum ps_sampler_domain {
 typedef ps_parameter ps_sampler_parameter;
 
 typedef struct ps_sampler ps_sampler;
+typedef struct ps_lender ps_lender; /* device/lender.h */
 
 /* What to sample. values[i] belongs to sampler->parameters[i]. */
 typedef struct ps_sampler_request {
@@ -75,9 +76,9 @@ typedef struct ps_sampler_request {
                         becoming -u */
     char values[PS_MAX_SAMPLER_PARAMETERS][PS_MAX_SAMPLER_VALUE];
     const ps_watch *watch; /* of ps_sampler_generate while it works, for samplers/pace.h */
-    /* Selector of the device of samplers that have work for one; NULL: the first. The same points
-     * on any. */
-    const char *device;
+    /* Of devices, for samplers that have work for one, borrowed; NULL: each set opens the first.
+     * The same points on any. */
+    ps_lender *lender;
 } ps_sampler_request;
 
 struct ps_sampler {
@@ -121,6 +122,8 @@ struct ps_sampler {
     pspec_status (*open_points)(const ps_sampler_request *, size_t *num_points, ps_error *);
     /* Are number of points, dimension and parameter values admissible? NULL: always. */
     pspec_status (*check)(const ps_sampler_request *, ps_error *);
+    /* Can the device that selector means make the sets, where one is to? NULL: none is. */
+    pspec_status (*check_device)(const ps_sampler_request *, const char *selector, ps_error *);
     /* Writes realization r: points [num_points][dimension], each in [0,1), or unit vectors. Work
      * that takes long tells the watch of the request, and ends where it asks to (samplers/pace.h).
      */
@@ -149,6 +152,13 @@ pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) PS
 /* Checks the whole request (dimension, number of points, values), in which nothing may be left
  * open; a request must have passed it, or have been resolved, before sampling. */
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
+
+/* Has the sampler work for a device? */
+bool ps_sampler_uses_device(const ps_sampler_request *request);
+/* Refuses a device that cannot make sets of the request, before any is made; selector as
+ * ps_device_choose has it. */
+pspec_status ps_sampler_check_device(const ps_sampler_request *request, const char *selector,
+                                     ps_error *error) PS_MUST_CHECK;
 
 /* Writes realization r of the request, points [*num_points][dimension] with room for
  * ps_sampler_most_points, random shift or rotation included when it is homogenized, then morphed.

@@ -4,6 +4,7 @@
 #include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "base/workers.h"
+#include "device/lender.h"
 #include "sets/ahead.h"
 
 #include <math.h>
@@ -25,6 +26,7 @@ enum { MOST_SLOTS = 256, MOST_BLOCKS = 4, ROOM_BYTES = 1 << 24, SHARE_OF_LIMIT =
 struct ps_sets {
     ps_sampler_request request;
     ps_sets_options options;
+    ps_lender *lender;  /* to the threads that make sets; NULL: no device has work */
     uint64_t end, next; /* realizations */
     bool has_begun;
     ps_set_store *store; /* NULL: nothing is kept */
@@ -176,6 +178,14 @@ static pspec_status begin(ps_sets *sets, ps_error *error) {
     return num_slots > 1 ? begin_ahead(sets, num_slots, error) : PSPEC_OK;
 }
 
+static pspec_status lend_devices(ps_sets *sets, ps_error *error) {
+    if (ps_sampler_uses_device(&sets->request)) {
+        PS_TRY(ps_lender_create(&sets->lender, sets->options.device, error));
+    }
+    sets->request.lender = sets->lender;
+    return PSPEC_OK;
+}
+
 pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
                             uint64_t num_realizations, const ps_sets_options *options,
                             ps_error *error) {
@@ -185,11 +195,15 @@ pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
     PS_TRY(check_memory(request, options, error));
     PS_TRY(PS_NEW(&sets, 1, "realizations of a sampler", error));
     sets->request = *request;
-    sets->request.device = options->device;
     sets->options = *options;
     sets->next = options->first;
     sets->end = options->first + num_realizations;
     sets->stride = ps_sampler_most_points(request) * request->dimension;
+    const pspec_status status = lend_devices(sets, error);
+    if (status != PSPEC_OK) {
+        ps_sets_destroy(sets);
+        return status;
+    }
     *out = sets;
     return PSPEC_OK;
 }
@@ -198,6 +212,7 @@ void ps_sets_destroy(ps_sets *sets) {
     if (sets != NULL) {
         end_ahead(sets);
         ps_set_store_close(sets->store);
+        ps_lender_destroy(sets->lender);
         free(sets);
     }
 }

@@ -14,8 +14,9 @@ typedef struct ps_sets_options {
     ps_set_place place;
     uint64_t memory_limit; /* of the job, of which sets made ahead take a 16th; 0: none */
     uint64_t first;        /* realization */
-    const char *device;    /* selector of the one that makes sets; NULL: the first */
-    uint64_t taken;        /* of the limit, by the rest of the job: what is left bounds makers */
+    const char *device; /* selector of the one that makes sets, opened when one must be made by it,
+                            * and kept as long as the sets; NULL: the first */
+    uint64_t taken;     /* of the limit, by the rest of the job: what is left bounds makers */
 } ps_sets_options;
 
 /* Realizations first .. first + num_realizations - 1; request is resolved, and copied, and so are

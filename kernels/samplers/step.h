@@ -18,9 +18,10 @@ typedef struct step_layout {
     ps_u32 num_points, stride; /* stride: between the coordinates of axes */
     ps_u32 block, num_blocks;  /* points of a block, a multiple of STEP_LANES */
     ps_u32 num_bins;
-    ps_u32 unused;
+    ps_u32 first,
+        num_firsts; /* points of the first block of every tile: a launch has some of all */
 } step_layout;
-SAME_SIZE(step_layout, 24);
+SAME_SIZE(step_layout, 28);
 
 #ifdef __OPENCL_C_VERSION__
 
@@ -64,6 +65,15 @@ STEP_INLINE int8 step_keep(const step_layout *layout, const int8 bin, const uint
 /* The point behind the last of a block. */
 STEP_INLINE uint step_block_end(const step_layout *layout, const uint block) {
     return min((block + 1) * layout->block, layout->num_points);
+}
+
+/* Points of a block that the launch has as the first of a pair. */
+STEP_INLINE uint step_first(const step_layout *layout, const uint block) {
+    return block * layout->block + layout->first;
+}
+
+STEP_INLINE uint step_first_end(const step_layout *layout, const uint block) {
+    return min(step_first(layout, block) + layout->num_firsts, step_block_end(layout, block));
 }
 
 #endif

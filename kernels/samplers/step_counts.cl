@@ -2,8 +2,8 @@
  *
  * Work-item (r, s) has the tiles of rows r and num_blocks - 1 - r, which are as long as those of
  * any other r together, and of these every S-th, from the s-th on. Launch: ((num_blocks + 1) / 2,
- * S), all at once the first rounded up at will. With SHARED=0, S is 1, and each work-item has a
- * copy of its own.
+ * S), the first rounded up at will, once for every part of the points of a block (step_first). With
+ * SHARED=0, S is 1, and each work-item has a copy of its own.
  *
  *   points  [axis][stride]
  *   counts  [(num_blocks + 1) / 2][num_bins + 1], zero before
@@ -31,10 +31,10 @@
 STEP_INLINE void count_tile(const step_layout *layout, __global const double *points,
                             STEP_MEMORY uint *counts, const uint row, const uint column,
                             const bool is_whole) {
-    const uint end = step_block_end(layout, row);
+    const uint end = step_first_end(layout, row);
     const uint last = step_block_end(layout, column);
     int bins[CHUNK];
-    for (uint i = row * layout->block; i < end; i++) {
+    for (uint i = step_first(layout, row); i < end; i++) {
         const double8 x = (double8)points[i];
         const double8 y = (double8)points[layout->stride + i];
         for (uint from = column * layout->block; from < last; from += CHUNK) {

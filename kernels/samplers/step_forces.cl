@@ -1,7 +1,8 @@
 /* Forces of a tile of pairs on the points of both of its blocks: for step blue noise.
  *
  * Work-item (column, row), row <= column, has a tile. Launch: (num_blocks, num_blocks), the first
- * rounded up at will.
+ * rounded up at will, at once or some rows after the others; either once for every part of the
+ * points of a block (step_first), from the first to the last.
  *
  *   points   [axis][stride]
  *   table    [num_bins + 1] of forces over distances; the last is 0
@@ -71,13 +72,15 @@ __kernel void step_forces(const step_layout layout, __global const double *restr
         return;
     }
     const size_t plane = 2 * (size_t)layout.stride;
-    const step_tile tile = {row * layout.block,      step_block_end(&layout, row),
-                            column * layout.block,   step_block_end(&layout, column),
-                            forces + column * plane, forces + row * plane};
+    const step_tile tile = {step_first(&layout, row), step_first_end(&layout, row),
+                            column * layout.block,    step_block_end(&layout, column),
+                            forces + column * plane,  forces + row * plane};
     if (row == column) {
         force_tile(&layout, points, table, &tile, true, false);
     } else {
-        clear(&tile, layout.stride);
+        if (layout.first == 0) {
+            clear(&tile, layout.stride);
+        }
         if (column + 1 < layout.num_blocks) {
             force_tile(&layout, points, table, &tile, false, true);
         } else {

@@ -62,4 +62,10 @@ grep -q 'host_direct:extended,chosen' out || complain "plan run: $(<out)"
 "$program" devices >out 2>err || complain "devices: exit $?"
 [[ $(grep -vc '^#' out) == 1 && $(<err) == "pointspec devices: no OpenCL driver found"* ]] || complain "devices: $(<out) $(<err)"
 "${power[@]}" --engine host_direct >out 2>err || complain "host_direct: $(<err)"
+
+# Sets that only a device makes are refused, those that the host makes as well are not: nobody chose "".
+code=0
+"$program" plan power --engine host_direct --sampler step -n 64 -k 4 >out 2>err || code=$?
+[[ $code == 1 && $(<err) == *"no OpenCL driver found"* ]] || complain "plan of step: exit $code: $(<err)"
+POINTSPEC_DEVICE="" "$program" sample --sampler gaussian-blue-noise -n 270 -o points.txt 2>err || complain "gaussian: $(<err)"
 finish

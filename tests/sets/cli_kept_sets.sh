@@ -24,6 +24,20 @@ runs 0 --sampler white -n 1000 -m 3 -o white.txt
 runs 0 --sampler bnot -n 200 -o other.txt
 [[ $(num_kept) == 7 ]] || complain "$(num_kept) sets are kept, not 7"
 
+# kept sets need no device, others are refused before any work
+step=(--sampler step:rounds=3 -n 1024)
+if "$program" devices 2>/dev/null | grep -q '^0,'; then
+    runs 0 "${step[@]}" -m 2 -o step.txt
+    OCL_ICD_VENDORS=$PWD/none runs 0 "${step[@]}" -m 2 -o kept.txt
+    cmp step.txt kept.txt || complain "step sets that were kept are others"
+    OCL_ICD_VENDORS=$PWD/none runs 1 "${step[@]}" -m 3 -o kept.txt
+    says 'no OpenCL driver'
+    refuses 'no OpenCL device fits "quantum"' "${step[@]}" -m 3 --device quantum
+    rm "$store"/*.result
+    runs 0 "${bnot[@]}" -m 6 -o second.txt
+    runs 0 --sampler bnot -n 200 -o other.txt
+fi
+
 # ---- results from kept sets ----
 power=(power --engine host_direct -k 4 "${bnot[@]}" -m 6)
 "$program" "${power[@]}" --kept-sets 0 2>err | grep -v '^# command' >anew.csv || complain "power: $(<err)"

@@ -278,6 +278,10 @@ static void versions_stand_for_bits(void **state) {
     static set found;
     for (unsigned i = 0; i < NUM_KNOWN; i++) {
         const ps_sampler_request request = ask(known[i].text, known[i].dimension);
+        if (ps_sampler_check_device(&request, NULL, NULL) != PSPEC_OK) {
+            print_message("%s is not looked at: there is no device for it\n", known[i].text);
+            continue;
+        }
         assert_int_equal(
             ps_sampler_generate(&request, REALIZATION, found.points, &found.num_points, NULL, NULL),
             PSPEC_OK);

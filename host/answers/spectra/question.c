@@ -192,7 +192,7 @@ static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_req
                        "=hemisphere takes them there",
                        text);
     }
-    return ps_sampler_resolve(out, error);
+    return ps_sampler_request_resolve(out, arguments, error);
 }
 
 pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "samplers/forces/gaussian.h"
 #include "samplers/forces/gaussian_sums.h"
+#include "samplers/forces/loan.h"
 #include "samplers/values.h"
 
 #include <math.h>
@@ -44,26 +45,19 @@ static double host_seconds(const ps_sampler_request *request) {
 /* Sets that take longer on the host are the device's work. */
 static const double LEAST_SECONDS = 1;
 
-/* A device takes half of the host's time of one core, and 0.2 s to open (PoCL 3.1). */
-static double seconds(const ps_sampler_request *request) {
-    const double host = host_seconds(request);
-    return host < LEAST_SECONDS ? host : 0.2 + host / 2;
+static bool is_of_device(const ps_sampler_request *request) {
+    return host_seconds(request) >= LEAST_SECONDS;
 }
 
-/* NULL where the host is to make the set: it takes little, or nobody chose a device and there is
- * none. */
-static pspec_status open_device(const ps_sampler_request *request, ps_device **device,
-                                ps_error *error) {
-    *device = NULL;
-    if (host_seconds(request) < LEAST_SECONDS) {
-        return PSPEC_OK;
-    }
-    ps_error none = {0};
-    const pspec_status status = ps_device_open(device, request->device, false, &none);
-    if (status == PSPEC_ERROR_NO_DEVICE && request->device == NULL) {
-        return PSPEC_OK;
-    }
-    return status == PSPEC_OK ? status : ps_fail(error, status, "%s", none.message);
+/* A device takes half of the host's time of one core (PoCL 3.1). */
+static double seconds(const ps_sampler_request *request) {
+    const double host = host_seconds(request);
+    return is_of_device(request) ? host / 2 : host;
+}
+
+static pspec_status check_device(const ps_sampler_request *request, const char *selector,
+                                 ps_error *error) {
+    return is_of_device(request) ? ps_loan_check(request, selector, true, error) : PSPEC_OK;
 }
 
 /* Points and forces before and after a step, and the sums, which a device has once more. */
@@ -76,15 +70,16 @@ static double work_bytes(const ps_sampler_request *request) {
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    ps_device *device = NULL;
+    ps_loan loan = {0};
     double sigma = 1;
     PS_TRY(sigma_of(request, &sigma, error));
-    PS_TRY(open_device(request, &device, error));
-    const pspec_status status = ps_gaussian_make(request->num_points, request->dimension, sigma,
-                                                 &random, device, request->watch, points, error);
-    if (device != NULL) {
-        ps_device_close(device);
+    pspec_status status =
+        is_of_device(request) ? ps_loan_begin(&loan, request, true, error) : PSPEC_OK;
+    if (status == PSPEC_OK) {
+        status = ps_gaussian_make(request->num_points, request->dimension, sigma, &random,
+                                  loan.device, request->watch, points, error);
     }
+    ps_loan_end(&loan);
     return status;
 }
 
@@ -101,5 +96,6 @@ const ps_sampler ps_sampler_gaussian_blue_noise = {
     .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
+    .check_device = check_device,
     .generate = generate,
 };

@@ -19,7 +19,6 @@ static const double WORSE = 1.2;
 enum { AXES = 2, MOST_TRIES = 5 };
 
 typedef struct search {
-    ps_device *device;
     ps_step_pairs pairs;
     ps_step_curves curves;
     uint64_t *counts;   /* [num_bins] */
@@ -29,16 +28,16 @@ typedef struct search {
     double *best_found; /* [num_bins], the distribution of the best */
     double best_off;    /* its distance from the target */
     double length;      /* of the longest move of a step, in 1/sqrt(N) */
-    unsigned tries, most_rounds;
+    unsigned tries;
+    ps_step_options options;
     size_t num;
     const ps_watch *watch;
 } search;
 
-static pspec_status create(search *s, const char *selector, ps_error *error) {
+static pspec_status create(search *s, ps_device *device, ps_error *error) {
     const size_t num_bins = s->num;
-    PS_TRY(ps_device_open(&s->device, selector, false, error));
-    PS_TRY(ps_step_pairs_create(&s->pairs, s->device, s->num, num_bins, error));
-    PS_TRY(ps_step_curves_create(&s->curves, s->num, num_bins, error));
+    PS_TRY(ps_step_pairs_create(&s->pairs, device, s->num, num_bins, error));
+    PS_TRY(ps_step_curves_create(&s->curves, s->num, num_bins, s->options.smoothing, error));
     PS_TRY(PS_NEW(&s->counts, num_bins, "counts of pairs", error));
     PS_TRY(PS_NEW(&s->table, num_bins + 1, "forces over distances", error));
     PS_TRY(PS_NEW(&s->best_found, num_bins, "distributions of distances", error));
@@ -49,9 +48,6 @@ static pspec_status create(search *s, const char *selector, ps_error *error) {
 
 static void destroy(search *s) {
     ps_step_pairs_destroy(&s->pairs);
-    if (s->device != NULL) {
-        ps_device_close(s->device);
-    }
     ps_step_curves_destroy(&s->curves);
     free(s->counts);
     free(s->table);
@@ -104,7 +100,7 @@ static void move(search *s) {
 }
 
 static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
-    while (s->length >= LAST_LENGTH && outcome->rounds < s->most_rounds) {
+    while (s->length >= LAST_LENGTH && outcome->rounds < s->options.most_rounds) {
         PS_TRY(ps_watch_tell(s->watch, "sampler: step, moves of all points", outcome->rounds, 0,
                              NULL, error));
         PS_TRY(ps_step_pairs_count(&s->pairs, s->x, s->counts, s->watch, error));
@@ -126,11 +122,11 @@ double ps_step_bytes(size_t num) {
     return ps_step_pairs_bytes(num, num) + (double)(numbers * num * sizeof(double));
 }
 
-pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, const char *selector,
+pspec_status ps_step_make(size_t num, ps_step_options options, ps_random *random, ps_device *device,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) {
     search s = {.num = num,
-                .most_rounds = most_rounds,
+                .options = options,
                 .watch = watch,
                 .length = FIRST_LENGTH,
                 .best_off = HUGE_VAL};
@@ -140,7 +136,7 @@ pspec_status ps_step_make(size_t num, unsigned most_rounds, ps_random *random, c
                        "%zu points: step blue noise has from %d to %d", num, PS_STEP_LEAST_POINTS,
                        PS_STEP_MOST_POINTS);
     }
-    pspec_status status = create(&s, selector, error);
+    pspec_status status = create(&s, device, error);
     if (status == PSPEC_OK) {
         ps_random_fill_uniform(random, s.x, AXES * num);
         status = run(&s, &done, error);

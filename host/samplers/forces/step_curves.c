@@ -4,14 +4,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define PRECISION 64
 #include "shared/turn.h"
 #include "shared/two_to.h"
 
-/* Standard deviation of the smoothing Gaussian, in bins, and where it ends: 3e-4 of its middle. The
- * authors' program has 8 bins, too. */
-enum { SMOOTH = 8, SMOOTH_END = 4 * SMOOTH };
+/* Where the smoothing Gaussian ends, in standard deviations. */
+enum { SMOOTH_END = 4 };
 /* Points nearer than this to half a period away have no force: beyond, an image of the point may be
  * as near. */
 static const double FARTHEST = 0.49;
@@ -47,36 +47,17 @@ static void find_target(ps_step_curves *c) {
     }
 }
 
-static void find_weights(ps_step_curves *c) {
-    const double exponent = -TWO_TO_LOG2E / (2.0 * SMOOTH * SMOOTH);
-    for (int k = 0; k <= SMOOTH_END; k++) {
-        c->weights[k] = two_to(exponent * k * k);
+static void find_weights(ps_step_curves *c, unsigned bins) {
+    const double exponent = -TWO_TO_LOG2E / (2.0 * bins * bins);
+    for (size_t k = 0; k <= c->smooth_end; k++) {
+        c->weights[k] = two_to(exponent * (double)k * (double)k);
     }
-}
-
-pspec_status ps_step_curves_create(ps_step_curves *c, size_t num_points, size_t num_bins,
-                                   ps_error *error) {
-    *c = (ps_step_curves){.num_points = num_points, .num_bins = num_bins};
-    PS_TRY(PS_NEW(&c->target, num_bins, "distributions of distances", error));
-    PS_TRY(PS_NEW(&c->found, num_bins, "distributions of distances", error));
-    PS_TRY(PS_NEW(&c->rough, num_bins, "distributions of distances", error));
-    PS_TRY(PS_NEW(&c->weights, SMOOTH_END + 1, "distributions of distances", error));
-    find_target(c);
-    find_weights(c);
-    return PSPEC_OK;
-}
-
-void ps_step_curves_destroy(ps_step_curves *c) {
-    free(c->target);
-    free(c->found);
-    free(c->rough);
-    free(c->weights);
 }
 
 /* Bins that are not there have no weight. */
 static double smooth(const ps_step_curves *c, size_t b) {
-    const size_t first = b < SMOOTH_END ? 0 : b - SMOOTH_END;
-    const size_t end = c->num_bins - b <= SMOOTH_END ? c->num_bins : b + SMOOTH_END + 1;
+    const size_t first = b < c->smooth_end ? 0 : b - c->smooth_end;
+    const size_t end = c->num_bins - b <= c->smooth_end ? c->num_bins : b + c->smooth_end + 1;
     double sum = 0;
     double weight = 0;
     for (size_t k = first; k < end; k++) {
@@ -85,6 +66,37 @@ static double smooth(const ps_step_curves *c, size_t b) {
         weight += w;
     }
     return sum / weight;
+}
+
+static void smooth_target(ps_step_curves *c) {
+    memcpy(c->rough, c->target, c->num_bins * sizeof *c->rough);
+    for (size_t b = 0; b < c->num_bins; b++) {
+        c->target[b] = smooth(c, b);
+    }
+}
+
+pspec_status ps_step_curves_create(ps_step_curves *c, size_t num_points, size_t num_bins,
+                                   ps_step_smoothing smoothing, ps_error *error) {
+    *c = (ps_step_curves){.num_points = num_points,
+                          .num_bins = num_bins,
+                          .smooth_end = (size_t)SMOOTH_END * smoothing.bins};
+    PS_TRY(PS_NEW(&c->target, num_bins, "distributions of distances", error));
+    PS_TRY(PS_NEW(&c->found, num_bins, "distributions of distances", error));
+    PS_TRY(PS_NEW(&c->rough, num_bins, "distributions of distances", error));
+    PS_TRY(PS_NEW(&c->weights, c->smooth_end + 1, "distributions of distances", error));
+    find_target(c);
+    find_weights(c, smoothing.bins);
+    if (smoothing.is_of_target) {
+        smooth_target(c);
+    }
+    return PSPEC_OK;
+}
+
+void ps_step_curves_destroy(ps_step_curves *c) {
+    free(c->target);
+    free(c->found);
+    free(c->rough);
+    free(c->weights);
 }
 
 /* Of N(N - 1)/2 pairs, a ring has as many as its area is of the unit square. */

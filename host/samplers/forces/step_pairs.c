@@ -10,9 +10,11 @@
  * us; 64 blocks are enough for the threads of a CPU, and their forces take 1 KB a point. */
 enum { AXES = 2, LEAST_BLOCK = 64, MOST_BLOCKS = 64 };
 /* Operations of a pair, and pairs of a launch, between two of which the watch hears of it: 30 ms of
- * a core at 1.3 ns a pair. */
+ * a core at 1.3 ns a pair. On GPUs, which draw nothing meanwhile and may be reset after seconds, 20
+ * ms of one with a fp64 unit for every 64 others (0.15 Tflop/s). */
 static const double PAIR_FLOPS = 14;
 static const double LAUNCH_PAIRS = 2e7;
+static const double SHARED_LAUNCH_PAIRS = 2e8;
 
 static step_layout make_layout(size_t num, size_t num_bins) {
     const size_t least = (num + MOST_BLOCKS - 1) / MOST_BLOCKS;
@@ -68,6 +70,7 @@ pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t nu
     *p = (ps_step_pairs){.device = device,
                          .layout = make_layout(num, num_bins),
                          .has_shared_counts = !ps_range_is_alone(device)};
+    p->launch_pairs = p->has_shared_counts ? SHARED_LAUNCH_PAIRS : LAUNCH_PAIRS;
     PS_TRY(ps_forces_need_doubles(ps_device_get_limits(device), "step", error));
     PS_TRY(create_kernels(p, error));
     return create_buffers(p, error);
@@ -91,21 +94,69 @@ void ps_step_pairs_destroy(ps_step_pairs *p) {
     free(p->copies);
 }
 
-/* Rows of tiles of a launch. */
-static size_t rows_at_once(const step_layout *layout) {
-    const double pairs = (double)layout->block * layout->num_points;
-    const double rows = LAUNCH_PAIRS / pairs;
-    return rows < 1 ? 1 : rows > layout->num_blocks ? layout->num_blocks : (size_t)rows;
+/* What launches have: some rows of tiles, and of each tile some points of its first block. */
+typedef struct launches {
+    size_t num_rows, rows_at_once;
+    size_t firsts_at_once;
+} launches;
+
+static size_t clamp(double wanted, size_t most) {
+    return wanted < 1 ? 1 : wanted > (double)most ? most : (size_t)wanted;
 }
 
-static pspec_status let_know(ps_step_pairs *p, size_t row, const ps_watch *watch, ps_error *error) {
+/* Pairs of one point of each block with all points, each once. */
+static double pairs_of_firsts(const step_layout *l) {
+    return (double)l->num_points * (l->num_blocks + 1) / 2;
+}
+
+/* Work-items have all their rows, so that none of them waits for others. */
+static launches plan_counts(const ps_step_pairs *p) {
+    const step_layout *const l = &p->layout;
+    const size_t copies = count_copies(l);
+    return (launches){copies, copies, clamp(p->launch_pairs / pairs_of_firsts(l), l->block)};
+}
+
+/* On CPUs rows of tiles one after the other: what is added to stays in the caches. */
+static launches plan_forces(const ps_step_pairs *p) {
+    const step_layout *const l = &p->layout;
+    const double row = (double)l->block * l->num_points;
+    return p->has_shared_counts
+               ? (launches){l->num_blocks, l->num_blocks,
+                            clamp(p->launch_pairs / pairs_of_firsts(l), l->block)}
+               : (launches){l->num_blocks, clamp(p->launch_pairs / row, l->num_blocks), l->block};
+}
+
+typedef pspec_status launch_part(ps_step_pairs *p, const step_layout *part, size_t row,
+                                 size_t num_rows, ps_error *error);
+
+static pspec_status let_know(ps_step_pairs *p, size_t done, size_t num, const ps_watch *watch,
+                             ps_error *error) {
     PS_TRY(ps_device_finish(p->device, error));
-    return ps_watch_tell(watch, "sampler: step, blocks of points", row, p->layout.num_blocks, NULL,
-                         error);
+    return ps_watch_tell(watch, "sampler: step, parts of a move", done, num, NULL, error);
 }
 
-/* Work-items are alone in their group on CPUs: they run long, and a number of rows that is rounded
- * up would have rows of the next launch. */
+static pspec_status launch_all(ps_step_pairs *p, const launches *plan, launch_part *launch,
+                               const ps_watch *watch, ps_error *error) {
+    const size_t num_firsts = p->layout.block;
+    const size_t parts_of_rows = (num_firsts + plan->firsts_at_once - 1) / plan->firsts_at_once;
+    const size_t num =
+        (plan->num_rows + plan->rows_at_once - 1) / plan->rows_at_once * parts_of_rows;
+    for (size_t part = 0; part < num; part++) {
+        const size_t row = part / parts_of_rows * plan->rows_at_once;
+        const size_t left = plan->num_rows - row;
+        step_layout layout = p->layout;
+        layout.first = (ps_u32)(part % parts_of_rows * plan->firsts_at_once);
+        layout.num_firsts = (ps_u32)plan->firsts_at_once;
+        PS_TRY(
+            launch(p, &layout, row, left < plan->rows_at_once ? left : plan->rows_at_once, error));
+        if (part + 1 < num) {
+            PS_TRY(let_know(p, part + 1, num, watch, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* Work-items are alone in their group on CPUs: they run long. */
 static ps_range make_range(const ps_step_pairs *p, size_t first, size_t second, double pairs) {
     const ps_range alone = {
         .rank = 3, .global = {first, second, 1}, .local = {1, 1, 1}, .flops = pairs * PAIR_FLOPS};
@@ -113,20 +164,13 @@ static ps_range make_range(const ps_step_pairs *p, size_t first, size_t second, 
                                 : alone;
 }
 
-static pspec_status launch_counts(ps_step_pairs *p, size_t row, size_t num_rows, ps_error *error) {
-    const step_layout *const l = &p->layout;
-    const double pairs = (double)num_rows * l->block * l->num_points;
-    ps_range range = make_range(p, num_rows, p->has_shared_counts ? l->num_blocks : 1, pairs);
+static pspec_status launch_counts(ps_step_pairs *p, const step_layout *part, size_t row,
+                                  size_t num_rows, ps_error *error) {
+    const double pairs = (double)part->num_firsts * pairs_of_firsts(part);
+    ps_range range = make_range(p, num_rows, p->has_shared_counts ? part->num_blocks : 1, pairs);
     range.offset[0] = row;
-    return PS_LAUNCH(p->device, p->count, &range, error, PS_STRUCT(p->layout), PS_BUFFER(p->points),
+    return PS_LAUNCH(p->device, p->count, &range, error, PS_STRUCT(*part), PS_BUFFER(p->points),
                      PS_BUFFER(p->counts));
-}
-
-/* With groups of several items all at once, since their number is rounded up. */
-static size_t counted_at_once(const ps_step_pairs *p) {
-    const size_t copies = count_copies(&p->layout);
-    const size_t rows = rows_at_once(&p->layout) / 2;
-    return p->has_shared_counts || rows > copies ? copies : rows < 1 ? 1 : rows;
 }
 
 static void add_copies(const ps_step_pairs *p, uint64_t *counts) {
@@ -152,29 +196,22 @@ static pspec_status write_points(ps_step_pairs *p, const double *x, ps_error *er
 
 pspec_status ps_step_pairs_count(ps_step_pairs *p, const double *x, uint64_t *counts,
                                  const ps_watch *watch, ps_error *error) {
-    const size_t copies = count_copies(&p->layout);
-    const size_t at_once = counted_at_once(p);
+    const launches plan = plan_counts(p);
     PS_TRY(write_points(p, x, error));
     memset(p->copies, 0, p->counts.bytes); /* Oclgrind does not see what clears buffers */
     PS_TRY(ps_buffer_write(p->device, &p->counts, 0, p->copies, p->counts.bytes, error));
-    for (size_t row = 0; row < copies; row += at_once) {
-        const size_t left = copies - row;
-        PS_TRY(launch_counts(p, row, left < at_once ? left : at_once, error));
-        if (left > at_once) {
-            PS_TRY(let_know(p, 2 * (row + at_once), watch, error));
-        }
-    }
+    PS_TRY(launch_all(p, &plan, launch_counts, watch, error));
     PS_TRY(ps_buffer_read(p->device, &p->counts, 0, p->copies, p->counts.bytes, error));
     add_copies(p, counts);
     return PSPEC_OK;
 }
 
-static pspec_status launch_forces(ps_step_pairs *p, size_t row, size_t num_rows, ps_error *error) {
-    const step_layout *const l = &p->layout;
-    const double pairs = (double)num_rows * l->block * l->num_points / 2;
-    ps_range range = make_range(p, l->num_blocks, num_rows, pairs);
+static pspec_status launch_forces(ps_step_pairs *p, const step_layout *part, size_t row,
+                                  size_t num_rows, ps_error *error) {
+    const double pairs = (double)num_rows * part->num_firsts * part->num_points / 2;
+    ps_range range = make_range(p, part->num_blocks, num_rows, pairs);
     range.offset[1] = row;
-    return PS_LAUNCH(p->device, p->force, &range, error, PS_STRUCT(p->layout), PS_BUFFER(p->points),
+    return PS_LAUNCH(p->device, p->force, &range, error, PS_STRUCT(*part), PS_BUFFER(p->points),
                      PS_BUFFER(p->table), PS_BUFFER(p->forces));
 }
 
@@ -195,16 +232,9 @@ static pspec_status fold(ps_step_pairs *p, double *force, ps_error *error) {
 
 pspec_status ps_step_pairs_force(ps_step_pairs *p, const double *x, const double *table,
                                  double *force, const ps_watch *watch, ps_error *error) {
-    const size_t num_blocks = p->layout.num_blocks;
-    const size_t at_once = rows_at_once(&p->layout);
+    const launches plan = plan_forces(p);
     PS_TRY(write_points(p, x, error)); /* which need not be those that were counted */
     PS_TRY(ps_buffer_write(p->device, &p->table, 0, table, p->table.bytes, error));
-    for (size_t row = 0; row < num_blocks; row += at_once) {
-        const size_t left = num_blocks - row;
-        PS_TRY(launch_forces(p, row, left < at_once ? left : at_once, error));
-        if (left > at_once) {
-            PS_TRY(let_know(p, row + at_once, watch, error));
-        }
-    }
+    PS_TRY(launch_all(p, &plan, launch_forces, watch, error));
     return fold(p, force, error);
 }

@@ -12,6 +12,7 @@ typedef struct ps_step_pairs {
     step_layout layout;
     cl_kernel count, force, fold;
     bool has_shared_counts; /* work-items of a row have one copy of counts together */
+    double launch_pairs;    /* at most, in a launch; results do not depend on it */
     ps_buffer points, counts, table, forces, sums;
     double *coordinates; /* [axis][stride] */
     uint32_t *copies;    /* [(num_blocks + 1) / 2][num_bins + 1] */

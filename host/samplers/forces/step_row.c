@@ -2,6 +2,7 @@
 #include "samplers/list.h"
 
 #include "base/text.h"
+#include "samplers/forces/loan.h"
 #include "samplers/forces/step.h"
 #include "samplers/values.h"
 
@@ -24,15 +25,15 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     return rounds_of(request, &rounds, error);
 }
 
-/* Rounds grow like the fourth root of N, from 270 at 256 points to 550 at 4096; a pair takes 2.5 ns
- * of one core, what the host does in a round 0.2 us a point, and opening the device 0.2 s (an EPYC
- * with AVX-512, PoCL 3.1, 2026-11). */
+/* Rounds grow like the fourth root of N, from 270 at 256 points to 550 at 4096; launches of a round
+ * take 0.1 ms of one core, a pair 2.5 ns, what the host does in a round 0.2 us a point (an EPYC
+ * with AVX-512, PoCL 3.1, 2026-11). A device is opened once for many sets. */
 static double seconds(const ps_sampler_request *request) {
     const double num = (double)request->num_points;
     unsigned most = 0;
     const double rounds =
         rounds_of(request, &most, NULL) == PSPEC_OK ? fmin(270 * sqrt(sqrt(num / 256)), most) : 0;
-    return 0.2 + rounds * num * (num / 2 * 2.5e-9 + 0.2e-6);
+    return rounds * (1e-4 + num * (num / 2 * 2.5e-9 + 0.2e-6));
 }
 
 static double work_bytes(const ps_sampler_request *request) {
@@ -42,10 +43,21 @@ static double work_bytes(const ps_sampler_request *request) {
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
+    ps_loan loan = {0};
     unsigned rounds = 0;
     PS_TRY(rounds_of(request, &rounds, error));
-    return ps_step_make(request->num_points, rounds, &random, request->device, request->watch,
-                        points, NULL, error);
+    pspec_status status = ps_loan_begin(&loan, request, false, error);
+    if (status == PSPEC_OK) {
+        status = ps_step_make(request->num_points, (ps_step_options){rounds, PS_STEP_SMOOTHING},
+                              &random, loan.device, request->watch, points, NULL, error);
+    }
+    ps_loan_end(&loan);
+    return status;
+}
+
+static pspec_status check_device(const ps_sampler_request *request, const char *selector,
+                                 ps_error *error) {
+    return ps_loan_check(request, selector, false, error);
 }
 
 const ps_sampler ps_sampler_step = {
@@ -62,5 +74,6 @@ const ps_sampler ps_sampler_step = {
     .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
     .check = check,
+    .check_device = check_device,
     .generate = generate,
 };

@@ -1,5 +1,5 @@
 /* Kernels of step blue noise beside plain sums of pairs, with counts of each work-item's own and
- * with shared ones; neither changes a bit. */
+ * with shared ones, at once and in many launches; none of it changes a bit. */
 #include "harness_kernels.h"
 
 #include <math.h>
@@ -30,22 +30,37 @@ static void make_table(size_t num_bins, double *table) {
     table[num_bins] = 0;
 }
 
-/* Forces are those of the points that are given, whichever were counted last. */
-static void run(size_t num, size_t num_bins, found *out) {
+static int count_calls(const ps_watch_report *report, void *payload) {
+    unsigned *const calls = payload;
+    assert_true(report->done < report->total);
+    ++*calls;
+    return 0;
+}
+
+/* Forces are those of the points that are given, whichever were counted last. launch_pairs: 0 for
+ * as many as there are. */
+static void run(size_t num, size_t num_bins, double launch_pairs, found *out) {
     double x[AXES * MOST];
     double others[AXES * MOST];
     uint64_t counts[MOST_BINS];
     double table[MOST_BINS + 1];
     ps_step_pairs pairs;
+    unsigned calls = 0;
+    const ps_watch watch = {count_calls, &calls};
+    memset(out, 0, sizeof *out);
     fill(num, x);
     make_table(num_bins, table);
     assert_ok(ps_step_pairs_create(&pairs, device, num, num_bins, error));
-    assert_ok(ps_step_pairs_count(&pairs, x, out->counts, NULL, error));
+    pairs.launch_pairs = launch_pairs > 0 ? launch_pairs : pairs.launch_pairs;
+    assert_ok(ps_step_pairs_count(&pairs, x, out->counts, &watch, error));
+    assert_int_equal(calls > 0, launch_pairs > 0);
     for (size_t k = 0; k < AXES * num; k++) {
         others[k] = x[k] / 2;
     }
     assert_ok(ps_step_pairs_count(&pairs, others, counts, NULL, error));
-    assert_ok(ps_step_pairs_force(&pairs, x, table, out->force, NULL, error));
+    calls = 0;
+    assert_ok(ps_step_pairs_force(&pairs, x, table, out->force, &watch, error));
+    assert_int_equal(calls > 0, launch_pairs > 0);
     ps_step_pairs_destroy(&pairs);
 }
 
@@ -86,18 +101,34 @@ static void counts_and_forces_are_those_of_plain_sums(void **state) {
     static const size_t nums[] = {1, 7, 64, 65, 129, MOST};
     for (size_t n = 0; n < sizeof nums / sizeof nums[0]; n++) {
         found alone, shared;
-        run(nums[n], MOST_BINS, &alone);
+        run(nums[n], MOST_BINS, 0, &alone);
         compare(nums[n], MOST_BINS, &alone);
         ps_device_set_group_size(device, 4);
-        run(nums[n], MOST_BINS, &shared);
+        run(nums[n], MOST_BINS, 0, &shared);
         ps_device_set_group_size(device, 0);
-        assert_memory_equal(alone.counts, shared.counts, sizeof alone.counts);
-        assert_memory_equal(alone.force, shared.force, AXES * nums[n] * sizeof alone.force[0]);
+        assert_memory_equal(&alone, &shared, sizeof alone);
+    }
+}
+
+/* Some points of all blocks at a time, the last fewer; some rows of tiles, or one. */
+static void many_launches_have_the_bits_of_one(void **state) {
+    (void)state;
+    static const double launch_pairs[] = {1500, 10000, 30000};
+    found whole, parts;
+    run(MOST, MOST_BINS, 0, &whole);
+    for (size_t k = 0; k < sizeof launch_pairs / sizeof launch_pairs[0]; k++) {
+        for (size_t group = 0; group <= 4; group += 4) {
+            ps_device_set_group_size(device, group);
+            run(MOST, MOST_BINS, launch_pairs[k], &parts);
+            ps_device_set_group_size(device, 0);
+            assert_memory_equal(&whole, &parts, sizeof whole);
+        }
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_and_forces_are_those_of_plain_sums)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_and_forces_are_those_of_plain_sums),
+                                       cmocka_unit_test(many_launches_have_the_bits_of_one)};
     device = test_open_device();
     int failures = 0;
     if (test_has_precision(device, 64)) {

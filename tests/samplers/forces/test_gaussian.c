@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "device/lender.h"
 #include "files/digest.h"
 #include "samplers/forces/gaussian.h"
 #include "samplers/forces/need_doubles.h"
@@ -272,18 +273,26 @@ static void a_device_without_double_precision_is_refused(void **state) {
     assert_int_equal(ps_forces_need_doubles(&limits, "gaussian-blue-noise", &error), PSPEC_OK);
 }
 
-/* Sets that are much work want one; few points do not. */
+/* Sets that are much work want one that was chosen; few points want none. Nobody chose "". */
 static void a_device_that_is_not_there_is_told(void **state) {
     (void)state;
     double x[2 * 1024];
+    ps_lender *none = NULL;
     ps_error error = {0};
     ps_sampler_request request = make_request("gbn", 20, 2);
-    request.device = "no such device";
+    assert_int_equal(ps_lender_create(&none, "no such device", &error), PSPEC_OK);
+    request.lender = none;
     assert_int_equal(ps_sampler_generate(&request, 0, x, NULL, NULL, &error), PSPEC_OK);
+    assert_int_equal(ps_sampler_check_device(&request, "no such device", &error), PSPEC_OK);
     request.num_points = 1024;
     assert_int_equal(ps_sampler_generate(&request, 0, x, NULL, NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(error.message, "no such device"));
+    assert_int_equal(ps_sampler_check_device(&request, "no such device", &error),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_sampler_check_device(&request, NULL, &error), PSPEC_OK);
+    assert_int_equal(ps_sampler_check_device(&request, "", &error), PSPEC_OK);
+    ps_lender_destroy(none);
 }
 
 static void the_row_has_the_parameter(void **state) {
