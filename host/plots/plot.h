@@ -28,7 +28,8 @@ typedef struct ps_series {
     const double *x, *y;
     const double *error;      /* standard errors, of spectra and of marks; else NULL */
     const double *anisotropy; /* of spectra, in dB; else NULL */
-    const double *low, *high; /* the band of a curve; NULL: none */
+    const double *low, *high; /* the band of a curve, lines about a spectrum; NULL: none */
+    const double *fit;        /* of spectra, what goes through them; NULL: none */
     ps_look look;
 } ps_series;
 

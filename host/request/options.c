@@ -168,6 +168,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     "half lattice, only a random subset of S, from the seed",
                             COUNT(frequencies.per_ring), .minimum = PS_MIN_PER_RING,
                             .maximum = PS_MAX_NUM_FREQUENCIES},
+    [PS_OPTION_FIT] = {NAMED("fit", 0, "auto|B"), OF(BIT(power) | BIT(angular), 0),
+                       .help = "also: power law or plateau at frequency 0, with errors, peak, "
+                               "effective Nyquist frequency, and the profiles gamma (nu/alpha)^B "
+                               "below and above all powers (auto: B as found); -m 8 or more",
+                       .set = ps_set_fit},
     [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
                                 "its standard error to FILE.standard_error.npy",

@@ -44,6 +44,7 @@ typedef enum ps_option_id {
     PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
     PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
+    PS_OPTION_FIT,               /* --fit auto|B */
     PS_OPTION_FULL,              /* --full FILE.npy */
     PS_OPTION_NORMALIZE,         /* --normalize power|effective|integral */
     PS_OPTION_HOMOGENIZE,        /* --homogenize */
@@ -143,6 +144,8 @@ typedef struct ps_request {
     bool wants_array, wants_coefficients;
     pspec_normalization normalization; /* never that of pairs */
     double smoothness;                 /* 1.5 unless given */
+    bool wants_fit;
+    double fit_exponent; /* of profiles; nan: the one that is found */
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */
