@@ -11,6 +11,7 @@
 #include "points/points.h"
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
+#include "spectra/shape/bound.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,6 +32,7 @@ typedef enum ps_option_id {
     PS_OPTION_IN_PLACE,          /* --in-place */
     PS_OPTION_TAIL,              /* --tail X */
     PS_OPTION_PAPER_FORMULA,     /* --paper-formula */
+    PS_OPTION_BOUNDS,            /* --bounds auto|G,A,B..G,A,B */
     PS_OPTION_AGAINST,           /* --against FILE */
     PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
@@ -146,6 +148,7 @@ typedef struct ps_request {
     double smoothness;                 /* 1.5 unless given */
     bool wants_fit;
     double fit_exponent; /* of profiles; nan: the one that is found */
+    ps_bounds_spec bounds;
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */

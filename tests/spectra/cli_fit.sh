@@ -14,7 +14,7 @@ rows() { sed '/^#/d' out | sed 1d; }
 runs 0 --sampler jittered -n 1024 -m 60 -k 64 --fit auto
 [[ $(key fit_shape) == 'power law' && $(key fit) == 'power law: up to 0.221 '* ]] || complain "jittered: $(grep '^#' out)"
 holds 'exponent > 2 - 3 * exponent_error && exponent < 2 + 3 * exponent_error && exponent_error < 0.15'
-holds 'plateau_score < 3 && profile_exponent == 2 && upper_gamma > 1 && upper_gamma < 1.1 && upper_alpha > 0.45 && upper_alpha < 0.56'
+holds 'plateau_score < 3 && upper_exponent == 2 && lower_exponent == 2 && upper_gamma > 1 && upper_gamma < 1.1 && upper_alpha > 0.45 && upper_alpha < 0.56'
 holds 'effective_nyquist > 0.1 && effective_nyquist < 0.14 && peak > 1 && peak < 1.1 && mean_anisotropy_db < -10'
 grep -qx 'bin,frequency,normalized_frequency,count,power,standard_error,anisotropy_db,lower,upper,fit' out ||
     complain "columns: $(sed '/^#/d' out | head -n 1)"
@@ -28,14 +28,14 @@ sed '/^#/d' out | cmp -s - with || complain "--fit changes powers"
 
 runs 0 --sampler white -n 1024 -m 20 -k 64 --fit auto
 [[ $(key fit_shape) == plateau && $(key upper_profile) == 'P <= 1.'* ]] || complain "white: $(grep '^#' out)"
-holds 'plateau > 1 - 3 * plateau_error && plateau < 1 + 3 * plateau_error && profile_exponent == 0 && upper_alpha == 0'
+holds 'plateau > 1 - 3 * plateau_error && plateau < 1 + 3 * plateau_error && upper_exponent == 0 && upper_alpha == 0'
 runs 0 --sampler poisson-disk -n 400 -m 20 -k 40 --fit 0 --format json
 [[ $(grep -cE '"plateau": \[0.0[0-9]*\]|"fit_shape": \["plateau"\]' out) == 2 ]] || complain "Poisson disk: $(head -c 3000 out)"
 
 # ---- the sphere, and several samplers: every key has a value for each ----
 command=angular
 runs 0 --sampler healpix-jittered --sampler white-sphere -n 432 -m 40 --fit auto
-[[ $(key fit_shape | paste -sd,) == 'power law,plateau' && $(key profile_exponent | paste -sd,) == 2,0 ]] ||
+[[ $(key fit_shape | paste -sd,) == 'power law,plateau' && $(key upper_exponent | paste -sd,) == 2,0 ]] ||
     complain "sphere: $(grep '^#' out)"
 grep -qx 'sampler,degree,normalized_degree,power,standard_error,lower,upper,fit' out || complain "columns of angular"
 runs 0 --sampler white-hemisphere --hemisphere -n 432 -m 20 --fit auto

@@ -40,6 +40,22 @@ static void profiles_of_a_closed_form(void **state) {
     assert_true(bound.alpha == 0 && ps_bound_power(&bound, 0) == bound.gamma);
 }
 
+/* The table of docs/mathematics/torus.md, Rates. */
+static void rates(void **state) {
+    (void)state;
+    static const struct {
+        double exponent;
+        unsigned dimension;
+        double smooth, jump;
+    } known[] = {{0, 2, 1, 1},   {0.5, 2, 1.25, 1.25},         {1, 2, 1.5, 1.5}, {2, 2, 2, 1.5},
+                 {4, 2, 3, 1.5}, {INFINITY, 2, INFINITY, 1.5}, {2, 1, 3, 2},     {2, 4, 1.5, 1.25}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const ps_bound bound = {1, 0.5, known[i].exponent};
+        const ps_bound_rates found = ps_bound_find_rates(&bound, known[i].dimension);
+        assert_true(found.smooth == known[i].smooth && found.jump == known[i].jump);
+    }
+}
+
 /* With noise: three errors away everywhere, and touching at gamma and at alpha. */
 static void profiles_hold_everywhere(void **state) {
     (void)state;
@@ -121,6 +137,7 @@ static void features(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(profiles_of_a_closed_form),
+        cmocka_unit_test(rates),
         cmocka_unit_test(profiles_hold_everywhere),
         cmocka_unit_test(profiles_that_there_are_not),
         cmocka_unit_test(features),

@@ -42,8 +42,8 @@ static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
     ps_shape shape = {0};
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     if (arguments->wants_fit) {
-        PS_TRY(ps_shape_make(&shape, arguments, spectrum, error));
-        PS_TRY(ps_shape_add_header(table, arguments, &shape, error));
+        PS_TRY(ps_shape_find(&shape, spectrum, arguments->fit_exponent, error));
+        PS_TRY(ps_shape_add_header(table, &shape, spectrum, error));
     }
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         const ps_spectrum_bin *bin = &spectrum->bins[b];

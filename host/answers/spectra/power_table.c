@@ -19,8 +19,8 @@ static pspec_status add_bins(ps_table *table, const ps_request *arguments,
                              const ps_spectrum *spectrum, const ps_lead *lead, ps_error *error) {
     ps_shape shape = {0};
     if (arguments->wants_fit) {
-        PS_TRY(ps_shape_make(&shape, arguments, spectrum, error));
-        PS_TRY(ps_shape_add_header(table, arguments, &shape, error));
+        PS_TRY(ps_shape_find(&shape, spectrum, arguments->fit_exponent, error));
+        PS_TRY(ps_shape_add_header(table, &shape, spectrum, error));
     }
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         const ps_spectrum_bin *bin = &spectrum->bins[b];

@@ -1,6 +1,7 @@
 #include "answers/spectra/shape_table.h"
 
 #include "answers/spectra/spectrum_header.h"
+#include "spectra/shape/features.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,36 +9,6 @@
 enum { SENTENCE_BYTES = 640 };
 
 const char *const ps_shape_columns[PS_SHAPE_COLUMNS] = {"lower", "upper", "fit"};
-
-/* ---- what there is ------------------------------------------------------------------------ */
-
-/* That of the law is taken to be whole, as those of P15 are, also where there is a small plateau;
- * nan: nothing is known of it. */
-static double choose_exponent(const ps_shape *shape, const ps_request *request) {
-    if (!isnan(request->fit_exponent)) {
-        return request->fit_exponent;
-    }
-    return shape->low_reason.status == PSPEC_OK ? fmax(round(shape->low.exponent), 0) : NAN;
-}
-
-pspec_status ps_shape_make(ps_shape *out, const ps_request *request, const ps_spectrum *spectrum,
-                           ps_error *error) {
-    *out = (ps_shape){.features = ps_features_find(spectrum)};
-    const pspec_status status = ps_low_end_fit(&out->low, spectrum, &out->low_reason);
-    if (status == PSPEC_ERROR_MEMORY) {
-        *error = out->low_reason;
-        return status;
-    }
-    const double exponent = choose_exponent(out, request);
-    if (isnan(exponent)) {
-        out->above_reason = out->low_reason;
-        out->below_reason = out->low_reason;
-        return PSPEC_OK;
-    }
-    out->above_reason.status = ps_bound_above(&out->above, spectrum, exponent, &out->above_reason);
-    out->below_reason.status = ps_bound_below(&out->below, spectrum, exponent, &out->below_reason);
-    return PSPEC_OK;
-}
 
 void ps_shape_powers(double out[PS_SHAPE_COLUMNS], const ps_shape *shape,
                      const ps_spectrum *spectrum, const ps_spectrum_bin *bin) {
@@ -121,31 +92,17 @@ static void write_features(char out[SENTENCE_BYTES], const ps_features *features
 
 /* ---- the header --------------------------------------------------------------------------- */
 
-static pspec_status add_sentences(ps_table *table, const ps_shape *shape, ps_error *error) {
-    char fit[SENTENCE_BYTES];
-    char upper[SENTENCE_BYTES];
-    char lower[SENTENCE_BYTES];
-    char features[SENTENCE_BYTES];
-    write_fit(fit, shape);
-    write_bound(upper, "P <=", &shape->above, &shape->above_reason);
-    write_bound(lower, "P >=", &shape->below, &shape->below_reason);
-    write_features(features, &shape->features);
-    const ps_meta entries[] = {{"fit", PS_TEXT(fit)},
-                               {"upper_profile", PS_TEXT(upper)},
-                               {"lower_profile", PS_TEXT(lower)},
-                               {"features", PS_TEXT(features)}};
-    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
-}
-
 static ps_cell number_if(const ps_error *reason, double number) {
     return reason->status == PSPEC_OK ? ps_number_or_missing(number) : PS_MISSING;
 }
 
-static pspec_status add_numbers(ps_table *table, const ps_shape *shape, ps_error *error) {
+static pspec_status add_low_end(ps_table *table, const ps_shape *shape, ps_error *error) {
     const ps_low_end *const low = &shape->low;
     const ps_error *const reason = &shape->low_reason;
-    const ps_features *const features = &shape->features;
+    char fit[SENTENCE_BYTES];
+    write_fit(fit, shape);
     const ps_meta entries[] = {
+        {"fit", PS_TEXT(fit)},
         {"fit_shape", PS_TEXT(reason->status == PSPEC_OK ? shape_names[low->shape] : "none")},
         {"fit_reach", number_if(reason, low->reach)},
         {"exponent", number_if(reason, low->exponent)},
@@ -156,25 +113,55 @@ static pspec_status add_numbers(ps_table *table, const ps_shape *shape, ps_error
         {"plateau_score", number_if(reason, low->plateau / low->plateau_error)},
         {"plateau_chi2", number_if(reason, low->plateau_chi2)},
         {"degrees_of_freedom", number_if(reason, (double)low->degrees_of_freedom)},
-        {"upper_gamma", number_if(&shape->above_reason, shape->above.gamma)},
-        {"upper_alpha", number_if(&shape->above_reason, shape->above.alpha)},
-        {"lower_gamma", number_if(&shape->below_reason, shape->below.gamma)},
-        {"lower_alpha", number_if(&shape->below_reason, shape->below.alpha)},
-        {"profile_exponent", number_if(&shape->above_reason, shape->above.exponent)},
-        {"peak", PS_NUMBER(features->peak)},
-        {"peak_error", ps_number_or_missing(features->peak_error)},
-        {"peak_frequency", PS_NUMBER(features->peak_frequency)},
-        {"effective_nyquist", ps_number_or_missing(features->effective_nyquist)},
-        {"mean_anisotropy_db", ps_number_or_missing(features->anisotropy_db)},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
-pspec_status ps_shape_add_header(ps_table *table, const ps_request *request, const ps_shape *shape,
-                                 ps_error *error) {
-    if (!request->wants_fit) {
-        return PSPEC_OK;
-    }
-    PS_TRY(add_sentences(table, shape, error));
-    return add_numbers(table, shape, error);
+pspec_status ps_shape_add_profiles(ps_table *table, const ps_shape *shape,
+                                   const ps_spectrum *spectrum, ps_error *error) {
+    enum { DIMENSION_OF_SPHERE = 2 };
+    const bool on_sphere = spectrum->frequencies.kind == PS_FREQUENCIES_DEGREES;
+    const ps_bound_rates rates = ps_bound_find_rates(
+        &shape->above, on_sphere ? DIMENSION_OF_SPHERE : spectrum->frequencies.dimension);
+    const ps_error *const above = &shape->above_reason;
+    const ps_error *const below = &shape->below_reason;
+    char upper[SENTENCE_BYTES];
+    char lower[SENTENCE_BYTES];
+    write_bound(upper, "P <=", &shape->above, above);
+    write_bound(lower, "P >=", &shape->below, below);
+    const ps_meta entries[] = {
+        {"upper_profile", PS_TEXT(upper)},
+        {"upper_gamma", number_if(above, shape->above.gamma)},
+        {"upper_alpha", number_if(above, shape->above.alpha)},
+        {"upper_exponent", number_if(above, shape->above.exponent)},
+        {"best_case_rate", number_if(above, rates.smooth)},
+        {"worst_case_rate", number_if(above, rates.jump)},
+        {"lower_profile", PS_TEXT(lower)},
+        {"lower_gamma", number_if(below, shape->below.gamma)},
+        {"lower_alpha", number_if(below, shape->below.alpha)},
+        {"lower_exponent", number_if(below, shape->below.exponent)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status add_features(ps_table *table, const ps_spectrum *spectrum, ps_error *error) {
+    const ps_features found = ps_features_find(spectrum);
+    char sentence[SENTENCE_BYTES];
+    write_features(sentence, &found);
+    const ps_meta entries[] = {
+        {"features", PS_TEXT(sentence)},
+        {"peak", PS_NUMBER(found.peak)},
+        {"peak_error", ps_number_or_missing(found.peak_error)},
+        {"peak_frequency", PS_NUMBER(found.peak_frequency)},
+        {"effective_nyquist", ps_number_or_missing(found.effective_nyquist)},
+        {"mean_anisotropy_db", ps_number_or_missing(found.anisotropy_db)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+pspec_status ps_shape_add_header(ps_table *table, const ps_shape *shape,
+                                 const ps_spectrum *spectrum, ps_error *error) {
+    PS_TRY(add_low_end(table, shape, error));
+    PS_TRY(ps_shape_add_profiles(table, shape, spectrum, error));
+    return add_features(table, spectrum, error);
 }

@@ -3,22 +3,8 @@
 #define PS_ANSWERS_SPECTRA_SHAPE_TABLE_H
 
 #include "request/request.h"
-#include "spectra/shape/bound.h"
-#include "spectra/shape/features.h"
-#include "spectra/shape/low_end.h"
+#include "spectra/shape/shape.h"
 #include "tables/table.h"
-
-/* What could not be found has a reason of another status than PSPEC_OK. */
-typedef struct ps_shape {
-    ps_low_end low;
-    ps_bound above, below;
-    ps_features features;
-    ps_error low_reason, above_reason, below_reason;
-} ps_shape;
-
-/* Fails for want of memory alone. */
-pspec_status ps_shape_make(ps_shape *out, const ps_request *request, const ps_spectrum *spectrum,
-                           ps_error *error) PS_MUST_CHECK;
 
 /* Columns of rows: the profile below, the one above, and up to where it goes the fit. */
 enum { PS_SHAPE_COLUMNS = 3 };
@@ -33,8 +19,11 @@ size_t ps_shape_add_columns(const char **columns, size_t num, const ps_request *
 size_t ps_shape_add_cells(ps_cell *cells, size_t num, const ps_request *request,
                           const ps_shape *shape, const ps_spectrum *spectrum,
                           const ps_spectrum_bin *bin);
-/* Header lines: numbers, and sentences for people. Without --fit there are none. */
-pspec_status ps_shape_add_header(ps_table *table, const ps_request *request, const ps_shape *shape,
-                                 ps_error *error) PS_MUST_CHECK;
+/* Header lines of --fit: numbers, and sentences for people. */
+pspec_status ps_shape_add_header(ps_table *table, const ps_shape *shape,
+                                 const ps_spectrum *spectrum, ps_error *error) PS_MUST_CHECK;
+/* Those of them that are about its profiles. */
+pspec_status ps_shape_add_profiles(ps_table *table, const ps_shape *shape,
+                                   const ps_spectrum *spectrum, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -22,7 +22,7 @@ static pspec_status add_shape(ps_series *curve, double *columns, const ps_reques
     const size_t num = spectrum->num_bins;
     double powers[PS_SHAPE_COLUMNS];
     ps_shape shape;
-    PS_TRY(ps_shape_make(&shape, request, spectrum, error));
+    PS_TRY(ps_shape_find(&shape, spectrum, request->fit_exponent, error));
     for (size_t b = 0; b < num; b++) {
         ps_shape_powers(powers, &shape, spectrum, &spectrum->bins[b]);
         for (size_t i = 0; i < PS_SHAPE_COLUMNS; i++) {

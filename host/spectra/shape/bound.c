@@ -15,6 +15,11 @@ double ps_bound_power(const ps_bound *self, double normalized_frequency) {
                : self->gamma;
 }
 
+ps_bound_rates ps_bound_find_rates(const ps_bound *self, unsigned dimension) {
+    return (ps_bound_rates){1 + self->exponent / dimension,
+                            1 + fmin(self->exponent, 1) / dimension};
+}
+
 static pspec_status check_errors(const ps_spectrum *spectrum, ps_error *error) {
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         if (!isfinite(spectrum->bins[b].standard_error)) {

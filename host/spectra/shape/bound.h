@@ -10,7 +10,21 @@
 typedef struct ps_bound {
     double gamma, alpha, exponent;
 } ps_bound;
+/* What is asked for. */
+typedef struct ps_bounds_spec {
+    bool is_wanted;
+    bool is_given; /* these, else those of the spectrum that is found */
+    ps_bound below, above;
+} ps_bounds_spec;
 double ps_bound_power(const ps_bound *self, double normalized_frequency);
+
+/* Variances of integration fall like N^-rate, by the profile as N grows: of integrands whose
+ * frequencies end somewhere (infinite of a step), and of those with a jump, where an exponent 1 has
+ * a logarithm besides. */
+typedef struct ps_bound_rates {
+    double smooth, jump;
+} ps_bound_rates;
+ps_bound_rates ps_bound_find_rates(const ps_bound *self, unsigned dimension);
 
 /* The profile of that exponent, 0 or more, with the least gamma and, for it, the largest alpha that
  * is nowhere below P + 3 standard errors. Fails with a sentence where bins have no standard errors.
