@@ -29,6 +29,7 @@ add_program_test(cli_different_points) # sets of different N, normalizations, wh
 add_program_test(cli_empty_axis) # points of a smaller box
 add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
 add_program_test(cli_counts)    # several numbers of points in one command
+add_program_test(cli_fit)       # power laws, plateaus and profiles of spectra
 add_program_test(cli_program)   # streams, signals, formats, same bits
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
@@ -41,6 +42,7 @@ add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is 
 add_program_test(cli_variance_files) # halves, single sets, weights, streams, memory, saved results that are refused
 add_program_test(cli_variance_integrands) # integrands from files: numbers, scenes, what is refused
 add_program_test(cli_variance)  # columns, formats, the same bits beside other questions, scenes, what is refused
+add_program_test(cli_variance_bounds)  # --bounds: profiles below and above, given and found
 add_program_test(cli_variance_cutoff)  # --tail, what does not matter, shells, the formula of the paper
 add_program_test(cli_weights)   # weights at the ends of the range of doubles, sums that are 0
 add_program_test(cli_terminal)  # tables on a terminal, in files and in pipes

@@ -170,6 +170,7 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
             add_numbers(key, series->anisotropy, series->num);
             add_numbers(key, series->low, series->num);
             add_numbers(key, series->high, series->num);
+            add_numbers(key, series->fit, series->num);
         }
     }
     if (figure->frames != NULL) {

@@ -13,6 +13,7 @@ typedef enum ps_look {
     PS_LOOK_LINE,  /* marks that a line joins */
     PS_LOOK_CURVE, /* a line without marks, on the band from `low` to `high` if there is one */
     PS_LOOK_MARKS, /* marks that nothing joins, with bars of `error` up and down if there are any */
+    PS_LOOK_BOUND, /* dots in the colour of the kind */
     PS_LOOK_REFERENCE /* a thin grey line of dashes, to compare others with */
 } ps_look;
 
@@ -28,7 +29,8 @@ typedef struct ps_series {
     const double *x, *y;
     const double *error;      /* standard errors, of spectra and of marks; else NULL */
     const double *anisotropy; /* of spectra, in dB; else NULL */
-    const double *low, *high; /* the band of a curve; NULL: none */
+    const double *low, *high; /* the band of a curve, lines about a spectrum; NULL: none */
+    const double *fit;        /* of spectra, what goes through them; NULL: none */
     ps_look look;
 } ps_series;
 

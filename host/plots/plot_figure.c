@@ -7,16 +7,18 @@
 /* ---- data ----------------------------------------------------------------------------------- */
 
 /* Columns 1 and 2 are x and y; where there is more, 3 is the error, 4 the anisotropy, 5 and 6 are
- * the ends of the band, NaN for what there is not. */
+ * the ends of the band, 7 is the fit, NaN for what there is not. */
 static void print_series(const ps_figure *figure, const ps_series *series, FILE *stream) {
-    const double *const more[] = {series->error, series->anisotropy, series->low, series->high};
+    const double *const more[] = {series->error, series->anisotropy, series->low, series->high,
+                                  series->fit};
     const bool has_more = series->error != NULL || series->anisotropy != NULL ||
                           (series->low != NULL && series->high != NULL);
+    const size_t num_more = sizeof more / sizeof more[0] - (series->fit == NULL);
     for (size_t place = 0; place < series->num; place++) {
         const bool is_shown = ps_script_is_shown(figure, series, place);
         ps_script_print_value(series->x[place], stream);
         ps_script_print_value(is_shown ? series->y[place] : NAN, stream);
-        for (size_t i = 0; has_more && i < sizeof more / sizeof more[0]; i++) {
+        for (size_t i = 0; has_more && i < num_more; i++) {
             ps_script_print_value(more[i] != NULL ? more[i][place] : NAN, stream);
         }
         putc('\n', stream);

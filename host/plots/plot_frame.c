@@ -230,6 +230,11 @@ static void print_series(const char *data, const ps_series *series, double botto
         fprintf(stream, "%s using 1:2 with points pointtype 7 pointsize 0.6 ", data);
         ps_script_print_colour(series->kind, stream);
         break;
+    case PS_LOOK_BOUND:
+        fprintf(stream, "%s using 1:2 with %s linewidth 1.2 dashtype 3 ", data,
+                series->num > 1 ? "lines" : "points pointtype 2 pointsize 1");
+        ps_script_print_colour(series->kind, stream);
+        break;
     case PS_LOOK_REFERENCE:
         fprintf(stream, "%s using 1:2 with %s linewidth 1 linecolor rgb '#808080' dashtype 2", data,
                 series->num > 1 ? "lines" : "points pointtype 1 pointsize 1.4");

@@ -187,6 +187,25 @@ static void print_curves(const layout *where, const char *columns, const char *s
         ps_script_print_style(curve->kind, stream);
         fputs(" notitle", stream);
     }
+}
+
+/* Profiles below and above as thin dashes, the fit as a thin black line. */
+static void print_profiles(const ps_panel *curves, FILE *stream) {
+    for (size_t i = 0; i < curves->num_series; i++) {
+        const ps_series *const curve = &curves->series[i];
+        for (int column = 5; curve->low != NULL && curve->high != NULL && column <= 6; column++) {
+            fprintf(stream, ", $data0_%zu using 1:($%d > 0 ? $%d : NaN) with lines ", i, column,
+                    column);
+            ps_script_print_colour(curve->kind, stream);
+            fputs(" linewidth 1 dashtype 3 notitle", stream);
+        }
+        if (curve->fit != NULL) {
+            fprintf(stream,
+                    ", $data0_%zu using 1:($7 > 0 ? $7 : NaN) with lines linecolor rgb '#000000' "
+                    "linewidth 1 notitle",
+                    i);
+        }
+    }
     putc('\n', stream);
 }
 
@@ -241,8 +260,9 @@ static void print_power_panel(const ps_figure *figure, const layout *where, FILE
         if (is_cut(figure, curve)) {
             fprintf(stream, ".\" (to %.3g)\"", find_top(curve));
         }
-        fputs(i + 1 < curves->num_series ? ", " : "\n", stream);
+        fputs(i + 1 < curves->num_series ? ", " : "", stream);
     }
+    print_profiles(curves, stream);
     fputs("unset arrow 1\nunset label 1\n", stream);
     if (figure->is_log_y) {
         fputs("unset logscale y\nset format y '%g'\n", stream);
@@ -276,6 +296,7 @@ static void print_anisotropy_panel(const ps_figure *figure, const layout *where,
                 figure->noise_level_db, figure->noise_level_db + 0.0);
     }
     print_curves(where, "1:4", "lines", stream);
+    putc('\n', stream);
 }
 
 /* Low degrees of good patterns have powers that a linear axis cannot show. */
@@ -287,6 +308,7 @@ static void print_logarithmic_panel(const layout *where, FILE *stream) {
           "set xrange [*:*] noextend\nset yrange [*:*]\nplot ",
           stream);
     print_curves(where, "1:($2 > 0 ? $2 : NaN)", NULL, stream);
+    print_profiles(where->curves, stream);
 }
 
 static pspec_status print_image(const ps_plot_image *image, FILE *stream, ps_error *error) {

@@ -8,6 +8,7 @@
 #include "math/sobolev.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -147,6 +148,16 @@ pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s: %s is not above 0 and below 1: every check would fail", said->shown,
                          said->text);
+}
+
+/* What is not of the words is a number. */
+pspec_status ps_set_fit(const ps_said *said, ps_error *error) {
+    const double most = 16;
+    said->request->wants_fit = true;
+    said->request->fit_exponent = NAN;
+    return strcmp(said->text, "auto") == 0 ? PSPEC_OK
+                                           : ps_parse_number(said->text, said->shown, 0, most,
+                                                             &said->request->fit_exponent, error);
 }
 
 pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {

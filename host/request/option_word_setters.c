@@ -5,6 +5,7 @@
 #include "samplers/morph_words.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -124,6 +125,50 @@ pspec_status ps_set_plot_range(const ps_said *said, ps_error *error) {
     }
     PS_TRY(set_interval(said, said->text, length, &axes->has_x, axes->x, error));
     return set_interval(said, second, strlen(second), &axes->has_y, axes->y, error);
+}
+
+/* "G" or "G,A,B", B a number or inf: a step. */
+static pspec_status parse_bound(ps_bound *out, const ps_said *said, const char *text, size_t length,
+                                ps_error *error) {
+    enum { TEXT_BYTES = 96 };
+    char own[TEXT_BYTES];
+    double numbers[3] = {0, 0, 0};
+    size_t num = 0;
+    snprintf(own, sizeof own, "%.*s", (int)(length < sizeof own ? length : 0), text);
+    for (char *at = own; at != NULL && num < 3; num++) {
+        char *const comma = strchr(at, ',');
+        if (comma != NULL) {
+            *comma = '\0';
+        }
+        if (num == 2 && strcmp(at, "inf") == 0) {
+            numbers[num] = INFINITY;
+        } else {
+            PS_TRY(ps_parse_number(at, said->shown, 0, DBL_MAX, &numbers[num], error));
+        }
+        at = comma != NULL ? comma + 1 : NULL;
+        if (num == 2 && at != NULL) {
+            return fail_word(said, error);
+        }
+    }
+    *out = (ps_bound){numbers[0], numbers[1], numbers[2]};
+    return num != 2 ? PSPEC_OK : fail_word(said, error);
+}
+
+pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
+    static const char dots[] = "..";
+    ps_bounds_spec *const bounds = &said->request->bounds;
+    const char *const middle = strstr(said->text, dots);
+    *bounds = (ps_bounds_spec){.is_wanted = true};
+    if (strcmp(said->text, "auto") == 0) {
+        return PSPEC_OK;
+    }
+    if (middle == NULL) {
+        return fail_word(said, error);
+    }
+    const char *const second = middle + sizeof dots - 1;
+    bounds->is_given = true;
+    PS_TRY(parse_bound(&bounds->below, said, said->text, (size_t)(middle - said->text), error));
+    return parse_bound(&bounds->above, said, second, strlen(second), error);
 }
 
 pspec_status ps_set_box(const ps_said *said, ps_error *error) {

@@ -99,6 +99,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  .help = "a column more: the integral over |k| of radial means "
                                          "(E-13), which neglects P(0+) f_0^2 / N",
                                  FLAG(paper_formula)},
+    [PS_OPTION_BOUNDS] = {NAMED("bounds", 0, "auto|G,A,B..G,A,B"), OF(BIT(variance), 0),
+                          .help = "two columns more: the variance by profiles below and above P, "
+                                  "G (nu/A)^B up to A, then G; auto: those of power --fit auto",
+                          .set = ps_set_bounds},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
@@ -168,6 +172,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     "half lattice, only a random subset of S, from the seed",
                             COUNT(frequencies.per_ring), .minimum = PS_MIN_PER_RING,
                             .maximum = PS_MAX_NUM_FREQUENCIES},
+    [PS_OPTION_FIT] = {NAMED("fit", 0, "auto|B"), OF(BIT(power) | BIT(angular), 0),
+                       .help =
+                           "also: power law or plateau at 0, peak, effective Nyquist, profiles "
+                           "gamma (nu/alpha)^B about all powers (auto: B as found); -m 8 or more",
+                       .set = ps_set_fit},
     [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
                                 "its standard error to FILE.standard_error.npy",
@@ -239,16 +248,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
                         OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance), BIT(convert)),
-                        .help =
-                            "points (x, y) of the plane become points of the sphere, z = 2x - 1 "
-                            "or z = x, phi = 2 pi y, as by lift= of samplers",
+                        .help = "points (x, y) of the plane become points of the sphere, z = 2x - "
+                                "1 or z = x, phi = 2 pi y, as by lift= of samplers",
                         .set = ps_set_lift},
     [PS_OPTION_MORPH] = {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"),
                          .source = PS_OF_FILES,
                          OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
-                         .help =
-                             "points lifted to the hemisphere take the density of a lobe, as by "
-                             "morph= of samplers (default none; quadrature: that of --brdf)",
+                         .help = "points lifted to the hemisphere take the density of a lobe, as "
+                                 "by morph= of samplers (default none; quadrature: that of --brdf)",
                          .set = ps_set_morph},
     [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
                               .help = "leave points below the horizon out where the lobe "
@@ -360,7 +367,6 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "say on standard error what is being done", FLAG(verbose)},
     [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",
                         .set = ps_set_nothing},
-
 };
 
 /* ---- one option ---------------------------------------------------------------------------- */

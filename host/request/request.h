@@ -11,6 +11,7 @@
 #include "points/points.h"
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
+#include "spectra/shape/bound.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,6 +32,7 @@ typedef enum ps_option_id {
     PS_OPTION_IN_PLACE,          /* --in-place */
     PS_OPTION_TAIL,              /* --tail X */
     PS_OPTION_PAPER_FORMULA,     /* --paper-formula */
+    PS_OPTION_BOUNDS,            /* --bounds auto|G,A,B..G,A,B */
     PS_OPTION_AGAINST,           /* --against FILE */
     PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
@@ -44,6 +46,7 @@ typedef enum ps_option_id {
     PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
     PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
+    PS_OPTION_FIT,               /* --fit auto|B */
     PS_OPTION_FULL,              /* --full FILE.npy */
     PS_OPTION_NORMALIZE,         /* --normalize power|effective|integral */
     PS_OPTION_HOMOGENIZE,        /* --homogenize */
@@ -143,6 +146,9 @@ typedef struct ps_request {
     bool wants_array, wants_coefficients;
     pspec_normalization normalization; /* never that of pairs */
     double smoothness;                 /* 1.5 unless given */
+    bool wants_fit;
+    double fit_exponent; /* of profiles; nan: the one that is found */
+    ps_bounds_spec bounds;
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */

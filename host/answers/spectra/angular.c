@@ -1,6 +1,7 @@
 /* The averaged angular power spectrum of sets on the sphere. */
 #include "answers/compare.h"
 #include "answers/spectra/job_table.h"
+#include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
@@ -38,24 +39,32 @@ enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
 static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
                                 const ps_power_job *job, const ps_lead *lead, ps_error *error) {
-    (void)arguments;
+    ps_shape shape = {0};
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    if (arguments->wants_fit) {
+        PS_TRY(ps_shape_find(&shape, spectrum, arguments->fit_exponent, error));
+        PS_TRY(ps_shape_add_header(table, &shape, spectrum, error));
+    }
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         const ps_spectrum_bin *bin = &spectrum->bins[b];
-        const ps_cell cells[NUM_COLUMNS] = {
+        ps_cell cells[NUM_COLUMNS + PS_SHAPE_COLUMNS] = {
             PS_INTEGER(bin->key),
             PS_NUMBER(bin->normalized_frequency),
             PS_NUMBER(bin->power),
             ps_number_or_missing(bin->standard_error),
         };
-        PS_TRY(ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error));
+        const size_t num = ps_shape_add_cells(cells, NUM_COLUMNS, arguments, &shape, spectrum, bin);
+        PS_TRY(ps_lead_add_row(table, lead, cells, num, error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status make_table(ps_table **out, const ps_request *arguments,
                                const ps_power_job *const *jobs, size_t num, ps_error *error) {
-    const ps_job_table kind = {"angular", columns, NUM_COLUMNS, add_degrees};
+    const char *all[NUM_COLUMNS + PS_SHAPE_COLUMNS];
+    memcpy(all, columns, sizeof columns);
+    const size_t num_columns = ps_shape_add_columns(all, NUM_COLUMNS, arguments);
+    const ps_job_table kind = {"angular", all, num_columns, add_degrees};
     return ps_job_table_make(out, &kind, arguments, jobs, num, error);
 }
 

@@ -1,6 +1,7 @@
 #include "answers/spectra/power_table.h"
 
 #include "answers/spectra/job_table.h"
+#include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
 
 #include <math.h>
@@ -14,11 +15,16 @@ static const char *const bin_columns[] = {"bin",          "frequency", "normaliz
                                           "anisotropy_db"};
 static const char *const axis_columns[] = {"k1", "k2", "k3", "k4", "k5", "k6"};
 
-static pspec_status add_bins(ps_table *table, const ps_spectrum *spectrum, const ps_lead *lead,
-                             ps_error *error) {
+static pspec_status add_bins(ps_table *table, const ps_request *arguments,
+                             const ps_spectrum *spectrum, const ps_lead *lead, ps_error *error) {
+    ps_shape shape = {0};
+    if (arguments->wants_fit) {
+        PS_TRY(ps_shape_find(&shape, spectrum, arguments->fit_exponent, error));
+        PS_TRY(ps_shape_add_header(table, &shape, spectrum, error));
+    }
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         const ps_spectrum_bin *bin = &spectrum->bins[b];
-        const ps_cell cells[] = {
+        ps_cell cells[MOST_COLUMNS] = {
             PS_INTEGER(bin->key),
             PS_NUMBER(bin->frequency),
             PS_NUMBER(bin->normalized_frequency),
@@ -27,7 +33,9 @@ static pspec_status add_bins(ps_table *table, const ps_spectrum *spectrum, const
             ps_number_or_missing(bin->standard_error),
             ps_number_or_missing(bin->anisotropy_db),
         };
-        PS_TRY(ps_lead_add_row(table, lead, cells, sizeof cells / sizeof cells[0], error));
+        const size_t num = ps_shape_add_cells(cells, sizeof bin_columns / sizeof bin_columns[0],
+                                              arguments, &shape, spectrum, bin);
+        PS_TRY(ps_lead_add_row(table, lead, cells, num, error));
     }
     return PSPEC_OK;
 }
@@ -62,14 +70,14 @@ static size_t choose_columns(const char **columns, const ps_request *arguments,
     for (size_t i = 0; i < sizeof bin_columns / sizeof bin_columns[0]; i++) {
         columns[num++] = bin_columns[i];
     }
-    return num;
+    return ps_shape_add_columns(columns, num, arguments);
 }
 
 static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
                              const ps_lead *lead, ps_error *error) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, lead, error)
-                                               : add_bins(table, spectrum, lead, error);
+                                               : add_bins(table, arguments, spectrum, lead, error);
 }
 
 pspec_status ps_power_table(ps_table **out, const ps_request *arguments,

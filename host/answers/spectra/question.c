@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "request/options.h"
 #include "request/point_source.h"
+#include "spectra/shape/low_end.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,11 +63,25 @@ static pspec_status check_several(const ps_request *arguments, ps_error *error) 
                          arguments->num_samplers, arguments->num_counts, num, PS_MAX_CURVES);
 }
 
+/* Of files nobody knows how many sets they have; then the header says it. */
+static pspec_status check_fit(const ps_request *arguments, ps_error *error) {
+    const uint64_t num = ps_num_realizations_asked(arguments);
+    return !arguments->wants_fit || arguments->num_samplers == 0 ||
+                   num >= PS_FEWEST_FITTED_REALIZATIONS
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s weighs powers by their standard errors, which need %d realizations "
+                         "or more (--realizations), not %llu",
+                         ps_option_show(arguments, PS_OPTION_FIT).text,
+                         PS_FEWEST_FITTED_REALIZATIONS, (unsigned long long)num);
+}
+
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     static const option_pair pairs[] = {
         {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_BINS, "a list is not averaged"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_FIT, "it is of rings, and a list has none"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_STANDARD_ERROR,
@@ -83,6 +98,7 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
                                  ps_option_show(arguments, pairs[i].b).text, pairs[i].why, error);
         }
     }
+    PS_TRY(check_fit(arguments, error));
     if (arguments->wants_array &&
         (arguments->frequencies.path != NULL || arguments->frequencies.per_ring > 0)) {
         return fail_conflict(arguments->frequencies.path != NULL ? "frequencies" : "per-ring",

@@ -1,6 +1,7 @@
 #include "answers/spectra/spectra.h"
 
 #include "answers/lead.h"
+#include "answers/spectra/shape_table.h"
 #include "base/memory.h"
 #include "plots/plot.h"
 
@@ -15,13 +16,36 @@ static double power_unit(const ps_power_job *job) {
     return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS && isfinite(unit) ? unit : 1;
 }
 
-/* Columns of one curve, in one block: normalized frequency, power, standard error, anisotropy. */
+/* The profiles and the fit of a curve, behind its other columns. */
+static pspec_status add_shape(ps_series *curve, double *columns, const ps_request *request,
+                              const ps_spectrum *spectrum, ps_error *error) {
+    const size_t num = spectrum->num_bins;
+    double powers[PS_SHAPE_COLUMNS];
+    ps_shape shape;
+    PS_TRY(ps_shape_find(&shape, spectrum, request->fit_exponent, error));
+    for (size_t b = 0; b < num; b++) {
+        ps_shape_powers(powers, &shape, spectrum, &spectrum->bins[b]);
+        for (size_t i = 0; i < PS_SHAPE_COLUMNS; i++) {
+            columns[i * num + b] = powers[i];
+        }
+    }
+    curve->low = columns;
+    curve->high = columns + num;
+    curve->fit = columns + 2 * num;
+    return PSPEC_OK;
+}
+
+/* Columns of one curve, in one block: normalized frequency, power, standard error, anisotropy, and
+ * those of its shape. */
 static pspec_status make_curve(ps_series *curve, size_t number, const char *label,
-                               const ps_power_job *job, void **block, ps_error *error) {
+                               const ps_request *request, const ps_power_job *job, void **block,
+                               ps_error *error) {
+    enum { COLUMNS = 4 };
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     const size_t num = spectrum->num_bins;
     const double unit = power_unit(job);
-    PS_TRY(ps_allocate(block, 4 * num, sizeof(double), "a curve", error));
+    PS_TRY(
+        ps_allocate(block, (COLUMNS + PS_SHAPE_COLUMNS) * num, sizeof(double), "a curve", error));
     double *columns = *block;
     for (size_t b = 0; b < num; b++) {
         columns[b] = spectrum->bins[b].normalized_frequency;
@@ -36,7 +60,8 @@ static pspec_status make_curve(ps_series *curve, size_t number, const char *labe
                          .y = columns + num,
                          .error = columns + 2 * num,
                          .anisotropy = columns + 3 * num};
-    return PSPEC_OK;
+    return request->wants_fit ? add_shape(curve, columns + COLUMNS * num, request, spectrum, error)
+                              : PSPEC_OK;
 }
 
 static pspec_status make_image(ps_plot_image *image, double **array, const ps_spectrum *spectrum,
@@ -107,7 +132,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
         num == 1 && first->frequencies.dimension == 2 && arguments->frequencies.per_ring == 0;
     for (size_t i = 0; i < num; i++) {
         PS_TRY_OUT(status, write_label(&labels[i], arguments, i, error));
-        PS_TRY_OUT(status, make_curve(&curves[i], i, ps_text_string(&labels[i]), jobs[i],
+        PS_TRY_OUT(status, make_curve(&curves[i], i, ps_text_string(&labels[i]), arguments, jobs[i],
                                       &blocks[i], error));
     }
     if (has_image) {

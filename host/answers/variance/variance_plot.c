@@ -14,6 +14,8 @@ typedef enum quantity {
     MEASURED,
     MEASURED_ERROR,
     WHITE,
+    BEST_BOUND,
+    WORST_BOUND,
     NUM_QUANTITIES
 } quantity;
 
@@ -24,9 +26,15 @@ typedef struct row {
     size_t curve, panel;
 } row;
 
-/* A curve is a line, with the places and ends of its band, and marks, with places and errors; white
- * noise has the rows of one curve of each panel. */
-enum { SERIES_OF_CURVE = 2, NUMBERS_OF_LINE = 4, NUMBERS_OF_MARKS = 3, NUMBERS_OF_WHITE = 2 };
+/* A curve is a line, with the places and ends of its band, marks, with places and errors, and the
+ * lines of two bounds; white noise has the rows of one curve of each panel. */
+enum {
+    SERIES_OF_CURVE = 4,
+    NUMBERS_OF_LINE = 4,
+    NUMBERS_OF_MARKS = 3,
+    NUMBERS_OF_BOUNDS = 4,
+    NUMBERS_OF_WHITE = 2
+};
 
 typedef struct picture {
     size_t num_rows, num_curves, num_panels;
@@ -97,9 +105,9 @@ static size_t find_class(const row **firsts, size_t *num, const row *one, are_al
 
 static void take_part(picture *self, const ps_chart_part *part) {
     static const char *const names[NUM_QUANTITIES] = {
-        [POINTS] = "points", [PREDICTED] = "predicted", [LOWER] = "lower",
-        [UPPER] = "upper",   [MEASURED] = "measured",   [MEASURED_ERROR] = "measured_error",
-        [WHITE] = "white"};
+        [POINTS] = "points", [PREDICTED] = "predicted",   [LOWER] = "lower",
+        [UPPER] = "upper",   [MEASURED] = "measured",     [MEASURED_ERROR] = "measured_error",
+        [WHITE] = "white",   [BEST_BOUND] = "best_bound", [WORST_BOUND] = "worst_bound"};
     const ps_table *const table = part->table;
     const char *const integrand = text_of(ps_table_find_meta(table, "integrand"));
     for (size_t i = 0; i < ps_table_num_rows(table); i++) {
@@ -163,6 +171,18 @@ static pspec_status name_series(ps_series *series, ps_text *label, ps_error *err
     return ps_text_check(label, error);
 }
 
+/* A line without a label; none where no bound was asked for, or there is no such. */
+static void add_bound(picture *self, size_t curve, size_t panel, quantity which) {
+    ps_series *const line = add_series(self, curve, panel, which, PS_LOOK_BOUND);
+    size_t num = 0;
+    for (size_t i = 0; i < line->num; i++) {
+        num += isfinite(line->y[i]);
+    }
+    if (num == 0) {
+        self->num_series--;
+    }
+}
+
 /* One entry of the key: marks have the colour of the line. */
 static pspec_status add_curve(picture *self, size_t curve, size_t panel, ps_error *error) {
     const row *const first = self->curves[curve];
@@ -176,6 +196,8 @@ static pspec_status add_curve(picture *self, size_t curve, size_t panel, ps_erro
     line->high = gather(self, curve, panel, UPPER, &line->num);
     ps_series *const marks = add_series(self, curve, panel, MEASURED, PS_LOOK_MARKS);
     marks->error = gather(self, curve, panel, MEASURED_ERROR, &marks->num);
+    add_bound(self, curve, panel, BEST_BOUND);
+    add_bound(self, curve, panel, WORST_BOUND);
     ps_text_append(label, "%s%s%s", first->label,
                    first->label[0] != '\0' && first->sampler[0] != '\0' ? ", " : "",
                    first->sampler);
@@ -204,7 +226,8 @@ static pspec_status add_panel(picture *self, size_t panel, ps_error *error) {
 
 static pspec_status add_all(picture *self, ps_error *error) {
     const size_t most = self->num_panels * (SERIES_OF_CURVE * self->num_curves + 1);
-    const size_t most_of_row = NUMBERS_OF_LINE + NUMBERS_OF_MARKS + NUMBERS_OF_WHITE;
+    const size_t most_of_row =
+        NUMBERS_OF_LINE + NUMBERS_OF_MARKS + NUMBERS_OF_BOUNDS + NUMBERS_OF_WHITE;
     PS_TRY(PS_NEW(&self->series, most, "a picture", error));
     PS_TRY(PS_NEW(&self->labels, most, "a picture", error));
     PS_TRY(PS_NEW(&self->numbers, most_of_row * self->num_rows, "a picture", error));

@@ -58,6 +58,15 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                              ps_option_show(arguments, PS_OPTION_IN_PLACE).text,
                              "sets are moved, or they are not", error);
     }
+    if (arguments->bounds.is_wanted && !arguments->bounds.is_given && arguments->num_files == 0 &&
+        arguments->num_realizations < PS_FEWEST_FITTED_REALIZATIONS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s auto finds profiles by standard errors, which need %d realizations or "
+                       "more (--realizations), not %llu",
+                       ps_option_show(arguments, PS_OPTION_BOUNDS).text,
+                       PS_FEWEST_FITTED_REALIZATIONS,
+                       (unsigned long long)arguments->num_realizations);
+    }
     PS_TRY(ps_point_options_check(arguments, error));
     if (arguments->num_samplers > 0 && arguments->is_given[PS_OPTION_WEIGHTS]) {
         return fail_conflict(arguments, PS_OPTION_WEIGHTS, sampler.text,
@@ -182,6 +191,7 @@ static ps_variance_question make_question(const ps_request *arguments) {
         .num_integrands = arguments->num_integrands,
         .over_shells = over_shells,
         .wants_paper = arguments->paper_formula,
+        .bounds = arguments->bounds,
         .num_shifts = arguments->num_shifts,
         .single_shifts = has_shifts ? arguments->num_shifts : SINGLE_SHIFTS,
         .seed = arguments->seed,

@@ -1,21 +1,34 @@
 #include "answers/variance/variance_table.h"
 
 #include "answers/lead.h"
+#include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
 #include "answers/variance/tail_verdict.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-static const char *const columns[] = {"points", "predicted", "predicted_error", "lower",
-                                      "upper",  "measured",  "measured_error",  "z_score",
-                                      "white",  "paper"};
-enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+/* The last ones are there where they were asked for. */
+static const char *const columns[] = {"points",         "predicted", "predicted_error",
+                                      "lower",          "upper",     "measured",
+                                      "measured_error", "z_score",   "white"};
+static const char *const bound_columns[] = {"best_bound", "worst_bound"};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0], NUM_BOUNDS = 2 };
+enum { MOST_COLUMNS = NUM_COLUMNS + NUM_BOUNDS + 1 };
 
-/* The last one is there where it was asked for. */
-static size_t count_columns(const ps_request *request) {
-    return request->paper_formula ? NUM_COLUMNS : NUM_COLUMNS - 1;
+static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *request) {
+    size_t num = NUM_COLUMNS;
+    memcpy(out, columns, sizeof columns);
+    if (request->bounds.is_wanted) {
+        memcpy(out + num, bound_columns, sizeof bound_columns);
+        num += NUM_BOUNDS;
+    }
+    if (request->paper_formula) {
+        out[num++] = "paper";
+    }
+    return num;
 }
 
 /* What a row is of, besides its number of points, which every row has. */
@@ -42,7 +55,8 @@ static ps_cell points_cell(const ps_spectrum *spectrum) {
 static pspec_status add_row(ps_table *table, const ps_request *request, const ps_lead *lead,
                             const ps_variance_job *job, size_t integrand, ps_error *error) {
     const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
-    const ps_cell cells[NUM_COLUMNS] = {
+    size_t num = NUM_COLUMNS;
+    ps_cell cells[MOST_COLUMNS] = {
         points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
         PS_NUMBER(row->prediction.variance),
         ps_number_or_missing(row->prediction.standard_error),
@@ -52,9 +66,15 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
         ps_number_or_missing(row->measured_error),
         ps_number_or_missing(row->z_score),
         PS_NUMBER(row->prediction.white),
-        ps_number_or_missing(row->paper),
     };
-    return ps_lead_add_row(table, lead, cells, count_columns(request), error);
+    if (request->bounds.is_wanted) {
+        cells[num++] = ps_number_or_missing(row->best_bound);
+        cells[num++] = ps_number_or_missing(row->worst_bound);
+    }
+    if (request->paper_formula) {
+        cells[num++] = ps_number_or_missing(row->paper);
+    }
+    return ps_lead_add_row(table, lead, cells, num, error);
 }
 
 /* ---- header -------------------------------------------------------------------------------- */
@@ -158,6 +178,10 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         PS_TRY(ps_header_add_job(table, request, spectra, num, i, error));
         PS_TRY(add_files(table, request, jobs[i], error));
         PS_TRY(add_most_power(table, jobs[i], error));
+        if (request->bounds.is_wanted) {
+            PS_TRY(ps_shape_add_profiles(table, ps_variance_job_shape(jobs[i]),
+                                         ps_power_job_spectrum(spectra[i]), error));
+        }
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
             PS_TRY(add_pairwise(table, &ps_variance_job_rows(jobs[i])[k], error));
@@ -170,6 +194,8 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,
                                ps_variance_job *const *jobs, size_t num, const ps_error *verdict,
                                ps_error *error) {
+    const char *names[MOST_COLUMNS];
+    const size_t num_columns = choose_columns(names, request);
     const ps_lead first = make_lead(request, 0, 0);
     ps_request own = *request; /* what headers say of powers is said of these */
     own.normalization = PSPEC_NORMALIZATION_INTEGRAL;
@@ -178,8 +204,7 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
     for (size_t i = 0; i < num; i++) {
         spectra[i] = ps_variance_job_spectrum(jobs[i]);
     }
-    pspec_status status =
-        ps_lead_create_table(out, "variance", &first, columns, count_columns(request), error);
+    pspec_status status = ps_lead_create_table(out, "variance", &first, names, num_columns, error);
     if (status == PSPEC_OK) {
         status = begin(*out, request, jobs[0], error);
     }

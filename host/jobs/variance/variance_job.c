@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
+#include "jobs/variance/bounds.h"
 #include "jobs/variance/radial.h"
 
 #include <math.h>
@@ -104,13 +105,14 @@ static pspec_status open_files(ps_variance_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Frequencies that matter to no integrand are left out. */
+/* Frequencies that matter to no integrand are left out, unless profiles are to be found of them. */
 static void find_useful(ps_variance_job *job) {
     const ps_variance_question *const question = job->question;
     ps_power_question *const spectrum = &job->spectrum_question;
     job->reach = ps_prediction_reach((const ps_integrand *const *)job->integrands,
                                      question->num_integrands, question->over_shells);
-    if (job->reach <= PS_MAX_FREQUENCY) {
+    const bool finds_profiles = question->bounds.is_wanted && !question->bounds.is_given;
+    if (job->reach <= PS_MAX_FREQUENCY && !finds_profiles) {
         spectrum->useful = (int32_t)job->reach;
         spectrum->useful_why = "less than 1e-16 of the energy of every integrand is there";
     }
@@ -197,10 +199,39 @@ static ps_power_beyond find_power_beyond(const ps_variance_job *job, const ps_sp
     return beyond;
 }
 
+static pspec_status find_shape(ps_variance_job *job, ps_error *error) {
+    const ps_bounds_spec *const bounds = &job->question->bounds;
+    if (bounds->is_given) {
+        job->shape = (ps_shape){.above = bounds->above, .below = bounds->below};
+    }
+    return bounds->is_wanted && !bounds->is_given
+               ? ps_shape_find(&job->shape, ps_power_job_spectrum(job->spectrum), NAN, error)
+               : PSPEC_OK;
+}
+
+static pspec_status add_bounds(ps_variance_job *job, size_t integrand, ps_error *error) {
+    const ps_variance_question *const question = job->question;
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
+    ps_variance_row *const row = &job->rows[integrand];
+    const ps_shape *const shape = &job->shape;
+    const ps_point_way way = way_of(job);
+    row->best_bound = NAN;
+    row->worst_bound = NAN;
+    if (question->bounds.is_wanted && shape->below_reason.status == PSPEC_OK) {
+        PS_TRY(ps_bounds_variance(&row->best_bound, job->integrands[integrand], spectrum,
+                                  question->over_shells, &way, &shape->below, error));
+    }
+    return question->bounds.is_wanted && shape->above_reason.status == PSPEC_OK
+               ? ps_bounds_variance(&row->worst_bound, job->integrands[integrand], spectrum,
+                                    question->over_shells, &way, &shape->above, error)
+               : PSPEC_OK;
+}
+
 static pspec_status fill_rows(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
     const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
     job->beyond = find_power_beyond(job, spectrum);
+    PS_TRY(find_shape(job, error));
     for (size_t i = 0; i < question->num_integrands; i++) {
         ps_variance_row *const row = &job->rows[i];
         ps_mean sum = ps_power_job_weighted(job->spectrum)[i];
@@ -209,6 +240,7 @@ static pspec_status fill_rows(ps_variance_job *job, ps_error *error) {
         }
         row->prediction = ps_prediction_make(job->integrands[i], sum, job->held[i],
                                              spectrum->mean_points, &job->beyond);
+        PS_TRY(add_bounds(job, i, error));
         row->paper = NAN;
         if (question->wants_paper) {
             PS_TRY(ps_radial_variance(&row->paper, job->integrands[i], spectrum, error));
@@ -246,4 +278,8 @@ const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job) {
 
 const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job) {
     return &job->beyond;
+}
+
+const ps_shape *ps_variance_job_shape(const ps_variance_job *job) {
+    return &job->shape;
 }

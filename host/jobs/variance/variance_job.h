@@ -13,6 +13,7 @@
 #include "jobs/spectrum/power_job.h"
 #include "jobs/variance/prediction.h"
 #include "plan/phases.h"
+#include "spectra/shape/shape.h"
 
 typedef struct ps_variance_question {
     /* Of the prediction, under the normalization of integrals: a sampler, or files, with where
@@ -24,6 +25,7 @@ typedef struct ps_variance_question {
     /* The sum is over the exact shells of a ball instead of a box: of isotropic integrands */
     bool over_shells;
     bool wants_paper; /* (E-13) beside it, of integrands that are radial (jobs/variance/radial.h) */
+    ps_bounds_spec bounds;
     uint64_t num_shifts;    /* trials of each set that is measured; 0: nothing is */
     uint64_t single_shifts; /* the same of a single set of a file */
     uint64_t seed;          /* of the trials of files; a sampler has its own */
@@ -33,6 +35,7 @@ typedef struct ps_variance_question {
 /* Of one integrand. nan: there is none. */
 typedef struct ps_variance_row {
     ps_prediction prediction;
+    double best_bound, worst_bound;  /* by the profiles below and above; nan unless asked for */
     double paper;                    /* (E-13); nan unless it was asked for */
     double measured, measured_error; /* about the known integral; error over sets */
     double z_score;                  /* nan where sets are not moved, or nothing varies */
@@ -72,5 +75,7 @@ const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t
 const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job);
 /* The power that `upper` has beyond the cut-off, after run. */
 const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job);
+/* The profiles that bounds are made of, where they were asked for, after run. */
+const ps_shape *ps_variance_job_shape(const ps_variance_job *job);
 
 #endif

@@ -15,6 +15,7 @@ struct ps_variance_job {
     ps_variance_row *rows;     /* [num] */
     double reach;              /* the largest frequency or degree that matters */
     ps_power_beyond beyond;
+    ps_shape shape;            /* where bounds were asked for */
     ps_variance_sets files;    /* {0} of a sampler */
     ps_variance_trials trials; /* num_shifts 0: none */
     double trial_bytes;

@@ -1,0 +1,16 @@
+/* Variances by the profiles below and above a spectrum, in place of its powers. */
+#ifndef PS_JOBS_VARIANCE_BOUNDS_H
+#define PS_JOBS_VARIANCE_BOUNDS_H
+
+#include "jobs/variance/prediction.h"
+#include "spectra/shape/bound.h"
+
+/* (1/N) (sum of weights times the profile, up to the cut-off, + gamma T), T being the energy that
+ * lies beyond: the rigorous form of P15's bounds, over whole frequencies
+ * (docs/mathematics/torus.md). The spectrum says which frequencies there are, and N. */
+pspec_status ps_bounds_variance(double *out, const ps_integrand *integrand,
+                                const ps_spectrum *spectrum, bool over_shells,
+                                const ps_point_way *way, const ps_bound *profile,
+                                ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# cli_variance_bounds.sh PROGRAM: pointspec variance --bounds: closed forms, profiles that are given and that are found, refusals.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../harness/harness.sh" variance "$1"
+
+column() { # NAME of the first row
+    grep -v '^#' out | awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR == 2 { print $at }'
+}
+near() { # WHAT VALUE EXPRESSION of awk, to 12 digits
+    awk -v a="$2" "BEGIN { b = $3; exit !(a - b <= 1e-12 * b && b - a <= 1e-12 * b) }" || complain "$1: $2, not $3"
+}
+bounds=(--sampler jittered -m 2 --shifts 0 --bounds)
+
+# ---- given profiles: what one frequency or one degree has is known ----
+
+# A wave has |f_k|^2 = 1/4 at k and -k: profile(|k|/sqrt N) / (2N)
+runs 0 "${bounds[@]}" 0.5,0.8,2..1.25,0.6,3 -n 256 --integrand wave:k=3x4
+near 'a wave below alpha' "$(column best_bound)" '0.5 * (5 / 16 / 0.8) ^ 2 / 512'
+near 'a wave below alpha, above' "$(column worst_bound)" '1.25 * (5 / 16 / 0.6) ^ 3 / 512'
+[[ $(key upper_profile) == 'P <= 1.25 (nu/0.6)^3 below nu = 0.6, P <= 1.25 above' && $(key lower_gamma) == 0.5 &&
+    $(key lower_alpha) == 0.8 && $(key lower_exponent) == 2 && $(key upper_exponent) == 3 ]] || complain "header: $(grep '^#' out)"
+[[ $(key best_case_rate) == 2.5 && $(key worst_case_rate) == 1.5 ]] || complain "rates: $(grep '^# .*rate' out)"
+grep -qx 'points,predicted,predicted_error,lower,upper,measured,measured_error,z_score,white,best_bound,worst_bound' out ||
+    complain "columns: $(grep -v '^#' out | head -n 1)"
+runs 0 "${bounds[@]}" 0.5,0.8,2..1.25,0.6,inf -n 16 --integrand wave:k=3x4
+near 'a wave above alpha' "$(column best_bound)" '0.5 / 32'
+near 'a wave above a step' "$(column worst_bound)" '1.25 / 32'
+runs 0 "${bounds[@]}" 0..1,0.6,inf -n 256 --integrand wave:k=3x4
+[[ $(column best_bound) == 0 && $(column worst_bound) == 0 ]] || complain "a wave below a step: $(column worst_bound)"
+# Y_40: (4 pi/N) 9 P(4) P_F(4), P_F(4) = 1/9; on the hemisphere as on the sphere of even functions
+runs 0 --sampler white-sphere -m 2 --shifts 0 --bounds 0.5,0.8,1..2 -n 100 --integrand harmonic:degree=4
+near 'a harmonic' "$(column best_bound)" '4 * atan2(0, -1) / 100 * 0.5 * 0.4 / 0.8'
+near 'a harmonic, constant' "$(column worst_bound)" '4 * atan2(0, -1) / 100 * 2'
+# A constant profile is white noise, with what lies beyond the cut-off, in one to three dimensions.
+for d in 1 2 3; do
+    runs 0 "${bounds[@]}" 0.5..2 -n 64 -d $d --integrand disk --paper-formula
+    near "white noise, d = $d" "$(column best_bound)" "0.5 * $(column white)"
+    near "white noise, d = $d" "$(column worst_bound)" "2 * $(column white)"
+done
+[[ $(grep -v '^#' out | head -n 1) == *,white,best_bound,worst_bound,paper ]] || complain 'columns with that of the paper'
+# P15's profiles of jittered points hold in every direction: the prediction is between, to the noise of 400 sets.
+runs 0 --sampler jittered -m 400 --shifts 0 --bounds 0.5,0.5513,2..1,0.5513,2 -n 256 --integrand disk
+awk -v a="$(column best_bound)" -v p="$(column predicted)" -v e="$(column predicted_error)" -v b="$(column worst_bound)" \
+    'BEGIN { exit !(a < p - 3 * e && p < b + 3 * e && b < 1.15 * p) }' || complain "jittered: $(grep -v '^#' out)"
+
+# ---- profiles that are found are those of power --fit, of the same sets ----
+
+runs 0 --sampler jittered -m 20 --shifts 0 --bounds auto -n 256 --integrand gaussian
+[[ $(key skipped) != *beyond* ]] || complain "profiles of too few rings: $(key skipped)"
+found=$(sed -n '/^# \(upper\|lower\)_/p' out)
+awk -v a="$(column best_bound)" -v p="$(column predicted)" -v b="$(column worst_bound)" \
+    'BEGIN { exit !(0 < a && a < p && p < b) }' || complain "bounds: $(grep -v '^#' out)"
+command=power
+runs 0 --sampler jittered -m 20 -n 256 --fit auto
+[[ $(sed -n '/^# \(upper\|lower\)_/p' out) == "$found" ]] || complain "profiles $found, and of power $(grep '^# .*_profile' out)"
+command=variance
+runs 0 --sampler jittered -m 10 --shifts 0 --bounds auto -n 16 --integrand disk
+[[ $(key upper_profile) == 'none: 1 ring up to 0.5'* && -z $(column best_bound) && -z $(column worst_bound) ]] ||
+    complain "16 points: $(key upper_profile)"
+
+# ---- pictures, scenes, refusals ----
+
+if command -v gnuplot >/dev/null; then
+    runs 0 "${bounds[@]}" 0.5..2 -n 64,256 --integrand disk --plot with.svg -o table.csv
+    runs 0 --sampler jittered -m 2 --shifts 0 -n 64,256 --integrand disk --plot without.svg -o table.csv
+    (($(grep -c '<path' with.svg) >= $(grep -c '<path' without.svg) + 2)) || complain 'the picture has no bounds'
+fi
+printf 'scene: 1\nresults:\n  - {result: variance, name: one, samplers: jittered, points: 64, integrand: disk, shifts: 0, bounds: 0.5..2}\n' \
+    >scene.yaml
+command=run
+runs 0 scene.yaml -o folder
+grep -q ',best_bound,worst_bound' folder/one.csv || complain 'a scene has no bounds'
+command=variance
+for wrong in 1 1,2..3 1,2,3,4..1 much; do
+    refuses "--bounds: \"$wrong\" is not one of auto, G,A,B..G,A,B" --sampler white --integrand disk --bounds "$wrong"
+done
+refuses '--bounds: "x" is not a finite number' --sampler white --integrand disk --bounds x..1
+refuses '--bounds: ' --sampler white --integrand disk --bounds=1..-1
+refuses '--bounds auto finds profiles by standard errors, which need 8 realizations or more (--realizations), not 1' \
+    --sampler white --integrand disk --bounds auto
+finish
