@@ -16,7 +16,8 @@ static void compare(const char *text, uint64_t num_sets) {
     const ps_sets_options options = {.device = selector};
     ps_sets *sets = NULL;
     size_t num_points = 0;
-    assert_true(ps_sets_makers(&request, num_sets) > 1 || ps_workers_most() == 1 || num_sets == 1);
+    assert_true(ps_sets_makers(&request, &options, num_sets) > 1 || ps_workers_most() == 1 ||
+                num_sets == 1);
     assert_ok(ps_lender_create(&request.lender, selector, error)); /* sets have their own */
     assert_ok(ps_sets_create(&sets, &request, num_sets, &options, error));
     for (unsigned time = 0; time < 2; time++) {
