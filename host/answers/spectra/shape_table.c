@@ -46,7 +46,8 @@ size_t ps_shape_add_cells(ps_cell *cells, size_t num, const ps_request *request,
 
 static const char *const shape_names[] = {[PS_LOW_POWER_LAW] = "power law",
                                           [PS_LOW_PLATEAU] = "plateau",
-                                          [PS_LOW_UNDECIDED] = "undecided"};
+                                          [PS_LOW_UNDECIDED] = "undecided",
+                                          [PS_LOW_NEITHER] = "neither"};
 
 static void write_fit(char out[SENTENCE_BYTES], const ps_shape *shape) {
     const ps_low_end *const low = &shape->low;

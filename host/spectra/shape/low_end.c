@@ -198,21 +198,21 @@ static pspec_status fit_plateau(ps_low_end *out, const work *self, ps_error *err
     return PSPEC_OK;
 }
 
-/* Variances that were measured in M realizations weigh too much where they came out small: 1/s^2
- * has the mean (M-1)/(M-3) / sigma^2, and the coefficients scatter by more than with the true
- * variances, together (M-1)/(M-4) in their squares: simulated for M from 8 to 100. */
+/* Variances that were measured in M realizations weigh too much where they came out small. The
+ * squares of errors are then too small by (M-1)/(M-4), and chi^2 too large by (M-1)/(M-2): this is
+ * simulated for M from 8 to 100. */
 static void correct(ps_low_end *out, const ps_spectrum *spectrum) {
     const double num = (double)spectrum->num_realizations;
     const double growth = sqrt((num - 1) / (num - 4));
     out->exponent_error *= growth;
     out->plateau_error *= growth;
-    out->law_chi2 *= (num - 3) / (num - 1);
-    out->plateau_chi2 *= (num - 3) / (num - 1);
+    out->law_chi2 *= (num - 2) / (num - 1);
+    out->plateau_chi2 *= (num - 2) / (num - 1);
 }
 
 /* Few spectra fall to 0 by less than the root of nu: what looks so is a plateau that rises, unless
  * the law is better by as much as three standard errors are. */
-static ps_low_shape decide(const ps_low_end *self) {
+static ps_low_shape find_shape(const ps_low_end *self) {
     const double faint = 0.5;
     const bool is_flat = fabs(self->exponent) <= SIGNIFICANT * self->exponent_error;
     const bool has_plateau = self->plateau > SIGNIFICANT * self->plateau_error;
@@ -221,6 +221,16 @@ static ps_low_shape decide(const ps_low_end *self) {
         return PS_LOW_PLATEAU;
     }
     return is_flat ? PS_LOW_UNDECIDED : PS_LOW_POWER_LAW;
+}
+
+static ps_low_shape decide(const ps_low_end *self) {
+    const double far = 6; /* standard deviations of chi^2 */
+    const double num = (double)self->degrees_of_freedom;
+    const ps_low_shape shape = find_shape(self);
+    const double chi2 = shape == PS_LOW_PLATEAU     ? self->plateau_chi2
+                        : shape == PS_LOW_POWER_LAW ? self->law_chi2
+                                                    : fmin(self->plateau_chi2, self->law_chi2);
+    return chi2 <= num + far * sqrt(2 * num) ? shape : PS_LOW_NEITHER;
 }
 
 pspec_status ps_low_end_fit(ps_low_end *out, const ps_spectrum *spectrum, ps_error *error) {
@@ -246,5 +256,7 @@ pspec_status ps_low_end_fit(ps_low_end *out, const ps_spectrum *spectrum, ps_err
 double ps_low_end_power(const ps_low_end *self, const ps_spectrum *spectrum,
                         const ps_spectrum_bin *bin) {
     const double nu = find_frequency(spectrum, bin);
-    return self->shape == PS_LOW_PLATEAU ? plateau_power(self, nu) : law_power(self, nu);
+    const bool is_plateau = self->shape == PS_LOW_PLATEAU ||
+                            (self->shape == PS_LOW_NEITHER && self->plateau_chi2 < self->law_chi2);
+    return is_plateau ? plateau_power(self, nu) : law_power(self, nu);
 }

@@ -12,7 +12,8 @@ enum { PS_FEWEST_FITTED_REALIZATIONS = 8, PS_FEWEST_FITTED_BINS = 6 };
 typedef enum ps_low_shape {
     PS_LOW_POWER_LAW, /* the power falls to 0, or rises without end */
     PS_LOW_PLATEAU,   /* it has a limit above 0 */
-    PS_LOW_UNDECIDED  /* it may be either: more realizations would say */
+    PS_LOW_UNDECIDED, /* it may be either: more realizations would say */
+    PS_LOW_NEITHER    /* its chi^2 tells it from what it is most like */
 } ps_low_shape;
 
 typedef struct ps_low_end {
@@ -33,7 +34,8 @@ typedef struct ps_low_end {
  * standard error that is not above 0. */
 pspec_status ps_low_end_fit(ps_low_end *out, const ps_spectrum *spectrum,
                             ps_error *error) PS_MUST_CHECK;
-/* The fitted curve of its shape at a bin of the spectrum: the law for one that is undecided. */
+/* The fitted curve of its shape at a bin of the spectrum: the law for one that is undecided, that
+ * with the smaller chi^2 for what is neither. */
 double ps_low_end_power(const ps_low_end *self, const ps_spectrum *spectrum,
                         const ps_spectrum_bin *bin);
 
