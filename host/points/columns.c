@@ -8,16 +8,25 @@ typedef struct named_layout {
     const char *name;
     unsigned columns;
     ps_angle_order angles;
-    bool has_weight;
+    bool has_weight, in_degrees;
 } named_layout;
 
 /* In the order of PS_POINT_COLUMNS. */
 static const named_layout named[] = {
-    {"xy", 2, PS_NO_ANGLES, false},        {"xyw", 3, PS_NO_ANGLES, true},
-    {"xyz", 3, PS_NO_ANGLES, false},       {"xyzw", 4, PS_NO_ANGLES, true},
-    {"theta-phi", 2, PS_THETA_PHI, false}, {"theta-phi-w", 3, PS_THETA_PHI, true},
-    {"phi-theta", 2, PS_PHI_THETA, false}, {"phi-theta-w", 3, PS_PHI_THETA, true},
-    {"lon-lat", 2, PS_LON_LAT, false},     {"lon-lat-w", 3, PS_LON_LAT, true},
+    {"xy", 2, PS_NO_ANGLES, false, false},
+    {"xyw", 3, PS_NO_ANGLES, true, false},
+    {"xyz", 3, PS_NO_ANGLES, false, false},
+    {"xyzw", 4, PS_NO_ANGLES, true, false},
+    {"theta-phi", 2, PS_THETA_PHI, false, false},
+    {"theta-phi-w", 3, PS_THETA_PHI, true, false},
+    {"phi-theta", 2, PS_PHI_THETA, false, false},
+    {"phi-theta-w", 3, PS_PHI_THETA, true, false},
+    {"lon-lat", 2, PS_LON_LAT, false, true},
+    {"lon-lat-w", 3, PS_LON_LAT, true, true},
+    {"theta-phi:degrees", 2, PS_THETA_PHI, false, true},
+    {"theta-phi-w:degrees", 3, PS_THETA_PHI, true, true},
+    {"phi-theta:degrees", 2, PS_PHI_THETA, false, true},
+    {"phi-theta-w:degrees", 3, PS_PHI_THETA, true, true},
 };
 enum { NUM_NAMED = sizeof named / sizeof named[0] };
 
@@ -50,7 +59,8 @@ const char *ps_layout_name(const ps_layout *layout) {
         return layout->has_weight_column ? "xyzw, unit vectors" : "xyz, unit vectors";
     }
     for (size_t i = 0; i < NUM_NAMED; i++) {
-        if (named[i].angles == layout->angles && named[i].has_weight == layout->has_weight_column) {
+        if (named[i].angles == layout->angles && named[i].in_degrees == layout->in_degrees &&
+            named[i].has_weight == layout->has_weight_column) {
             return named[i].name;
         }
     }
@@ -60,13 +70,15 @@ const char *ps_layout_name(const ps_layout *layout) {
 bool ps_layout_is_plain(const ps_layout *layout) {
     return !layout->has_weight_column && layout->lift == PS_NO_LIFT &&
            (layout->angles == PS_NO_ANGLES ||
-            (layout->coordinates == PS_ANGLES && layout->angles == PS_THETA_PHI));
+            (layout->coordinates == PS_ANGLES && layout->angles == PS_THETA_PHI &&
+             !layout->in_degrees));
 }
 
 unsigned ps_columns_told(const ps_point_options *options) {
     enum { PLANE = 2 };
-    const named_layout *const layout =
-        options->columns != NULL ? find_named(options->columns) : NULL;
+    const char *const meaning =
+        options->columns != NULL ? options->columns : ps_columns_meaning(options->column_names);
+    const named_layout *const layout = meaning != NULL ? find_named(meaning) : NULL;
     if (layout != NULL) {
         return layout->columns;
     }
@@ -160,6 +172,7 @@ static pspec_status resolve_named(ps_layout *out, const ps_columns_question *que
         return set_torus(out, question, layout->has_weight, error);
     }
     set_sphere(out, layout->angles, layout->has_weight, options->keep_angles);
+    out->in_degrees = layout->in_degrees;
     return PSPEC_OK;
 }
 
@@ -309,5 +322,6 @@ pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape,
                        "columns %s need weights, and these points have none", shape->columns);
     }
     set_sphere(out, layout->angles, shape->has_weights, true);
+    out->in_degrees = layout->in_degrees;
     return PSPEC_OK;
 }

@@ -11,7 +11,7 @@ typedef enum ps_angle_order {
     PS_NO_ANGLES = 0,
     PS_THETA_PHI,
     PS_PHI_THETA,
-    PS_LON_LAT /* degrees */
+    PS_LON_LAT
 } ps_angle_order;
 
 /* Columns of a row: coordinates or angles first, then perhaps the weight. */
@@ -19,6 +19,7 @@ typedef struct ps_layout {
     ps_coordinates coordinates; /* of the points that come out of the rows, or go into them */
     unsigned dimension;
     ps_angle_order angles; /* how the rows hold directions, if not as vectors */
+    bool in_degrees;       /* are these angles; else they are in radians */
     ps_lift lift;          /* rows are points (x, y) of the plane, which become vectors */
     bool has_weight_column;
     bool drops_weight;
@@ -35,6 +36,12 @@ typedef struct ps_columns_question {
     const ps_point_options *options;
 } ps_columns_question;
 
+/* What follows names of columns, "lon-lat" of "ra,dec=lon-lat", or NULL. */
+const char *ps_columns_meaning(const char *names);
+/* The layout that the names of columns mean, "ra,dec", "theta_deg,phi_deg,w", or NULL: static
+ * storage. The latitude may come first, which *are_swapped tells. */
+const char *ps_columns_of_names(const char *names, bool *are_swapped);
+
 /* How many columns a row has by the options, 0: they do not tell. */
 unsigned ps_columns_told(const ps_point_options *options);
 /* May a row have so many columns, as far as the options tell? */
@@ -49,7 +56,7 @@ pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape,
 
 /* Columns of a row in this layout. */
 unsigned ps_layout_columns(const ps_layout *layout);
-/* "xy", "xyzw", "theta-phi", "x1..x4": static storage. */
+/* "xy", "xyzw", "theta-phi:degrees", "x1..x4": static storage. */
 const char *ps_layout_name(const ps_layout *layout);
 /* Are rows points as they stand? */
 bool ps_layout_is_plain(const ps_layout *layout);

@@ -13,6 +13,8 @@
 /* Angles may exceed their range by what rounding to 7 digits does. */
 static const double ANGLE_SLACK = 1e-6;
 
+static const double HALF_TURN = 180; /* degrees */
+
 /* ---- what is accepted -------------------------------------------------------------------- */
 
 /* Reduces *coordinate mod 1 to [0,1); false when it is not finite. */
@@ -128,14 +130,15 @@ static size_t accept_vectors(bool normalizes, double *vectors, size_t num) {
 }
 
 /* theta or the latitude, and phi or the longitude, within their ranges. */
-static bool are_angles(ps_angle_order order, const double *row) {
+static bool are_angles(ps_angle_order order, bool in_degrees, const double *row) {
+    const double half = in_degrees ? HALF_TURN : PS_PI;
     if (order == PS_LON_LAT) {
-        return fabs(row[0]) <= 360 + ANGLE_SLACK && fabs(row[1]) <= 90 + ANGLE_SLACK;
+        return fabs(row[0]) <= 2 * half + ANGLE_SLACK && fabs(row[1]) <= half / 2 + ANGLE_SLACK;
     }
     const double theta = row[order == PS_PHI_THETA];
     const double phi = row[order != PS_PHI_THETA];
-    return theta >= -ANGLE_SLACK && theta <= PS_PI + ANGLE_SLACK &&
-           fabs(phi) <= PS_TWO_PI + ANGLE_SLACK;
+    return theta >= -ANGLE_SLACK && theta <= half + ANGLE_SLACK &&
+           fabs(phi) <= 2 * half + ANGLE_SLACK;
 }
 
 /* Is the point of this row of the sphere below the horizon? */
@@ -148,7 +151,8 @@ static bool is_below_horizon(const ps_layout *layout, const double *row) {
         return row[1] < 0;
     case PS_THETA_PHI:
     case PS_PHI_THETA:
-        return cos(row[layout->angles == PS_PHI_THETA]) < 0;
+        return layout->in_degrees ? row[layout->angles == PS_PHI_THETA] > HALF_TURN / 2
+                                  : cos(row[layout->angles == PS_PHI_THETA]) < 0;
     case PS_NO_ANGLES:
         break;
     }
@@ -162,7 +166,7 @@ static size_t accept_sphere(const ps_layout *layout, const ps_point_options *opt
         return accept_vectors(options->normalize_vectors, points, num);
     }
     for (size_t i = 0; i < num; i++) {
-        if (!are_angles(layout->angles, rows + i * columns)) {
+        if (!are_angles(layout->angles, layout->in_degrees, rows + i * columns)) {
             return i;
         }
     }
@@ -281,15 +285,29 @@ static pspec_status refuse_vector(const ps_layout *layout, const ps_point_option
             : "");
 }
 
+/* What angles in this order should be, in radians or in degrees. */
+static const char *describe_ranges(const ps_layout *layout) {
+    if (layout->angles == PS_LON_LAT) {
+        return "longitude and latitude in degrees (up to 360 and 90)";
+    }
+    if (layout->angles == PS_THETA_PHI) {
+        return layout->in_degrees ? "theta (0 to 180) and phi (up to 360), in degrees"
+                                  : "theta (0 to pi) and phi (up to 2 pi)";
+    }
+    return layout->in_degrees ? "phi (up to 360) and theta (0 to 180), in degrees"
+                              : "phi (up to 2 pi) and theta (0 to pi)";
+}
+
 static pspec_status refuse_angles(const ps_layout *layout, const char *where, const double *row,
                                   ps_error *error) {
     char text[2][NUMBER_BYTES];
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s", where,
+    ps_layout degrees = *layout;
+    degrees.in_degrees = true;
+    const bool may_be_degrees = !layout->in_degrees && are_angles(layout->angles, true, row);
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s%s%s", where,
                    show_number(text[0], row[0]), show_number(text[1], row[1]),
-                   layout->angles == PS_LON_LAT
-                       ? "longitude and latitude in degrees (up to 360 and 90)"
-                   : layout->angles == PS_THETA_PHI ? "theta (0 to pi) and phi (up to 2 pi)"
-                                                    : "phi (up to 2 pi) and theta (0 to pi)");
+                   describe_ranges(layout), may_be_degrees ? "; are these degrees? --columns " : "",
+                   may_be_degrees ? ps_layout_name(&degrees) : "");
 }
 
 pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *options,
@@ -299,7 +317,8 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
         PS_TRY(refuse_torus(&plane, options, where, row, error));
     } else if (layout->coordinates == PS_TORUS_COORDINATES) {
         PS_TRY(refuse_torus(layout, options, where, row, error));
-    } else if (layout->angles != PS_NO_ANGLES && !are_angles(layout->angles, row)) {
+    } else if (layout->angles != PS_NO_ANGLES &&
+               !are_angles(layout->angles, layout->in_degrees, row)) {
         return refuse_angles(layout, where, row, error);
     } else if (layout->angles == PS_NO_ANGLES) {
         double vector[3] = {row[0], row[1], row[2]};

@@ -39,36 +39,41 @@ static void make_vector(double sin_theta, double cos_theta, double sin_phi, doub
     vector[2] = cos_theta;
 }
 
-static void angles_to_vector(ps_angle_order order, const double *row, double *vector) {
+static void angles_to_vector(const ps_layout *layout, const double *row, double *vector) {
+    const double theta = row[layout->angles != PS_THETA_PHI]; /* or the latitude */
+    const double phi = row[layout->angles == PS_THETA_PHI];
+    double sin_theta = 0;
+    double cos_theta = 0;
     double sin_phi = 0;
     double cos_phi = 0;
-    if (order == PS_LON_LAT) {
-        double sin_lat = 0;
-        double cos_lat = 0;
-        turn_degrees(row[0], &sin_phi, &cos_phi);
-        turn_degrees(row[1], &sin_lat, &cos_lat);
-        make_vector(cos_lat, sin_lat, sin_phi, cos_phi, vector);
+    if (!layout->in_degrees) {
+        make_vector(sin(theta), cos(theta), sin(phi), cos(phi), vector);
         return;
     }
-    const double theta = row[order == PS_PHI_THETA];
-    const double phi = row[order != PS_PHI_THETA];
-    make_vector(sin(theta), cos(theta), sin(phi), cos(phi), vector);
+    turn_degrees(phi, &sin_phi, &cos_phi);
+    turn_degrees(theta, &sin_theta, &cos_theta);
+    if (layout->angles == PS_LON_LAT) {
+        make_vector(cos_theta, sin_theta, sin_phi, cos_phi, vector);
+    } else {
+        make_vector(sin_theta, cos_theta, sin_phi, cos_phi, vector);
+    }
 }
 
-static void angles_to_angles(ps_angle_order order, const double *row, double *angles) {
-    switch (order) {
+static void angles_to_angles(const ps_layout *layout, const double *row, double *angles) {
+    const double unit = layout->in_degrees ? DEGREE : 1;
+    switch (layout->angles) {
     case PS_LON_LAT:
-        angles[0] = (90 - row[1]) * DEGREE;
-        angles[1] = row[0] * DEGREE;
+        angles[0] = (90 - row[1]) * unit;
+        angles[1] = row[0] * unit;
         break;
     case PS_PHI_THETA:
-        angles[0] = row[1];
-        angles[1] = row[0];
+        angles[0] = row[1] * unit;
+        angles[1] = row[0] * unit;
         break;
     case PS_THETA_PHI:
     case PS_NO_ANGLES:
-        angles[0] = row[0];
-        angles[1] = row[1];
+        angles[0] = row[0] * unit;
+        angles[1] = row[1] * unit;
         break;
     }
 }
@@ -84,9 +89,9 @@ void ps_columns_split(const ps_layout *layout, const double *rows, size_t num, d
                 points[j] = rows[j];
             }
         } else if (layout->coordinates == PS_ANGLES) {
-            angles_to_angles(layout->angles, rows, points);
+            angles_to_angles(layout, rows, points);
         } else {
-            angles_to_vector(layout->angles, rows, points);
+            angles_to_vector(layout, rows, points);
         }
         if (weights != NULL) {
             weights[i] = rows[columns - 1];
@@ -104,27 +109,25 @@ static void vector_to_angles(const double *vector, double *angles) {
     }
 }
 
-static void write_angles(ps_angle_order order, const double *angles, double *row) {
-    row[order == PS_PHI_THETA] = angles[0];
-    row[order != PS_PHI_THETA] = angles[1];
-    if (order == PS_LON_LAT) {
-        row[0] = angles[1] / DEGREE;
-        row[1] = 90 - angles[0] / DEGREE;
-    }
+static void write_angles(const ps_layout *layout, const double *angles, double *row) {
+    const double unit = layout->in_degrees ? DEGREE : 1;
+    const double theta = angles[0] / unit;
+    row[layout->angles != PS_THETA_PHI] = layout->angles == PS_LON_LAT ? 90 - theta : theta;
+    row[layout->angles == PS_THETA_PHI] = angles[1] / unit;
 }
 
 static void join_point(const ps_layout *layout, ps_coordinates source, const double *point,
                        double *row) {
     if (layout->angles == PS_NO_ANGLES && source == PS_ANGLES) {
-        angles_to_vector(PS_THETA_PHI, point, row);
+        angles_to_vector(&(ps_layout){.angles = PS_THETA_PHI}, point, row);
     } else if (layout->angles == PS_NO_ANGLES) {
         memcpy(row, point, layout->dimension * sizeof *row);
     } else if (source == PS_ANGLES) {
-        write_angles(layout->angles, point, row);
+        write_angles(layout, point, row);
     } else {
         double angles[2];
         vector_to_angles(point, angles);
-        write_angles(layout->angles, angles, row);
+        write_angles(layout, angles, row);
     }
 }
 

@@ -50,7 +50,9 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
 
 /* Names of all formats and of all layouts of columns, for options. */
 #define PS_POINT_FORMATS "utk-text|csv|psa-text|gbn|edat|eps|utk-binary|rps|npy|openquad"
-#define PS_SPHERE_COLUMNS "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w"
+#define PS_SPHERE_COLUMNS                                                                          \
+    "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w|theta-phi:degrees|"    \
+    "theta-phi-w:degrees|phi-theta:degrees|phi-theta-w:degrees"
 #define PS_POINT_COLUMNS "xy|xyw|" PS_SPHERE_COLUMNS
 
 /* Numbers from first to last, counted from 1; {0} means all. What is asked for must be there, but
@@ -62,7 +64,7 @@ typedef struct ps_point_range {
 typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_POINT_FORMATS */
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
-    const char *column_names; /* NULL, or "x,y": of a text with a line of names */
+    const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
     bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */

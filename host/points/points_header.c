@@ -67,33 +67,6 @@ static pspec_status check_similar(const ps_point_reader *reader, const char *whe
                          ps_token_show(shown, state->header.used, strlen(state->header.used)));
 }
 
-/* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. */
-static const char *layout_of(const ps_text_header *header) {
-    static const struct {
-        const char *names, *layout;
-    } known[] = {{"x,y", "xy"},
-                 {"x,y,w", "xyw"},
-                 {"x,y,weight", "xyw"},
-                 {"x,y,z", "xyz"},
-                 {"x,y,z,w", "xyzw"},
-                 {"x,y,z,weight", "xyzw"},
-                 {"theta,phi", "theta-phi"},
-                 {"theta,phi,w", "theta-phi-w"},
-                 {"theta,phi,weight", "theta-phi-w"},
-                 {"phi,theta", "phi-theta"},
-                 {"phi,theta,w", "phi-theta-w"},
-                 {"phi,theta,weight", "phi-theta-w"},
-                 {"lon,lat", "lon-lat"},
-                 {"lon,lat,w", "lon-lat-w"},
-                 {"lon,lat,weight", "lon-lat-w"}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (strcmp(header->used, known[i].names) == 0) {
-            return known[i].layout;
-        }
-    }
-    return NULL;
-}
-
 pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
@@ -114,7 +87,10 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
     PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, where,
                                error));
-    reader->own_columns = layout_of(&state->header);
+    reader->own_columns = ps_columns_meaning(names);
+    if (reader->own_columns == NULL && reader->options.columns == NULL) {
+        reader->own_columns = ps_text_header_meaning(&state->header);
+    }
     reader->chosen = state->header.chooses ? state->header.used : NULL;
     PS_TRY(check_similar(reader, where, error));
     ps_lines_skip(lines);

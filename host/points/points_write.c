@@ -249,7 +249,7 @@ void ps_points_describe_loss(const ps_point_writer *writer, char *text, size_t t
                  "%llu of %llu coordinates were rounded to float32, by at most %.2g",
                  (unsigned long long)writer->num_rounded, (unsigned long long)writer->num_values,
                  writer->largest_rounding);
-    } else if (turned || writer->layout.angles == PS_LON_LAT) {
+    } else if (turned || writer->layout.in_degrees) {
         snprintf(text, text_bytes, "directions were computed anew, rounded in their last digits");
     }
     describe_reading(writer, text, text_bytes);

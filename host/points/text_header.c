@@ -169,11 +169,15 @@ static void choose(ps_text_header *out, unsigned column, field name) {
     }
 }
 
-/* "x,y" */
+/* "x,y", "ra,dec=lon-lat" */
 static pspec_status choose_named(ps_text_header *out, const field *names, const char *wanted,
                                  const char *where, ps_error *error) {
-    while (*wanted != '\0') {
-        const size_t length = strcspn(wanted, ",");
+    const char *const meaning = ps_columns_meaning(wanted);
+    const char *const end = meaning != NULL ? meaning - 1 : wanted + strlen(wanted);
+    while (wanted < end) {
+        const size_t rest = (size_t)(end - wanted);
+        const size_t before = strcspn(wanted, ",");
+        const size_t length = before < rest ? before : rest;
         unsigned found = 0;
         while (found < out->num_columns && !is_same(names[found], wanted, length)) {
             found++;
@@ -182,9 +186,20 @@ static pspec_status choose_named(ps_text_header *out, const field *names, const 
             return fail_name(names, out->num_columns, wanted, length, where, error);
         }
         choose(out, found, names[found]);
-        wanted += length + (wanted[length] == ',');
+        wanted += length + (length < rest);
     }
     return PSPEC_OK;
+}
+
+const char *ps_text_header_meaning(ps_text_header *header) {
+    bool are_swapped = false;
+    const char *const layout = ps_columns_of_names(header->used, &are_swapped);
+    for (unsigned i = 0; are_swapped && i < header->num_columns; i++) {
+        const short place = header->places[i];
+        header->places[i] = place == 0 ? 1 : place == 1 ? 0 : place;
+        header->chooses = true;
+    }
+    return layout;
 }
 
 static unsigned count_fields(const char *line, char separator) {

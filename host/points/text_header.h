@@ -49,6 +49,10 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
                                  char separator, const char *names, const char *where,
                                  ps_error *error) PS_MUST_CHECK;
 
+/* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. Where these
+ * are a latitude and then a longitude, rows have them in the other order from now on. */
+const char *ps_text_header_meaning(ps_text_header *header);
+
 /* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. The rows of a
  * file are to come in order. */
 const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,

@@ -193,11 +193,18 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
                          reading->box_high - reading->box_low, LEAST_BOX);
 }
 
-/* A comma tells names of columns from what columns are. */
+/* A comma tells names of columns from what columns are, which may follow them: "ra,dec=lon-lat". */
 pspec_status ps_set_columns(const ps_said *said, ps_error *error) {
     const bool are_names = strchr(said->text, ',') != NULL;
+    const char *const meaning = are_names ? strrchr(said->text, '=') : NULL;
+    ps_said word = *said;
+    int index = 0;
     said->request->reading.columns = NULL;
     said->request->reading.column_names = are_names ? said->text : NULL;
+    if (meaning != NULL) {
+        word.text = meaning + 1;
+        return find_word(&word, &index, error);
+    }
     return are_names ? PSPEC_OK : ps_set_word(said, error);
 }
 

@@ -331,7 +331,7 @@ reads "$(tr '\n' '|' <first | sed 's/|$//')" first
 file radii.txt 'x y r\n0.5 0.25 0.125\n'
 file counted.csv 'x9,x10,x11\n0.5,0.25,0.125\n'
 file letters.csv 'px,py\n0.5,0.25\n'
-file sky.csv 'ra,dec\n0.5,0.25\n'
+file sky.csv 'alpha,delta\n0.5,0.25\n'
 file uvw.csv 'u,v,w\n0.5,0.25,0.125\n'
 for name in radii.txt sky.csv uvw.csv; do refuses "$name, line 1: are these all coordinates?;--columns" $name; done
 refuses '"x" is not a number' --header no radii.txt

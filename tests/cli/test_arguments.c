@@ -228,7 +228,8 @@ static void words_are_checked(void **state) {
          "--input-format: \"exr\" is not one of utk-text, csv, psa-text, gbn, "
          "edat, eps, utk-binary, rps, npy, openquad"},
         {"--to-columns xy", "--to-columns: \"xy\" is not one of xyz, xyzw, theta-phi, theta-phi-w, "
-                            "phi-theta, phi-theta-w, lon-lat, lon-lat-w"},
+                            "phi-theta, phi-theta-w, lon-lat, lon-lat-w, theta-phi:degrees, "
+                            "theta-phi-w:degrees, phi-theta:degrees, phi-theta-w:degrees"},
         {"--domain plane", "--domain: \"plane\" is not one of torus, sphere"},
     };
     static const bad_line bad_small[] = {

@@ -24,6 +24,7 @@ normalize=$(options 22 00 08 00 00 00)
 second=$(options 00 00 08 02 22 01) # only set 2, sets of two points
 theta_phi=$(options 43 05 20 00 00 01)
 lon_lat=$(options 03 0a 20 00 00 01) # with weights
+degrees=$(options 43 0e 20 00 00 01) # phi-theta-w, angles are kept
 
 # Little-endian numbers as bytes
 f64() { perl -e 'print pack("d<*", @ARGV)' -- "$@"; }
@@ -53,6 +54,8 @@ printf '0 0 1\n0.6 0.8 0\n' | seed utk-text vectors "$sphere"
 printf '0 0 2\n1e-200 0 0\n' | seed utk-text normalize "$normalize"
 printf '0.5 6.2\n3.1 0\n' | seed utk-text angles "$theta_phi"
 printf '180 -90 2\n-360 45.5 0.5\n' | seed utk-text degrees "$lon_lat"
+printf -- '-180 90 2\n45.5 180 0.5\n' | seed utk-text polar-degrees "$degrees"
+printf 'Dec_deg,RA_deg,weight\n45,200.25,1\n-3.2,10.5,2\n' | seed csv catalogue "$sphere"
 printf '0.1 0.2 0.3 0.4 0.5 0.6\n' | seed utk-text six "$torus"
 printf '0.1 0.2 nan\n' | seed utk-text nan "$torus"
 printf '0.5 0.5\n0 1\n' | seed utk-text upper-edge "$torus"

@@ -13,11 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS_BYTES = 16 };
+enum { COLUMNS_BYTES = 24 };
 
 /* Number index, counted from 1, of PS_POINT_COLUMNS; NULL for 0. */
 static const char *choose_columns(unsigned index, char text[COLUMNS_BYTES]) {
-    enum { NUM_CHOICES = 11 };
+    enum { NUM_CHOICES = 15 };
     const char *word = PS_POINT_COLUMNS;
     index %= NUM_CHOICES;
     if (index == 0) {
