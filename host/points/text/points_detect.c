@@ -1,7 +1,7 @@
 /* Formats of text that no first bytes tell apart: the first lines do. */
 #include "files/decimal.h"
 #include "math/unit_vector.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <string.h>
 

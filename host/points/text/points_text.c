@@ -5,7 +5,7 @@
  * first set, one '#' line after the last, blank lines at the very end. */
 #include "base/memory.h"
 #include "files/decimal.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The first line of a text: has it names of columns? */
 #include "files/text_lines.h"
-#include "points/points_text.h"
-#include "points/text_header.h"
+#include "points/text/points_text.h"
+#include "points/text/text_header.h"
 
 #include <string.h>
 

@@ -1,92 +1,26 @@
-#include "points/text_header.h"
+#include "points/text/text_header.h"
 
 #include "base/text.h"
 #include "files/decimal.h"
 #include "files/text_lines.h"
+#include "points/text/text_fields.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
-/* ---- fields ------------------------------------------------------------------------------ */
-
-typedef struct field {
-    const char *text;
-    size_t length;
-    bool is_quoted;
-} field;
-
-static bool ends_field(const char *text, char separator, bool is_quoted) {
-    if (ps_ends_line(text) || *text == '\n') {
-        return true;
-    }
-    return is_quoted ? *text == '"' : *text == separator || (separator == ' ' && *text == '\t');
-}
-
-/* The next field of a line, without quotes and blanks around it; false behind the last. Between
- * blanks there are no empty fields. *text is moved behind the field and its separator; *is_more:
- * a separator was there, so that another field follows, which may be empty. */
-static bool next_field(const char **text, char separator, bool *is_more, field *out) {
-    const char *at = ps_skip_blanks(*text);
-    if (ps_ends_line(at) && (separator == ' ' || !*is_more)) {
-        return false;
-    }
-    out->is_quoted = *at == '"';
-    at += out->is_quoted;
-    out->text = at;
-    while (!ends_field(at, separator, out->is_quoted)) {
-        at++;
-    }
-    out->length = (size_t)(at - out->text);
-    while (!out->is_quoted && out->length > 0 &&
-           strchr(" \t", out->text[out->length - 1]) != NULL) {
-        out->length--;
-    }
-    at = ps_skip_blanks(at + (out->is_quoted && *at == '"'));
-    *is_more = separator != ' ' && *at == separator;
-    *text = at + *is_more;
-    return true;
-}
-
-static bool is_number(field token) {
-    double value = 0;
-    return token.length > 0 && ps_decimal_parse(token.text, &value) == token.text + token.length;
-}
-
-static bool is_not_finite(field token) {
-    return ps_token_is_not_finite(token.text, token.length);
-}
-
-static bool is_printable(field token) {
-    size_t i = 0;
-    size_t bytes = 1;
-    while (i < token.length && bytes > 0) {
-        bytes = ps_text_character(token.text + i);
-        i += bytes;
-    }
-    return bytes > 0;
-}
-
-/* Printable text that begins with a letter, of any alphabet. */
-static bool is_name(field token) {
-    const unsigned char first = token.length > 0 ? (unsigned char)token.text[0] : 0;
-    const unsigned char beyond_ascii = 0x80;
-    return is_printable(token) && (isalpha(first) != 0 || first == '_' || first >= beyond_ascii) &&
-           !is_not_finite(token);
-}
-
 bool ps_text_header_is(const char *line, char separator) {
-    field token;
+    ps_field token;
     bool is_more = true;
     unsigned num_names = 0;
     unsigned num_numbers = 0;
     unsigned num_empty = 0;
     unsigned num = 0;
     bool begins_empty = false;
-    for (; next_field(&line, separator, &is_more, &token); num++) {
+    for (; ps_field_next(&line, separator, &is_more, &token); num++) {
         begins_empty = begins_empty || (num == 0 && token.length == 0);
-        num_names += is_name(token);
-        num_numbers += is_number(token);
+        num_names += ps_field_is_name(token);
+        num_numbers += ps_field_is_number(token);
         num_empty += token.length == 0;
     }
     /* ",0,1" are labels beside an index, which has none */
@@ -94,26 +28,13 @@ bool ps_text_header_is(const char *line, char separator) {
            num_names + num_numbers > 0;
 }
 
-/* At most this many digits, which every uint64_t has room for; the value in *out. */
-static bool is_whole(field token, uint64_t *out) {
-    enum { MOST_DIGITS = 18 };
-    *out = 0;
-    for (size_t i = 0; i < token.length; i++) {
-        if (isdigit((unsigned char)token.text[i]) == 0) {
-            return false;
-        }
-        *out = *out * 10 + (uint64_t)(token.text[i] - '0');
-    }
-    return token.length > 0 && token.length <= MOST_DIGITS;
-}
-
 bool ps_text_header_is_numbered(const char *line, char separator) {
-    field token;
+    ps_field token;
     bool is_more = true;
     uint64_t value = 0;
     uint64_t num = 0;
-    while (next_field(&line, separator, &is_more, &token)) {
-        if (!is_whole(token, &value) || value != num++) {
+    while (ps_field_next(&line, separator, &is_more, &token)) {
+        if (!ps_field_is_whole(token, &value) || value != num++) {
             return false;
         }
     }
@@ -121,9 +42,9 @@ bool ps_text_header_is_numbered(const char *line, char separator) {
 }
 
 bool ps_text_header_is_decimal(const char *line, char separator) {
-    field token;
+    ps_field token;
     bool is_more = true;
-    while (next_field(&line, separator, &is_more, &token)) {
+    while (ps_field_next(&line, separator, &is_more, &token)) {
         if (strcspn(token.text, ".eE\n") >= token.length) {
             return false;
         }
@@ -133,22 +54,22 @@ bool ps_text_header_is_decimal(const char *line, char separator) {
 
 /* ---- which columns ----------------------------------------------------------------------- */
 
-static bool is_same(field token, const char *name, size_t length) {
+static bool is_same(ps_field token, const char *name, size_t length) {
     return token.length == length && strncmp(token.text, name, length) == 0;
 }
 
-static bool is_index(field token) {
+static bool is_index(ps_field token) {
     static const char unnamed[] = "Unnamed: 0"; /* an index that was read and written again */
     return token.length == 0 || is_same(token, unnamed, sizeof unnamed - 1);
 }
 
-static void show_names(ps_text *out, const field *names, unsigned num) {
+static void show_names(ps_text *out, const ps_field *names, unsigned num) {
     for (unsigned i = 0; i < num; i++) {
         ps_text_append(out, "%s\"%.*s\"", i > 0 ? ", " : "", (int)names[i].length, names[i].text);
     }
 }
 
-static pspec_status fail_name(const field *names, unsigned num, const char *name, size_t length,
+static pspec_status fail_name(const ps_field *names, unsigned num, const char *name, size_t length,
                               const char *where, ps_error *error) {
     ps_text list = {0};
     show_names(&list, names, num);
@@ -160,7 +81,7 @@ static pspec_status fail_name(const field *names, unsigned num, const char *name
     return status;
 }
 
-static void choose(ps_text_header *out, unsigned column, field name) {
+static void choose(ps_text_header *out, unsigned column, ps_field name) {
     const size_t used = strlen(out->used);
     out->places[column] = (short)out->num_chosen++;
     if (used + 1 + name.length < sizeof out->used) { /* no half characters */
@@ -170,7 +91,7 @@ static void choose(ps_text_header *out, unsigned column, field name) {
 }
 
 /* "x,y", "ra,dec=lon-lat" */
-static pspec_status choose_named(ps_text_header *out, const field *names, const char *wanted,
+static pspec_status choose_named(ps_text_header *out, const ps_field *names, const char *wanted,
                                  const char *where, ps_error *error) {
     const char *const meaning = ps_columns_meaning(wanted);
     const char *const end = meaning != NULL ? meaning - 1 : wanted + strlen(wanted);
@@ -202,21 +123,11 @@ const char *ps_text_header_meaning(ps_text_header *header) {
     return layout;
 }
 
-static unsigned count_fields(const char *line, char separator) {
-    field token;
-    bool is_more = true;
-    unsigned num = 0;
-    while (next_field(&line, separator, &is_more, &token)) {
-        num++;
-    }
-    return num;
-}
-
 /* names[0] is empty where the header has a name less than rows have columns: an index. */
-static pspec_status read_names(ps_text_header *out, field names[PS_MOST_FILE_COLUMNS],
+static pspec_status read_names(ps_text_header *out, ps_field names[PS_MOST_FILE_COLUMNS],
                                const char *line, unsigned num_fields, char separator,
                                const char *where, ps_error *error) {
-    const unsigned num_names = count_fields(line, separator);
+    const unsigned num_names = ps_fields_count(line, separator);
     const unsigned first = num_fields == num_names + 1 ? 1 : 0;
     bool is_more = true;
     if (num_fields > PS_MOST_FILE_COLUMNS || num_names + first != num_fields) {
@@ -224,11 +135,11 @@ static pspec_status read_names(ps_text_header *out, field names[PS_MOST_FILE_COL
                        "%s: %u names of columns, but the line after it has %u (at most %d)", where,
                        num_names, num_fields, PS_MOST_FILE_COLUMNS);
     }
-    names[0] = (field){.text = line};
+    names[0] = (ps_field){.text = line};
     out->lacks_name = first == 1;
     for (unsigned i = first; i < num_fields; i++) {
-        next_field(&line, separator, &is_more, &names[i]);
-        if (!is_printable(names[i])) {
+        ps_field_next(&line, separator, &is_more, &names[i]);
+        if (!ps_field_is_printable(names[i])) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: the name of column %u is no text", where,
                            i + 1);
         }
@@ -238,7 +149,7 @@ static pspec_status read_names(ps_text_header *out, field names[PS_MOST_FILE_COL
 }
 
 /* What the names have in common at the beginning, or at the end. */
-static size_t common_length(const field *names, unsigned num, bool at_end) {
+static size_t common_length(const ps_field *names, unsigned num, bool at_end) {
     size_t common = names[0].length;
     for (unsigned i = 1; i < num; i++) {
         size_t length = 0;
@@ -255,7 +166,7 @@ static size_t common_length(const field *names, unsigned num, bool at_end) {
 
 /* Do the names count, by a number ("x1", "x2") or by a letter ("px", "py"), with the same text
  * around it? "w" is the name of weights. */
-static bool are_similar(const field *names, unsigned num) {
+static bool are_similar(const ps_field *names, unsigned num) {
     const size_t before = num > 0 ? common_length(names, num, false) : 0;
     const size_t after = num > 0 ? common_length(names, num, true) : 0;
     uint64_t first = 0;
@@ -264,11 +175,11 @@ static bool are_similar(const field *names, unsigned num) {
         if (names[i].length <= before + after) {
             return false;
         }
-        const field middle = {.text = names[i].text + before,
-                              .length = names[i].length - before - after};
+        const ps_field middle = {.text = names[i].text + before,
+                                 .length = names[i].length - before - after};
         const bool is_letter = middle.length == 1 && isalpha((unsigned char)middle.text[0]) != 0;
         uint64_t value = is_letter ? (unsigned char)middle.text[0] : 0;
-        are = are && (is_letter || is_whole(middle, &value));
+        are = are && (is_letter || ps_field_is_whole(middle, &value));
         first = i == 0 ? value : first;
         are = are && value == first + i;
     }
@@ -278,9 +189,9 @@ static bool are_similar(const field *names, unsigned num) {
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
                                  char separator, const char *names, const char *where,
                                  ps_error *error) {
-    field found[PS_MOST_FILE_COLUMNS];
+    ps_field found[PS_MOST_FILE_COLUMNS];
     *out = (ps_text_header){.is_there = true};
-    PS_TRY(read_names(out, found, line, count_fields(row, separator), separator, where, error));
+    PS_TRY(read_names(out, found, line, ps_fields_count(row, separator), separator, where, error));
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->places[i] = -1;
     }
@@ -311,10 +222,10 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
 
 /* What the index is after this row, whose first field it is; false: it is none. Quotes make text of
  * numbers only where others have none. */
-static bool next_index(ps_row_index *index, field token, bool are_all_quoted) {
+static bool next_index(ps_row_index *index, ps_field token, bool are_all_quoted) {
     uint64_t value = 0;
-    const bool is_text = token.length > 0 && !is_not_finite(token) &&
-                         (!is_number(token) || (token.is_quoted && !are_all_quoted));
+    const bool is_text = token.length > 0 && !ps_field_is_not_finite(token) &&
+                         (!ps_field_is_number(token) || (token.is_quoted && !are_all_quoted));
     if (index->kind == PS_INDEX_UNKNOWN) {
         index->kind = is_text ? PS_INDEX_TEXT : PS_INDEX_NUMBERS;
         index->may_restart = true;
@@ -322,7 +233,8 @@ static bool next_index(ps_row_index *index, field token, bool are_all_quoted) {
     if (index->kind == PS_INDEX_TEXT) {
         return is_text;
     }
-    if (!is_whole(token, &value) || !(value == index->next || (index->may_restart && value <= 1))) {
+    if (!ps_field_is_whole(token, &value) ||
+        !(value == index->next || (index->may_restart && value <= 1))) {
         return false;
     }
     index->next = value + 1;
@@ -332,11 +244,11 @@ static bool next_index(ps_row_index *index, field token, bool are_all_quoted) {
 
 const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
                                double *row) {
-    field token;
+    ps_field token;
     bool is_more = true;
     unsigned column = 0;
     ps_row_index index = header->index;
-    while (next_field(&line, separator, &is_more, &token)) {
+    while (ps_field_next(&line, separator, &is_more, &token)) {
         if (column >= header->num_columns) {
             return NULL;
         }
@@ -358,7 +270,7 @@ const char *ps_text_header_row(ps_text_header *header, const char *line, char se
     return line;
 }
 
-static pspec_status refuse_index(const ps_text_header *header, field token, const char *where,
+static pspec_status refuse_index(const ps_text_header *header, ps_field token, const char *where,
                                  ps_error *error) {
     char shown[PS_TOKEN_BYTES];
     char advice[PS_TOKEN_BYTES];
@@ -374,9 +286,9 @@ static pspec_status refuse_index(const ps_text_header *header, field token, cons
 
 pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
                                    const char *where, ps_error *error) {
-    const unsigned num = count_fields(line, separator);
+    const unsigned num = ps_fields_count(line, separator);
     char shown[PS_TOKEN_BYTES];
-    field token;
+    ps_field token;
     bool is_more = true;
     ps_row_index index = header->index;
     if (num != header->num_columns) {
@@ -384,16 +296,16 @@ pspec_status ps_text_header_refuse(const ps_text_header *header, const char *lin
                        where, num, num == 1 ? "" : "s", header->num_columns);
     }
     for (unsigned i = 0; i < num; i++) {
-        next_field(&line, separator, &is_more, &token);
+        ps_field_next(&line, separator, &is_more, &token);
         if (i == 0 && header->has_index &&
             !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
             return refuse_index(header, token, where, error);
         }
-        if (header->places[i] >= 0 && !is_number(token)) {
+        if (header->places[i] >= 0 && !ps_field_is_number(token)) {
             break;
         }
     }
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%s\" is not a %snumber", where,
                    ps_token_show(shown, token.text, token.length),
-                   is_not_finite(token) ? "finite " : "");
+                   ps_field_is_not_finite(token) ? "finite " : "");
 }

@@ -4,7 +4,7 @@
  * alone, as pbrt's pspec reads them, with '#' lines between sets. */
 #include "base/memory.h"
 #include "files/decimal.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <math.h>
 #include <string.h>
