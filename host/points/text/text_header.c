@@ -8,6 +8,7 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 bool ps_text_header_is(const char *line, char separator) {
     ps_field token;
@@ -58,9 +59,25 @@ static bool is_same(ps_field token, const char *name, size_t length) {
     return token.length == length && strncmp(token.text, name, length) == 0;
 }
 
-static bool is_index(ps_field token) {
+static bool is_unnamed(ps_field token) {
     static const char unnamed[] = "Unnamed: 0"; /* an index that was read and written again */
     return token.length == 0 || is_same(token, unnamed, sizeof unnamed - 1);
+}
+
+/* The name says that it is no coordinate. */
+static bool is_named_index(ps_field token) {
+    static const char *const names[] = {"index", "id", "idx", "row"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (token.length == strlen(names[i]) &&
+            strncasecmp(token.text, names[i], token.length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_index(ps_field token) {
+    return is_unnamed(token) || is_named_index(token);
 }
 
 static void show_names(ps_text *out, const ps_field *names, unsigned num) {
@@ -90,26 +107,70 @@ static void choose(ps_text_header *out, unsigned column, ps_field name) {
     }
 }
 
-/* "x,y", "ra,dec=lon-lat" */
+/* The next of "x,y" or "ra,dec=lon-lat"; false behind the last. */
+static bool next_wanted(const char **names, ps_field *out) {
+    const char *const meaning = ps_columns_meaning(*names);
+    const size_t left = meaning != NULL ? (size_t)(meaning - 1 - *names) : strlen(*names);
+    const size_t before = strcspn(*names, ",");
+    *out = (ps_field){.text = *names, .length = before < left ? before : left};
+    *names += out->length + (out->length < left);
+    return left > 0;
+}
+
+/* Where the name stands among others; num: it is none of them. */
+static unsigned find_name(const ps_field *names, unsigned num, ps_field wanted) {
+    unsigned found = 0;
+    while (found < num && !is_same(names[found], wanted.text, wanted.length)) {
+        found++;
+    }
+    return found;
+}
+
 static pspec_status choose_named(ps_text_header *out, const ps_field *names, const char *wanted,
                                  const char *where, ps_error *error) {
-    const char *const meaning = ps_columns_meaning(wanted);
-    const char *const end = meaning != NULL ? meaning - 1 : wanted + strlen(wanted);
-    while (wanted < end) {
-        const size_t rest = (size_t)(end - wanted);
-        const size_t before = strcspn(wanted, ",");
-        const size_t length = before < rest ? before : rest;
-        unsigned found = 0;
-        while (found < out->num_columns && !is_same(names[found], wanted, length)) {
-            found++;
-        }
+    ps_field name;
+    while (next_wanted(&wanted, &name)) {
+        const unsigned found = find_name(names, out->num_columns, name);
         if (found == out->num_columns || out->places[found] >= 0) {
-            return fail_name(names, out->num_columns, wanted, length, where, error);
+            return fail_name(names, out->num_columns, name.text, name.length, where, error);
         }
         choose(out, found, names[found]);
-        wanted += length + (length < rest);
     }
     return PSPEC_OK;
+}
+
+/* "3,7": numbers of columns, which have names or none. */
+static pspec_status choose_numbered(ps_text_header *out, const ps_field *names, const char *numbers,
+                                    const char *where, ps_error *error) {
+    unsigned wanted[PS_MAX_COLUMNS];
+    unsigned num = 0;
+    ps_columns_numbers(numbers, wanted, PS_MAX_COLUMNS, &num);
+    for (unsigned i = 0; i < num && i < PS_MAX_COLUMNS; i++) {
+        char text[16];
+        const ps_field shown = {.text = text,
+                                .length = (size_t)snprintf(text, sizeof text, "%u", wanted[i])};
+        if (wanted[i] > out->num_columns) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, and --columns asks for %u",
+                           where, out->num_columns, out->num_columns == 1 ? "" : "s", wanted[i]);
+        }
+        if (out->places[wanted[i] - 1] >= 0) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: --columns asks for column %u twice",
+                           where, wanted[i]);
+        }
+        choose(out, wanted[i] - 1, names != NULL ? names[wanted[i] - 1] : shown);
+    }
+    out->num_chosen = num;
+    return PSPEC_OK;
+}
+
+/* Are all that are wanted names of columns? */
+static bool are_among(const ps_field *names, unsigned num, const char *wanted) {
+    ps_field name;
+    bool are = true;
+    while (are && next_wanted(&wanted, &name)) {
+        are = find_name(names, num, name) < num;
+    }
+    return are;
 }
 
 const char *ps_text_header_meaning(ps_text_header *header) {
@@ -186,26 +247,7 @@ static bool are_similar(const ps_field *names, unsigned num) {
     return are && !(num > 1 && is_same(names[num - 1], "w", 1));
 }
 
-pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const char *names, const char *where,
-                                 ps_error *error) {
-    ps_field found[PS_MOST_FILE_COLUMNS];
-    *out = (ps_text_header){.is_there = true};
-    PS_TRY(read_names(out, found, line, ps_fields_count(row, separator), separator, where, error));
-    for (unsigned i = 0; i < out->num_columns; i++) {
-        out->places[i] = -1;
-    }
-    if (names != NULL) {
-        PS_TRY(choose_named(out, found, names, where, error));
-    }
-    for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
-        if (i > 0 || out->num_columns == 1 || !is_index(found[i])) {
-            choose(out, i, found[i]);
-        }
-    }
-    /* Where a name is missing, those that are wanted may be the names of other columns. */
-    out->has_index = out->places[0] < 0 && (names == NULL || out->lacks_name);
-    out->are_similar = are_similar(found + (out->places[0] < 0), out->num_chosen);
+static pspec_status check_chosen(ps_text_header *out, const char *where, ps_error *error) {
     out->chooses = out->num_chosen < out->num_columns;
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->chooses = out->chooses || out->places[i] != (short)i;
@@ -214,98 +256,55 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT,
                          "%s: %u columns; at most %d dimensions are read (--columns chooses among "
-                         "them by name)",
+                         "them by name or number, as in 1,2)",
                          where, out->num_chosen, PS_MAX_DIMENSION);
 }
 
-/* ---- rows -------------------------------------------------------------------------------- */
-
-/* What the index is after this row, whose first field it is; false: it is none. Quotes make text of
- * numbers only where others have none. */
-static bool next_index(ps_row_index *index, ps_field token, bool are_all_quoted) {
-    uint64_t value = 0;
-    const bool is_text = token.length > 0 && !ps_field_is_not_finite(token) &&
-                         (!ps_field_is_number(token) || (token.is_quoted && !are_all_quoted));
-    if (index->kind == PS_INDEX_UNKNOWN) {
-        index->kind = is_text ? PS_INDEX_TEXT : PS_INDEX_NUMBERS;
-        index->may_restart = true;
-    }
-    if (index->kind == PS_INDEX_TEXT) {
-        return is_text;
-    }
-    if (!ps_field_is_whole(token, &value) ||
-        !(value == index->next || (index->may_restart && value <= 1))) {
-        return false;
-    }
-    index->next = value + 1;
-    index->may_restart = false;
-    return true;
-}
-
-const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
-                               double *row) {
-    ps_field token;
-    bool is_more = true;
-    unsigned column = 0;
-    ps_row_index index = header->index;
-    while (ps_field_next(&line, separator, &is_more, &token)) {
-        if (column >= header->num_columns) {
-            return NULL;
-        }
-        if (column == 0 && header->has_index &&
-            !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
-            return NULL;
-        }
-        const short place = header->places[column++];
-        if (place >= 0 && (token.length == 0 || ps_decimal_parse(token.text, &row[place]) !=
-                                                    token.text + token.length)) {
-            return NULL;
-        }
-    }
-    line += *line == '\r';
-    if (column != header->num_columns || *line != '\n') {
-        return NULL;
-    }
-    header->index = index;
-    return line;
-}
-
-static pspec_status refuse_index(const ps_text_header *header, ps_field token, const char *where,
+pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
+                                 char separator, const char *names, const char *where,
                                  ps_error *error) {
-    char shown[PS_TOKEN_BYTES];
-    char advice[PS_TOKEN_BYTES];
-    snprintf(advice, sizeof advice, "the header names %u of %u columns; it must name all",
-             header->num_columns - 1, header->num_columns);
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: \"%s\" in a column without a name, which is no index (text, or the rows "
-                   "counted from 0 or 1 on); %s",
-                   where, ps_token_show(shown, token.text, token.length),
-                   header->lacks_name ? advice
-                                      : "--columns with names, as in x,y, passes over others");
+    ps_field found[PS_MOST_FILE_COLUMNS];
+    unsigned num_numbers = 0;
+    *out = (ps_text_header){.is_there = true};
+    PS_TRY(read_names(out, found, line, ps_fields_count(row, separator), separator, where, error));
+    for (unsigned i = 0; i < out->num_columns; i++) {
+        out->places[i] = -1;
+    }
+    const bool is_chosen_by_number = names != NULL && !are_among(found, out->num_columns, names) &&
+                                     ps_columns_numbers(names, NULL, 0, &num_numbers);
+    if (is_chosen_by_number) {
+        PS_TRY(choose_numbered(out, found, names, where, error));
+    } else if (names != NULL) {
+        PS_TRY(choose_named(out, found, names, where, error));
+    }
+    for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
+        if (i > 0 || out->num_columns == 1 || !is_index(found[i])) {
+            choose(out, i, found[i]);
+        }
+    }
+    /* Where a name is missing, those that are wanted may be the names of other columns. */
+    out->has_index =
+        out->places[0] < 0 && is_unnamed(found[0]) && (names == NULL || out->lacks_name);
+    out->are_similar = are_similar(found + (out->places[0] < 0), out->num_chosen);
+    return check_chosen(out, where, error);
 }
 
-pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
-                                   const char *where, ps_error *error) {
-    const unsigned num = ps_fields_count(line, separator);
-    char shown[PS_TOKEN_BYTES];
-    ps_field token;
-    bool is_more = true;
-    ps_row_index index = header->index;
-    if (num != header->num_columns) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, where the header names %u",
-                       where, num, num == 1 ? "" : "s", header->num_columns);
+pspec_status ps_text_header_choose(ps_text_header *out, const char *row, char separator,
+                                   const char *numbers, const char *where, ps_error *error) {
+    *out = (ps_text_header){.num_columns = ps_fields_count(row, separator)};
+    if (out->num_columns > PS_MOST_FILE_COLUMNS) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u columns; at most %d are chosen among",
+                       where, out->num_columns, PS_MOST_FILE_COLUMNS);
     }
-    for (unsigned i = 0; i < num; i++) {
-        ps_field_next(&line, separator, &is_more, &token);
-        if (i == 0 && header->has_index &&
-            !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
-            return refuse_index(header, token, where, error);
-        }
-        if (header->places[i] >= 0 && !ps_field_is_number(token)) {
-            break;
-        }
+    for (unsigned i = 0; i < out->num_columns; i++) {
+        out->places[i] = numbers != NULL ? -1 : (short)i;
     }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%s\" is not a %snumber", where,
-                   ps_token_show(shown, token.text, token.length),
-                   ps_field_is_not_finite(token) ? "finite " : "");
+    out->num_chosen = out->num_columns;
+    if (numbers != NULL) {
+        out->num_chosen = 0;
+        PS_TRY(choose_numbered(out, NULL, numbers, where, error));
+    }
+    PS_TRY(check_chosen(out, where, error));
+    out->chooses = true; /* by fields, also where they are all there */
+    return PSPEC_OK;
 }
