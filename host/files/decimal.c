@@ -20,8 +20,9 @@
 #endif
 
 enum {
-    MAX_DIGITS = 19,      /* decimal digits that always fit 64 bits */
-    MAX_EXPONENT = 100000 /* clamp: far outside the doubles, far inside int */
+    MAX_DIGITS = 19,       /* decimal digits that always fit 64 bits */
+    MAX_EXPONENT = 100000, /* clamp: far outside the doubles, far inside int */
+    LOWER_CASE = 0x20      /* the bit of letters that are not large */
 };
 
 /* What the scan of a number found: (-1)^negative * digits * 10^exponent. */
@@ -163,7 +164,8 @@ static const char *scan_number(const char *text, scanned_number *number) {
         return NULL;
     }
     number->is_inexact = num_digits > MAX_DIGITS && has_too_many_digits(first, text);
-    return *text == 'e' || *text == 'E' ? scan_exponent(text, &number->exponent) : text;
+    const char letter = (char)(*text | LOWER_CASE);
+    return letter == 'e' || letter == 'd' ? scan_exponent(text, &number->exponent) : text;
 }
 
 /* ---- reading ---- */
@@ -270,6 +272,10 @@ static bool compute_in_locale(const char *text, size_t length, const char *point
     const size_t after = dot != NULL ? length - before - 1 : 0;
     snprintf(copy, sizeof copy, "%.*s%s%.*s", (int)before, text, dot != NULL ? point : "",
              (int)after, text + length - after);
+    char *const letter = strpbrk(copy, "dD");
+    if (letter != NULL) {
+        *letter = 'e';
+    }
     char *stop = NULL;
     *value = strtod(copy, &stop);
     return *stop == '\0';
@@ -277,8 +283,10 @@ static bool compute_in_locale(const char *text, size_t length, const char *point
 
 PS_RARE static bool compute_slow(const char *text, const char *end, double *value) {
     const char *const point = nl_langinfo(RADIXCHAR);
-    if (strcmp(point, ".") != 0) {
-        return compute_in_locale(text, (size_t)(end - text), point, value);
+    const size_t length = (size_t)(end - text);
+    const bool is_fortran = memchr(text, 'd', length) != NULL || memchr(text, 'D', length) != NULL;
+    if (strcmp(point, ".") != 0 || is_fortran) {
+        return compute_in_locale(text, length, point, value);
     }
     char *stop = NULL;
     *value = strtod(text, &stop);

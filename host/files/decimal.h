@@ -15,9 +15,10 @@ enum {
     PS_DECIMAL_BYTES = 32 /* room for ps_decimal_format */
 };
 
-/* Reads a number that starts at text: [+-] digits [. digits] [e [+-] digits]. Returns the first
- * character after it, or NULL when no number starts here. Too large numbers give an infinity. At
- * least PS_DECIMAL_PADDING bytes after the number must be readable; their value is free. */
+/* Reads a number that starts at text: [+-] digits [. digits] [e [+-] digits], where e may be d, as
+ * Fortran writes it, and either be large. Returns the first character after it, or NULL when no
+ * number starts here. Too large numbers give an infinity. At least PS_DECIMAL_PADDING bytes after
+ * the number must be readable; their value is free. */
 const char *ps_decimal_parse(const char *text, double *value);
 
 /* Writes the shortest digits that are read as value, in the form of "%.17g" (an exponent below 1e-4

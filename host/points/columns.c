@@ -192,8 +192,9 @@ static pspec_status resolve_sphere(ps_layout *out, const ps_columns_question *qu
                        "points of the plane to the sphere",
                        question->where, columns, weight, weight, weight);
     }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s; points of the sphere have 2 to 4",
-                   question->where, columns, columns == 1 ? "" : "s");
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s; points of the sphere have 2 to 4%s",
+                   question->where, columns, columns == 1 ? "" : "s",
+                   columns == 1 ? " (one number a line? --columns xyz)" : "");
 }
 
 /* Rows of three or four numbers that begin with a unit vector (a random point of the torus does so

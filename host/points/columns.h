@@ -38,6 +38,9 @@ typedef struct ps_columns_question {
 
 /* What follows names of columns, "lon-lat" of "ra,dec=lon-lat", or NULL. */
 const char *ps_columns_meaning(const char *names);
+/* Are the names numbers of columns, counted from 1? Writes the first most of them to numbers, which
+ * may be NULL, and how many there are to *num. */
+bool ps_columns_numbers(const char *names, unsigned numbers[], unsigned most, unsigned *num);
 /* The layout that the names of columns mean, "ra,dec", "theta_deg,phi_deg,w", or NULL: static
  * storage. The latitude may come first, which *are_swapped tells. */
 const char *ps_columns_of_names(const char *names, bool *are_swapped);

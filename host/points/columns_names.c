@@ -57,6 +57,29 @@ const char *ps_columns_meaning(const char *names) {
     return last != NULL ? last + 1 : NULL;
 }
 
+bool ps_columns_numbers(const char *names, unsigned numbers[], unsigned most, unsigned *num) {
+    enum { LARGEST = 1000000, BASE = 10 };
+    const char *const meaning = ps_columns_meaning(names);
+    const char *const end = meaning != NULL ? meaning - 1 : names + strlen(names);
+    *num = 0;
+    while (names < end) {
+        unsigned value = 0;
+        const char *const first = names;
+        for (; *names >= '0' && *names <= '9' && value < LARGEST; names++) {
+            value = value * BASE + (unsigned)(*names - '0');
+        }
+        if (value == 0 || *first == '0' || (names < end && *names != ',')) {
+            return false;
+        }
+        if (*num < most) {
+            numbers[*num] = value;
+        }
+        ++*num;
+        names += names < end;
+    }
+    return *num > 0;
+}
+
 /* Letters of either case are the same. */
 static bool is_same(slice name, const char *word) {
     return name.length == strlen(word) && strncasecmp(name.text, word, name.length) == 0;

@@ -157,15 +157,27 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
 }
 
 /* Only text with one point per line may have names of columns. */
+/* Columns are chosen in texts. */
+static pspec_status check_chosen(const ps_point_reader *reader, bool may_have_names,
+                                 ps_error *error) {
+    const char *const names = reader->options.column_names;
+    unsigned num = 0;
+    const bool are_numbers = names != NULL && ps_columns_numbers(names, NULL, 0, &num);
+    if (names == NULL || may_have_names) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   are_numbers
+                       ? "%s: --columns chooses columns (%s), and %s has none to choose among"
+                       : "%s: --columns names columns (%s), and %s has no names",
+                   reader->input.name, names, reader->format->name);
+}
+
 static pspec_status check_names(const ps_point_reader *reader, ps_error *error) {
     const ps_point_options *const options = &reader->options;
     const bool may_have_names =
         reader->format == &ps_format_utk_text || reader->format == &ps_format_csv;
-    if (!may_have_names && options->column_names != NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: --columns names columns (%s), and %s has no names", reader->input.name,
-                       options->column_names, reader->format->name);
-    }
+    PS_TRY(check_chosen(reader, may_have_names, error));
     if (options->transpose && reader->format != &ps_format_npy &&
         reader->format != &ps_format_openquad) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

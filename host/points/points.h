@@ -64,7 +64,8 @@ typedef struct ps_point_range {
 typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_POINT_FORMATS */
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
-    const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names */
+    const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names;
+                                 or "3,7", numbers of the columns of a text */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
     bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */

@@ -216,8 +216,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out; angles are in radians but lon-lat and "
                                    "those with :degrees); or names with commas, as in x,y, that "
-                                   "the first line of a text has, and perhaps what they are, as "
-                                   "in ra,dec=lon-lat",
+                                   "the first line of a text has, or numbers, as in 3,7, and "
+                                   "perhaps what they are, as in ra,dec=lon-lat",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
     [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), .source = PS_OF_FILES,
                           OF(READERS, BIT(convert)),

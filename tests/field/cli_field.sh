@@ -104,5 +104,50 @@ columns theta-phi-w:degrees angular -l 3 named.csv
 refuses 'are these all coordinates?' angular <(printf 'ra_deg,dec\n1,2\n')
 reads '1 2|3 4' --columns theta,phi=lon-lat --to-columns lon-lat <(printf 'theta,phi\n1,2\n3,4\n')
 
+# ---- columns by their numbers, in texts with names and without
+reads '0.5 0.25|0.75 0.125' --columns 4,2 <(printf '9 .25 9 .5\n9 .125 9 .75\n')
+reads '0.5|0.75' --columns 4, <(printf '9 .25 9 .5\n9 .125 9 .75\n')
+reads '0.5 0.25 3' --columns 2,1,3=xyw <(printf '.25 .5 3\n')
+reads '0.25 0.5' --columns 1,2 <(printf 'x,y,r\n.25,.5,3\n')
+reads '0.25 0.5' --columns 2,3 <(printf ',x,y\n0,.25,.5\n')
+reads '0.25 0.5' --columns 1,2 <(printf ',0,1,2\n9,9,.25,.5\n') # names that are numbers
+columns 'xy (columns 3,7)' power -k 2 --columns 3,7 "$folder/ten_columns.txt"
+[[ $("$program" convert --columns 3,7 "$folder/ten_columns.txt") == "$(awk '{ print $3 + 0, $7 + 0 }' OFMT=%.9g CONVFMT=%.9g "$folder/ten_columns.txt")" ]] ||
+    complain 'ten_columns.txt: other numbers than those of columns 3 and 7'
+refuses '10 columns; at most 6 dimensions;--columns chooses among them by number' power "$folder/ten_columns.txt"
+refuses '10 columns, and --columns asks for 11' convert --columns 1,11 "$folder/ten_columns.txt"
+refuses '--columns asks for column 2 twice' convert --columns 2,2 "$folder/ten_columns.txt"
+refuses 'line 2: 2 columns, where the first row has 3' convert --columns 1,2 <(printf '.1 .2 9\n.3 .4\n') -o none
+refuses 'labels of columns, or a point?;--header yes or no' convert --columns 1,2 <(printf '0 1 2\n.1 .2 .3\n')
+refuses 'columns by number are --columns 1,2' convert --columns x,y "$folder/ten_columns.txt"
+refuses '--columns chooses columns (1,2), and gbn has none to choose' convert --columns 1,2 <(printf '1 2\n.5 .5\n')
+
+# ---- numbers one a line, a count before vectors, quotes, Fortran, tabs, an index with a name, blank lines
+powers '0 0 0 3.5' angular -l 4 --columns xyz "$folder/des.3.6.3.txt"
+powers '0 0 0 3.5' angular -l 4 --columns xyz "$folder/n_then_xyz.txt"
+refuses '1 column;one number a line? --columns xyz' angular "$folder/des.3.6.3.txt"
+refuses '3 columns after a count; --columns xyz, or xyw' angular "$folder/n_then_xyz.txt"
+reads '0.1 0.2|0.3 0.4' "$folder/quoted.csv"
+reads '0.1 0.2|0.3 0.4' <(printf '"","x","y"\n"0","0.1","0.2"\n"1","0.3","0.4"\n')
+reads '0.1 0.2' <(printf '"0.1" "0.2"\n')
+refuses 'line 2: "a" is not a number' convert <(printf '"0.1","0.2"\n"a","0.2"\n') -o none
+reads '0.1 0.25' <(printf '1.0D-01 2.5d-1\n')
+printf 'x\ty\n.1\t.2\n' >tabs.csv && reads '0.1 0.2' tabs.csv
+printf '.1\t.2\n' >bare.csv && reads '0.1 0.2' bare.csv
+reads '0.1 0.2|0.1 0.3' <(printf 'ID,x,y\n7,.1,.2\n3,.1,.3\n')
+reads '0.1 0.2|0.1 0.3' <(printf 'x,y\n.1,.2\n\n.1,.3\n\n')
+refuses 'line 4: coordinate 2 is outside' convert <(printf 'x,y\n.1,.2\n\n.1,2\n') -o none
+refuses 'line 1: commas in numbers; decimals are written with a point' power "$folder/decimal_commas.txt"
+printf 'weight\n1\n2\n' >w.csv && printf '.1 .2\n.3 .4\n' >points.txt
+"$program" power -k 2 points.txt --weights w.csv | grep -q '^[^#]' || complain 'a header in weights'
+
+# ---- what is known of the other files
+[[ $("$program" convert "$folder/poisson_process.txt" | grep -c '#') == 149 ]] || complain 'poisson_process.txt: not 150 sets'
+powers 1 power -k 2 -d 2 "$folder/pts-a"
+refuses '4 numbers and no other line;-d 2' power "$folder/pts-a"
+powers '9.38938 5.53389' angular -l 2 "$folder/vec_3x12.npy"
+refuses 'are its columns the points? --transpose' power "$folder/plane_2x20.npy"
+[[ $("$program" convert --transpose "$folder/plane_2x20.npy" | wc -l) == 20 ]] || complain 'plane_2x20.npy: not 20 points'
+
 [[ $bad == 0 ]] || exit 1
 echo "cli_field: $checked files"

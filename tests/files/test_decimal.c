@@ -137,6 +137,28 @@ static void reads_corner_cases(void **state) {
     }
 }
 
+/* The exponents of Fortran, which strtod does not know. */
+static void reads_fortran(void **state) {
+    (void)state;
+    static const char *const tokens[][2] = {
+        {"1.0D-01", "1.0e-01"},
+        {"2.5d0", "2.5e0"},
+        {"-0.123456789012345678D+02", "-0.123456789012345678e2"},
+        {"1D300", "1e300"},
+        {"1.7976931348623157d308", "1.7976931348623157e308"},
+        {"4.9D-324", "4.9e-324"}};
+    for (size_t i = 0; i < sizeof tokens / sizeof tokens[0]; i++) {
+        char padded[TOKEN_BYTES] = "";
+        double value = 0;
+        strcpy(padded, tokens[i][0]);
+        assert_ptr_equal(ps_decimal_parse(padded, &value), padded + strlen(tokens[i][0]));
+        assert_true(value == strtod(tokens[i][1], NULL));
+    }
+    double value = 0;
+    char padded[TOKEN_BYTES] = "1d";
+    assert_ptr_equal(ps_decimal_parse(padded, &value), padded + 1);
+}
+
 static void refuses_what_is_no_number(void **state) {
     (void)state;
     static const char *const tokens[] = {"",    ".",    "-",   "+.",  "e5", "nan",
@@ -243,9 +265,8 @@ static void writes_shortest_digits(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_like_strtod),
-        cmocka_unit_test(reads_corner_cases),
-        cmocka_unit_test(refuses_what_is_no_number),
+        cmocka_unit_test(reads_like_strtod),      cmocka_unit_test(reads_corner_cases),
+        cmocka_unit_test(reads_fortran),          cmocka_unit_test(refuses_what_is_no_number),
         cmocka_unit_test(writes_shortest_digits),
     };
     return cmocka_run_group_tests_name("decimal", tests, NULL, NULL);

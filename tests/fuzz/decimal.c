@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Length of [+-] digits [. digits] [e [+-] digits] at text, 0: there is none. */
+/* Length of [+-] digits [. digits] [e [+-] digits], or d for e, at text, 0: there is none. */
 static size_t number_length(const char *text) {
     static const char digits[] = "0123456789";
     const size_t sign = strspn(text, "+-") > 0;
@@ -22,7 +22,7 @@ static size_t number_length(const char *text) {
     } else if (whole == 0) {
         return 0;
     }
-    if (text[length] == 'e' || text[length] == 'E') {
+    if (text[length] != '\0' && strchr("eEdD", text[length]) != NULL) {
         const size_t exponent_sign = text[length + 1] == '+' || text[length + 1] == '-';
         const size_t exponent = strspn(text + length + 1 + exponent_sign, digits);
         length += exponent > 0 ? 1 + exponent_sign + exponent : 0;
@@ -46,6 +46,10 @@ static void check_parse(fuzz_bytes input) {
                   end != NULL ? end - text : -1);
     }
     copy[length] = '\0';
+    char *const letter = strpbrk(copy, "dD");
+    if (letter != NULL) {
+        *letter = 'e';
+    }
     const double expected = strtod(copy, NULL);
     if (end != NULL && memcmp(&value, &expected, sizeof value) != 0) {
         fuzz_fail("\"%s\": %a instead of %a", copy, value, expected);

@@ -98,7 +98,9 @@ static void refuses_bad_weights(void **state) {
                                            {"1\n1,5\n", "line 2: a comma"},
                                            {"1\ninf\n", "line 2: \"inf\" is not a finite number"},
                                            {"1e999\n", "\"1e999\" is not a finite number"},
-                                           {"1 a\n", "line 1: \"a\" is not a finite number"}};
+                                           {"1 a\n", "line 1: \"a\" is not a finite number"},
+                                           {"w\nw\n1\n", "line 2: \"w\" is not a finite number"},
+                                           {"w\n", "holds no numbers"}};
     char path[TEST_PATH_BYTES];
     ps_error error = {0};
     double *weights = NULL;

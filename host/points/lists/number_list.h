@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "files/input_file.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Numbers as they are read, row by row. */
@@ -13,6 +14,7 @@ typedef struct ps_number_list {
     ps_input *input;
     double *values;
     size_t num_values, capacity;
+    bool has_name;             /* the first line is the name of a column */
     unsigned columns;          /* of every row; 0: any number */
     const char *columns_shown; /* as a word, of tables */
     /* it is not read beyond these, since a file may have no end */

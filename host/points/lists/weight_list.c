@@ -4,14 +4,27 @@
 #include "files/npy.h"
 #include "files/output_file.h"
 #include "points/lists/number_list.h"
+#include "points/text/text_fields.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* A first line that is nothing but the name of a column. */
+static bool is_name(const char *line) {
+    ps_field name;
+    bool is_more = true;
+    return ps_fields_count(line, ',') == 1 && ps_field_next(&line, ',', &is_more, &name) &&
+           ps_field_is_name(name);
+}
+
 static pspec_status parse_weights(ps_number_list *list, const char *text, size_t line_number,
                                   ps_error *error) {
+    if (!list->has_name && list->num_values == 0 && is_name(text)) {
+        list->has_name = true;
+        return PSPEC_OK;
+    }
     while (*text != '\n') {
         double value = 0;
         PS_TRY(ps_number_list_token(list, &text, line_number, "a finite number", &value, error));

@@ -1,7 +1,7 @@
 /* EPS pictures as PSA draws them: the lines that are "x y p" hold points, all others are drawing.
  * One set per file. */
 #include "files/decimal.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* The first line of a text: has it names of columns? */
 #include "files/text_lines.h"
-#include "points/points_text.h"
-#include "points/text_header.h"
+#include "points/text/points_text.h"
+#include "points/text/text_header.h"
 
 #include <string.h>
 
@@ -29,6 +29,13 @@ static bool says(const char *option, const char *word) {
     return option != NULL && strcmp(option, word) == 0;
 }
 
+/* Are columns chosen by their numbers? */
+static bool are_numbers(const ps_point_options *options) {
+    unsigned num = 0;
+    return options->column_names != NULL &&
+           ps_columns_numbers(options->column_names, NULL, 0, &num);
+}
+
 /* Is the first line one of names? */
 static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_error *error) {
     ps_text_state *const state = reader->state;
@@ -37,7 +44,7 @@ static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_erro
     const bool is_numbered = ps_text_header_is_numbered(line, state->separator);
     bool are_labels = false;
     *is_there = ps_text_header_is(line, state->separator) || says(options->header, "yes") ||
-                (is_numbered && options->column_names != NULL);
+                (is_numbered && options->column_names != NULL && !are_numbers(options));
     if (says(options->header, "no")) {
         *is_there = false;
     } else if (!*is_there && is_numbered) {
@@ -67,6 +74,33 @@ static pspec_status check_similar(const ps_point_reader *reader, const char *whe
                          ps_token_show(shown, state->header.used, strlen(state->header.used)));
 }
 
+/* Numbers in quotes are read field by field. */
+static bool has_quotes(const char *line) {
+    return memchr(line, '"', strcspn(line, "\n")) != NULL;
+}
+
+/* Columns of a text that has no names. */
+static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const char *const numbers = reader->options.column_names;
+    const char *const row = state->lines.cursor;
+    char where[PS_PLACE_BYTES];
+    if (numbers != NULL && !are_numbers(&reader->options)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: --columns names columns (%s), and the first line has no names; columns "
+                       "by number are --columns 1,2",
+                       reader->input.name, numbers);
+    }
+    if (numbers == NULL && !has_quotes(row)) {
+        return PSPEC_OK;
+    }
+    snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, state->lines.line_number);
+    PS_TRY(ps_text_header_choose(&state->header, row, state->separator, numbers, where, error));
+    reader->own_columns = ps_columns_meaning(numbers);
+    reader->chosen = numbers != NULL ? state->header.used : NULL;
+    return PSPEC_OK;
+}
+
 pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
@@ -78,11 +112,7 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     PS_TRY(row != NULL ? find_header(reader, &is_there, error) : PSPEC_OK);
     PS_TRY(ps_lines_peek(lines, 1, &row, error)); /* it may have moved */
     if (!is_there) {
-        return names == NULL
-                   ? PSPEC_OK
-                   : ps_fail(error, PSPEC_ERROR_INPUT,
-                             "%s: --columns names columns (%s), and the first line has no names",
-                             reader->input.name, names);
+        return choose_columns(reader, error);
     }
     snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
     PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, where,
@@ -93,6 +123,7 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     }
     reader->chosen = state->header.chooses ? state->header.used : NULL;
     PS_TRY(check_similar(reader, where, error));
+    state->header.chooses = state->header.chooses || has_quotes(row);
     ps_lines_skip(lines);
     return PSPEC_OK;
 }

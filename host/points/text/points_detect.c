@@ -1,7 +1,7 @@
 /* Formats of text that no first bytes tell apart: the first lines do. */
 #include "files/decimal.h"
 #include "math/unit_vector.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <string.h>
 
@@ -75,6 +75,9 @@ static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
     const size_t num = count_numbers(line);
     const size_t told = ps_columns_told(options);
     double row[PS_MAX_COLUMNS] = {0};
+    if (options->column_names != NULL) {
+        return PSPEC_OK; /* columns that are chosen are those of a line */
+    }
     if (told > 0) {
         reader->format = num > told && num % told == 0 ? &ps_format_tokens : reader->format;
         return PSPEC_OK;
@@ -109,7 +112,16 @@ static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, p
     PS_TRY(ps_lines_peek(&state->lines, 1, &second, error));
     const char *const text = second != NULL ? ps_skip_blanks(second) : NULL;
     const bool is_alone = text == NULL || *text == '#' || ps_ends_line(text);
-    return is_alone ? detect_tokens(reader, error) : detect_counts(reader, second, error);
+    if (is_alone) {
+        return detect_tokens(reader, error);
+    }
+    const bool has_one_a_line =
+        count_numbers(state->lines.cursor) == 1 && count_numbers(second) == 1;
+    if (has_one_a_line && ps_columns_told(&reader->options) > 1) {
+        reader->format = &ps_format_tokens;
+        return PSPEC_OK;
+    }
+    return detect_counts(reader, second, error);
 }
 
 pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {

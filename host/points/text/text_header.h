@@ -22,7 +22,7 @@ typedef struct ps_row_index {
 } ps_row_index;
 
 typedef struct ps_text_header {
-    bool is_there;
+    bool is_there;        /* a line of names */
     unsigned num_columns; /* of the file */
     unsigned num_chosen;
     bool has_index;   /* the first column is passed over for want of a name */
@@ -48,6 +48,12 @@ bool ps_text_header_is_decimal(const char *line, char separator);
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
                                  char separator, const char *names, const char *where,
                                  ps_error *error) PS_MUST_CHECK;
+
+/* For a text without a line of names: columns by their numbers, "3,7", or all of them for NULL.
+ * Counts those of the row. */
+pspec_status ps_text_header_choose(ps_text_header *out, const char *row, char separator,
+                                   const char *numbers, const char *where,
+                                   ps_error *error) PS_MUST_CHECK;
 
 /* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. Where these
  * are a latitude and then a longitude, rows have them in the other order from now on. */

@@ -3,7 +3,7 @@
  * where they have weights. The domain becomes [0,1)^d, torus or not. Files without these lines
  * are called .edat, too: they are utk-text. */
 #include "files/text_lines.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,10 +1,10 @@
 /* Text whose line breaks mean nothing. With the number of points at its beginning: psa-text (of
- * PSA, and GBN in the plane), "N" and then N times "x y" (or "x y w"); gbn, "N d" and then N times
+ * PSA, and GBN in the plane), "N" and then N times "x y" (or what else --columns says); gbn, "N d" and then N times
  * d numbers. What follows is ignored, as these tools do; one set per file. And tokens, the numbers
  * alone, as pbrt's pspec reads them, with '#' lines between sets. */
 #include "base/memory.h"
 #include "files/decimal.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,8 +64,8 @@ static pspec_status check_columns(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_next_line(state, &kind, error));
     if (kind == PS_LINE_POINT && ps_row_parse(lines->cursor, ' ', 3, row) != NULL) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: 3 columns after a count; --columns xyw, if the third one is "
-                       "the weight",
+                       "%s, line %zu: 3 columns after a count; --columns xyz, or xyw, if the "
+                       "third one is the weight",
                        reader->input.name, lines->line_number);
     }
     return PSPEC_OK;
@@ -83,15 +83,16 @@ static void set_columns(ps_point_reader *reader, unsigned columns, const char *n
 
 static pspec_status open_psa(ps_point_reader *reader, ps_error *error) {
     const ps_point_options *options = &reader->options;
-    const bool says_weights = options->weight_column ||
-                              (options->columns != NULL && strcmp(options->columns, "xyw") == 0);
+    const unsigned told = ps_columns_told(options);
+    const unsigned of_plane = 2U + options->weight_column;
+    const unsigned columns = told > 0 ? told : of_plane;
+    const char *const own = options->weight_column ? "xyw" : "xy";
     PS_TRY(ps_text_open_lines(reader, ' ', error));
     ps_text_state *const state = reader->state;
     PS_TRY(read_count(reader, "points", MOST_POINTS, &state->promised, error));
-    set_columns(reader, says_weights ? 3 : 2, says_weights ? "xyw" : "xy");
-    return says_weights || options->columns != NULL || state->is_in_line
-               ? PSPEC_OK
-               : check_columns(reader, error);
+    set_columns(reader, columns, columns == of_plane ? own : NULL);
+    return options->weight_column || told > 0 || state->is_in_line ? PSPEC_OK
+                                                                   : check_columns(reader, error);
 }
 
 static pspec_status open_gbn(ps_point_reader *reader, ps_error *error) {

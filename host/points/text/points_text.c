@@ -5,7 +5,7 @@
  * first set, one '#' line after the last, blank lines at the very end. */
 #include "base/memory.h"
 #include "files/decimal.h"
-#include "points/points_text.h"
+#include "points/text/points_text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +88,8 @@ pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) {
     }
     if (num_columns > PS_MAX_COLUMNS) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: %zu columns; at most %d dimensions are read",
+                       "%s, line %zu: %zu columns; at most %d dimensions are read (--columns "
+                       "chooses among them by number, as in 1,2)",
                        reader->input.name, state->lines.line_number, num_columns, PS_MAX_DIMENSION);
     }
     ps_text_set_columns(reader, (unsigned)num_columns);
@@ -114,13 +115,38 @@ static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
     return ps_text_fix_columns(reader, error);
 }
 
-/* Where the first line has a semicolon, columns lie between semicolons. */
+/* Numbers between blanks, each with a comma between digits. */
+static bool has_decimal_commas(const char *line) {
+    static const char digits[] = "0123456789";
+    unsigned num = 0;
+    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
+        line += *line == '-' || *line == '+';
+        const size_t before = strspn(line, digits);
+        const size_t after = line[before] == ',' ? strspn(line + before + 1, digits) : 0;
+        line += before + 1 + after;
+        if (before == 0 || after == 0 || (ps_skip_blanks(line) == line && !ps_ends_line(line))) {
+            return false;
+        }
+        num++;
+    }
+    return num > 1;
+}
+
+/* Where the first line has a semicolon, columns lie between semicolons; where it has tabs and no
+ * comma, between these. */
 static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ',', error));
     ps_text_state *const state = reader->state;
     const char *const line = state->lines.cursor;
-    if (memchr(line, ';', strcspn(line, "\n")) != NULL) {
+    const size_t length = strcspn(line, "\n");
+    if (memchr(line, ';', length) != NULL) {
         state->separator = ';';
+    } else if (memchr(line, ',', length) == NULL && memchr(line, '\t', length) != NULL) {
+        state->separator = ' ';
+    } else if (has_decimal_commas(line)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: commas in numbers; decimals are written with a point",
+                       reader->input.name, state->lines.line_number);
     }
     PS_TRY(ps_text_take_header(reader, error));
     return ps_text_fix_columns(reader, error);
@@ -227,6 +253,11 @@ pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *
         PS_TRY(ps_text_next_line(state, &kind, error));
         if (kind == PS_LINE_MARK) {
             return ps_text_end_set(reader, out, error);
+        }
+        if (kind == PS_LINE_BLANK && reader->format == &ps_format_csv && out->num == 0) {
+            ps_lines_skip(&state->lines); /* which data frames pass over, too */
+            reader->first_line = state->lines.line_number;
+            continue;
         }
         if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {
             return end_input(reader, out, kind == PS_LINE_BLANK, error);

@@ -4,7 +4,7 @@
 
 #include "files/text_rows.h"
 #include "points/points_format.h"
-#include "points/text_header.h"
+#include "points/text/text_header.h"
 
 typedef struct ps_text_state {
     ps_lines lines;

@@ -1,0 +1,29 @@
+/* Fields of a line of text, between separators and perhaps in quotes. Private to host/points. */
+#ifndef PS_POINTS_TEXT_FIELDS_H
+#define PS_POINTS_TEXT_FIELDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct ps_field {
+    const char *text;
+    size_t length;
+    bool is_quoted;
+} ps_field;
+
+/* The next field of a line, without quotes and blanks around it; false behind the last. Between
+ * blanks there are no empty fields. *text is moved behind the field and its separator; *is_more:
+ * a separator was there, so that another field follows, which may be empty. */
+bool ps_field_next(const char **text, char separator, bool *is_more, ps_field *out);
+unsigned ps_fields_count(const char *line, char separator);
+
+bool ps_field_is_number(ps_field token);
+bool ps_field_is_not_finite(ps_field token);
+bool ps_field_is_printable(ps_field token);
+/* Printable text that begins with a letter, of any alphabet. */
+bool ps_field_is_name(ps_field token);
+/* At most 18 digits, which every uint64_t has room for; the value in *out. */
+bool ps_field_is_whole(ps_field token, uint64_t *out);
+
+#endif

@@ -1,0 +1,99 @@
+/* Rows of which some fields are the columns that are read. */
+#include "base/text.h"
+#include "files/decimal.h"
+#include "files/text_lines.h"
+#include "points/text/text_fields.h"
+#include "points/text/text_header.h"
+
+#include <stdio.h>
+
+/* What the index is after this row, whose first field it is; false: it is none. Quotes make text of
+ * numbers only where others have none. */
+static bool next_index(ps_row_index *index, ps_field token, bool are_all_quoted) {
+    uint64_t value = 0;
+    const bool is_text = token.length > 0 && !ps_field_is_not_finite(token) &&
+                         (!ps_field_is_number(token) || (token.is_quoted && !are_all_quoted));
+    if (index->kind == PS_INDEX_UNKNOWN) {
+        index->kind = is_text ? PS_INDEX_TEXT : PS_INDEX_NUMBERS;
+        index->may_restart = true;
+    }
+    if (index->kind == PS_INDEX_TEXT) {
+        return is_text;
+    }
+    if (!ps_field_is_whole(token, &value) ||
+        !(value == index->next || (index->may_restart && value <= 1))) {
+        return false;
+    }
+    index->next = value + 1;
+    index->may_restart = false;
+    return true;
+}
+
+const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
+                               double *row) {
+    ps_field token;
+    bool is_more = true;
+    unsigned column = 0;
+    ps_row_index index = header->index;
+    while (ps_field_next(&line, separator, &is_more, &token)) {
+        if (column >= header->num_columns) {
+            return NULL;
+        }
+        if (column == 0 && header->has_index &&
+            !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
+            return NULL;
+        }
+        const short place = header->places[column++];
+        if (place >= 0 && (token.length == 0 || ps_decimal_parse(token.text, &row[place]) !=
+                                                    token.text + token.length)) {
+            return NULL;
+        }
+    }
+    line += *line == '\r';
+    if (column != header->num_columns || *line != '\n') {
+        return NULL;
+    }
+    header->index = index;
+    return line;
+}
+
+static pspec_status refuse_index(const ps_text_header *header, ps_field token, const char *where,
+                                 ps_error *error) {
+    char shown[PS_TOKEN_BYTES];
+    char advice[PS_TOKEN_BYTES];
+    snprintf(advice, sizeof advice, "the header names %u of %u columns; it must name all",
+             header->num_columns - 1, header->num_columns);
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s: \"%s\" in a column without a name, which is no index (text, or the rows "
+                   "counted from 0 or 1 on); %s",
+                   where, ps_token_show(shown, token.text, token.length),
+                   header->lacks_name ? advice
+                                      : "--columns with names, as in x,y, passes over others");
+}
+
+pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
+                                   const char *where, ps_error *error) {
+    const unsigned num = ps_fields_count(line, separator);
+    char shown[PS_TOKEN_BYTES];
+    ps_field token;
+    bool is_more = true;
+    ps_row_index index = header->index;
+    if (num != header->num_columns) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, where the %s %u", where, num,
+                       num == 1 ? "" : "s", header->is_there ? "header names" : "first row has",
+                       header->num_columns);
+    }
+    for (unsigned i = 0; i < num; i++) {
+        ps_field_next(&line, separator, &is_more, &token);
+        if (i == 0 && header->has_index &&
+            !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
+            return refuse_index(header, token, where, error);
+        }
+        if (header->places[i] >= 0 && !ps_field_is_number(token)) {
+            break;
+        }
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%s\" is not a %snumber", where,
+                   ps_token_show(shown, token.text, token.length),
+                   ps_field_is_not_finite(token) ? "finite " : "");
+}
