@@ -79,6 +79,7 @@ static spent measure(const asked *what, uint64_t num_sets, uint64_t num_shifts) 
     const ps_watch watch = {0};
     ps_integrand *integrand = NULL;
     ps_mean found;
+    ps_block_sums blocks = {0};
     const double begin = bench_seconds();
     BENCH_TRY(ps_integrand_parse(&integrand, what->integrand, place, error));
     ps_source *const source = open_source(what, num_sets, num_sets);
@@ -93,7 +94,7 @@ static spent measure(const asked *what, uint64_t num_sets, uint64_t num_shifts) 
                                       .is_moved = true,
                                       .device = what->device,
                                       .watch = &watch};
-    BENCH_TRY(ps_measurement_run(&plan, &found, error));
+    BENCH_TRY(ps_measurement_run(&plan, &found, &blocks, error));
     const spent out = {found.mean, found.standard_error, bench_seconds() - begin, num_sets};
     ps_source_destroy(source);
     ps_integrand_destroy(integrand);

@@ -126,6 +126,8 @@ pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means,
  * that of a degree, for all of its orders. */
 pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means,
                                    ps_error *error) PS_MUST_CHECK;
+/* The same sums by blocks of realizations, in the unit of a row: [options.num_weighted]. */
+const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator);
 /* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */
 void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator);

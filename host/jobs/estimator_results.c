@@ -73,6 +73,10 @@ pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means, ps_e
     return PSPEC_OK;
 }
 
+const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator) {
+    return ps_accumulator_weighted_blocks(estimator->accumulator);
+}
+
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
     const ps_estimator_options *options = &estimator->options;
     PS_TRY(require_realizations(estimator, error));

@@ -1,6 +1,16 @@
 #include "request/option_text.h"
 
+#include "base/text.h"
+
 #include <string.h>
+
+size_t ps_name_distance(const char *typed, const char *known) {
+    const size_t length = strlen(typed);
+    const bool is_beginning = length > 0 && strncmp(known, typed, length) == 0;
+    const bool goes_on = strncmp(known, typed, strlen(known)) == 0;
+    const size_t distance = ps_text_distance(typed, known);
+    return distance > 1 && (is_beginning || goes_on) ? 1 : distance;
+}
 
 pspec_status ps_option_apply(ps_request *request, ps_option_id id, const char *words,
                              const char *text, ps_error *error) {

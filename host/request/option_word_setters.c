@@ -127,6 +127,17 @@ pspec_status ps_set_plot_range(const ps_said *said, ps_error *error) {
     return set_interval(said, second, strlen(second), &axes->has_y, axes->y, error);
 }
 
+pspec_status ps_set_rates(const ps_said *said, ps_error *error) {
+    ps_request *const request = said->request;
+    bool is_there = false;
+    request->wants_rates = true;
+    request->rates[0] = 0;
+    request->rates[1] = INFINITY;
+    return strcmp(said->text, "auto") == 0 ? PSPEC_OK
+                                           : set_interval(said, said->text, strlen(said->text),
+                                                          &is_there, request->rates, error);
+}
+
 /* "G" or "G,A,B", B a number or inf: a step. */
 static pspec_status parse_bound(ps_bound *out, const ps_said *said, const char *text, size_t length,
                                 ps_error *error) {

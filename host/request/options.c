@@ -103,6 +103,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "two columns more: the variance by profiles below and above P, "
                                   "G (nu/A)^B up to A, then G; auto: those of power --fit auto",
                           .set = ps_set_bounds},
+    [PS_OPTION_RATES] = {NAMED("rates", 0, "auto|A..B"), OF(0, BIT(variance)),
+                         .help = "exponents of N, from N = A to B, with errors, and where two "
+                                 "samplers change places; two columns more: from N to N",
+                         .set = ps_set_rates},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
@@ -390,12 +394,4 @@ pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *wor
     const ps_shown_option shown = ps_option_show(request, id);
     const ps_said said = {option, shown.text, words, value, request};
     return option->set(&said, error);
-}
-
-size_t ps_name_distance(const char *typed, const char *known) {
-    const size_t length = strlen(typed);
-    const bool is_beginning = length > 0 && strncmp(known, typed, length) == 0;
-    const bool goes_on = strncmp(known, typed, strlen(known)) == 0;
-    const size_t distance = ps_text_distance(typed, known);
-    return distance > 1 && (is_beginning || goes_on) ? 1 : distance;
 }

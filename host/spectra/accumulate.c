@@ -20,9 +20,10 @@ struct ps_accumulator {
     double *bin_powers;  /* [batch][formed->num] */
     double *mean_powers; /* [batch] */
     ps_sums *bin_sums; /* [num_bins]; of single members: from the device when they are asked for */
-    ps_sums *frequency_sums; /* [num_frequencies], host rows only */
-    double *weighted_powers; /* [batch][num_weighted] */
-    ps_sums *weighted_sums;  /* [num_weighted] */
+    ps_sums *frequency_sums;        /* [num_frequencies], host rows only */
+    double *weighted_powers;        /* [batch][num_weighted] */
+    ps_sums *weighted_sums;         /* [num_weighted] */
+    ps_block_sums *weighted_blocks; /* the same */
 };
 
 /* of: weighted sums or bins */
@@ -44,6 +45,7 @@ static pspec_status allocate(ps_accumulator *self, ps_error *error) {
     PS_TRY(allocate_powers(self, &self->weighted_powers, options->num_weighted, "weighted sums",
                            error));
     PS_TRY(PS_NEW(&self->weighted_sums, options->num_weighted, "weighted sums", error));
+    PS_TRY(PS_NEW(&self->weighted_blocks, options->num_weighted, "weighted sums", error));
     PS_TRY(PS_NEW(&self->mean_powers, options->batch, "mean powers", error));
     PS_TRY(PS_NEW(&self->bin_sums, options->bins->num, "sums of bins", error));
     if (options->want_frequencies && !options->is_on_device) {
@@ -69,6 +71,9 @@ static void clear_all(ps_accumulator *self) {
     self->num_realizations = 0;
     clear(self->bin_sums, options->bins->num, options->mean_only);
     clear(self->weighted_sums, options->num_weighted, options->mean_only);
+    for (size_t w = 0; w < options->num_weighted; w++) {
+        self->weighted_blocks[w] = (ps_block_sums){0};
+    }
     if (self->frequency_sums != NULL) {
         clear(self->frequency_sums, options->num_frequencies, no_squares(options));
     }
@@ -141,6 +146,7 @@ void ps_accumulator_destroy(ps_accumulator *accumulator) {
     free(accumulator->frequency_sums);
     free(accumulator->weighted_powers);
     free(accumulator->weighted_sums);
+    free(accumulator->weighted_blocks);
     free(accumulator);
 }
 
@@ -214,6 +220,7 @@ static void add_weighted(ps_accumulator *self, size_t num_rows) {
     const size_t num = self->options.num_weighted;
     for (size_t i = 0; i < num_rows * num; i++) {
         add(&self->weighted_sums[i % num], self->weighted_powers[i], self->options.mean_only);
+        ps_block_sums_add(&self->weighted_blocks[i % num], self->weighted_powers[i]);
     }
 }
 
@@ -313,4 +320,8 @@ void ps_accumulator_weighted(const ps_accumulator *accumulator, ps_mean *means) 
         ps_sums_finish(&accumulator->weighted_sums[w], accumulator->num_realizations,
                        &means[w].mean, &means[w].standard_error);
     }
+}
+
+const ps_block_sums *ps_accumulator_weighted_blocks(const ps_accumulator *accumulator) {
+    return accumulator->weighted_blocks;
 }

@@ -72,5 +72,7 @@ pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *me
 /* Of the weighted sums: means[num_weighted], in the units of weight times power of a row; standard
  * errors over realizations, as those of bins. */
 void ps_accumulator_weighted(const ps_accumulator *accumulator, ps_mean *means);
+/* The same by blocks of realizations, [num_weighted], until the next call. */
+const ps_block_sums *ps_accumulator_weighted_blocks(const ps_accumulator *accumulator);
 
 #endif

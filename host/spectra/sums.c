@@ -72,3 +72,42 @@ void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *s
     const double variance = difference <= rounding ? 0 : difference / n / (n - 1);
     *standard_error = sqrt(variance / n);
 }
+
+/* ---- blocks -------------------------------------------------------------------------------- */
+
+static void halve_number(ps_block_sums *blocks) {
+    const size_t half = PS_MOST_BLOCKS / 2;
+    for (size_t i = 0; i < half; i++) {
+        blocks->sums[i] = blocks->sums[2 * i] + blocks->sums[2 * i + 1];
+    }
+    for (size_t i = half; i < PS_MOST_BLOCKS; i++) {
+        blocks->sums[i] = 0;
+    }
+    blocks->length *= 2;
+}
+
+void ps_block_sums_add(ps_block_sums *blocks, double x) {
+    blocks->length = blocks->length > 0 ? blocks->length : 1;
+    if (blocks->count == blocks->length * PS_MOST_BLOCKS) {
+        halve_number(blocks);
+    }
+    blocks->sums[blocks->count / blocks->length] += x;
+    blocks->count++;
+}
+
+size_t ps_block_sums_deviations(const ps_block_sums *blocks, double *out) {
+    const double count = (double)blocks->count;
+    const size_t num =
+        blocks->count > blocks->length ? (size_t)((blocks->count - 1) / blocks->length + 1) : 0;
+    long double sum = 0;
+    for (size_t i = 0; i < num; i++) {
+        sum += blocks->sums[i];
+    }
+    for (size_t i = 0; i < PS_MOST_BLOCKS; i++) {
+        const double last = count - (double)(blocks->length * (num - 1));
+        const double length = i + 1 < num ? (double)blocks->length : last;
+        const double off = i < num ? blocks->sums[i] - (double)sum * length / count : 0;
+        out[i] = num > 0 ? off / count * sqrt((double)num / ((double)num - 1)) : 0;
+    }
+    return num;
+}

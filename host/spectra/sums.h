@@ -4,6 +4,7 @@
 #define PS_SPECTRA_SUMS_H
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef struct ps_sums {
@@ -22,5 +23,20 @@ void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor);
  * count < 2. Numbers that differ by no more than rounding give exactly 0: a standard error below
  * sqrt(count) 2^-53 of the mean is taken for that. */
 void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *standard_error);
+
+/* Sums over blocks of successive numbers, of one power of two each but for the last, and no more
+ * than so many: in constant memory, how two means over the same realizations depend on each
+ * other. */
+enum { PS_MOST_BLOCKS = 256 };
+typedef struct ps_block_sums {
+    uint64_t count, length; /* of all numbers, and of those of a block; {0} at first */
+    double sums[PS_MOST_BLOCKS];
+} ps_block_sums;
+
+void ps_block_sums_add(ps_block_sums *blocks, double x);
+/* What blocks are off, from their share of the mean: their products, summed, are the covariance of
+ * two means, and their squares the squared standard error of one. out[PS_MOST_BLOCKS], 0 behind the
+ * last; returns how many there are, 0 where there is no error: of fewer than two blocks. */
+size_t ps_block_sums_deviations(const ps_block_sums *blocks, double *out);
 
 #endif

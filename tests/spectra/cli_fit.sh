@@ -22,6 +22,9 @@ grep -qx 'bin,frequency,normalized_frequency,count,power,standard_error,anisotro
 rows | awk -F, -v reach="$(key fit_reach)" '
     $8 > $5 - 2.999 * $6 || $9 < $5 + 2.999 * $6 || ($10 != "") != ($3 <= reach) { bad = 1 }
     END { exit bad || NR != 64 }' || complain "rows: $(rows)"
+[[ $(key convergence) == 'converges as N^-1.5 for discontinuous integrands and N^-'*', since power rises as nu^b from zero (b = '* ]] ||
+    complain "jittered: $(key convergence)"
+holds 'jump_rate == 1.5 && jump_rate_error == 0 && smooth_rate > 2 - 3 * smooth_rate_error && smooth_rate < 2 + 3 * smooth_rate_error'
 cut -d, -f1-7 out | sed '/^#/d' >with
 runs 0 --sampler jittered -n 1024 -m 60 -k 64
 sed '/^#/d' out | cmp -s - with || complain "--fit changes powers"
@@ -29,6 +32,11 @@ sed '/^#/d' out | cmp -s - with || complain "--fit changes powers"
 runs 0 --sampler white -n 1024 -m 20 -k 64 --fit auto
 [[ $(key fit_shape) == plateau && $(key upper_profile) == 'P <= 1.'* ]] || complain "white: $(grep '^#' out)"
 holds 'plateau > 1 - 3 * plateau_error && plateau < 1 + 3 * plateau_error && upper_exponent == 0 && upper_alpha == 0'
+holds 'smooth_rate == 1 && jump_rate == 1'
+# A Latin hypercube has no power on the axes, and elsewhere that of white noise: N^-1, not what the means over rings look like
+runs 0 --sampler latin-hypercube -n 1024 -m 40 -k 64 --fit auto
+[[ $(key convergence) == 'unknown: up to nu = 0.221 power depends on the direction'* && -z $(key smooth_rate) ]] ||
+    complain "Latin hypercube: $(key convergence)"
 runs 0 --sampler poisson-disk -n 400 -m 20 -k 40 --fit 0 --format json
 [[ $(grep -cE '"plateau": \[0.0[0-9]*\]|"fit_shape": \["plateau"\]' out) == 2 ]] || complain "Poisson disk: $(head -c 3000 out)"
 

@@ -1,6 +1,7 @@
 #include "answers/spectra/shape_table.h"
 
 #include "answers/spectra/spectrum_header.h"
+#include "spectra/shape/convergence.h"
 #include "spectra/shape/features.h"
 
 #include <math.h>
@@ -64,6 +65,72 @@ static void write_fit(char out[SENTENCE_BYTES], const ps_shape *shape) {
              low->plateau_error, low->plateau / low->plateau_error, low->plateau_chi2);
 }
 
+/* "N^-1.5", or with an error. */
+static int write_rate(char *out, size_t room, double rate, double rate_error) {
+    return rate_error > 0 ? snprintf(out, room, "N^-%.4g (standard error %.2g)", rate, rate_error)
+                          : snprintf(out, room, "N^-%.4g", rate);
+}
+
+/* A law: what the rates follow from, and what they would not survive. */
+static void write_law(char out[SENTENCE_BYTES], const ps_convergence *found,
+                      const ps_low_end *low) {
+    const bool is_fast = found->kind == PS_CONVERGENCE_FAST;
+    int length = snprintf(out, SENTENCE_BYTES, "converges as ");
+    length +=
+        write_rate(out + length, SENTENCE_BYTES - (size_t)length, found->jump, found->jump_error);
+    length += snprintf(out + length, SENTENCE_BYTES - (size_t)length,
+                       " for discontinuous integrands and ");
+    length += write_rate(out + length, SENTENCE_BYTES - (size_t)length, found->smooth,
+                         found->smooth_error);
+    length += snprintf(out + length, SENTENCE_BYTES - (size_t)length,
+                       " for those of limited frequency, since power %s as nu^b %s (b = %.4g, "
+                       "standard error %.2g)",
+                       is_fast ? "rises" : "falls", is_fast ? "from zero" : "without end from zero",
+                       low->exponent, low->exponent_error);
+    if (is_fast) {
+        snprintf(out + length, SENTENCE_BYTES - (size_t)length,
+                 "; a power at zero of up to %.2g, with which it would be N^-1 in the end, is not "
+                 "excluded",
+                 found->most_plateau);
+    }
+}
+
+static void write_convergence(char out[SENTENCE_BYTES], const ps_convergence *found,
+                              const ps_shape *shape, const ps_spectrum *spectrum) {
+    const ps_low_end *const low = &shape->low;
+    if (shape->low_reason.status != PSPEC_OK) {
+        snprintf(out, SENTENCE_BYTES, "unknown: %.500s", shape->low_reason.message);
+    } else if (found->kind == PS_CONVERGENCE_UNKNOWN) {
+        snprintf(out, SENTENCE_BYTES,
+                 "unknown: up to nu = %.3g power may rise from zero or not; more realizations "
+                 "would say",
+                 low->reach);
+    } else if (found->kind == PS_CONVERGENCE_UNFIT) {
+        snprintf(out, SENTENCE_BYTES,
+                 "unknown: up to nu = %.3g power is neither a law nor a plateau (chi^2 %.3g and "
+                 "%.3g of %zu degrees of freedom)",
+                 low->reach, low->law_chi2, low->plateau_chi2, low->degrees_of_freedom);
+    } else if (found->kind == PS_CONVERGENCE_FAINT) {
+        snprintf(
+            out, SENTENCE_BYTES,
+            "unknown: a power at zero of %.2g is told by a fit alone, for that of the first %s "
+            "is %.2g; more points have some nearer to zero",
+            low->plateau, ps_shape_bin_name(spectrum), spectrum->bins[0].power);
+    } else if (found->kind == PS_CONVERGENCE_MIXED) {
+        snprintf(out, SENTENCE_BYTES,
+                 "unknown: up to nu = %.3g power depends on the direction (s^2/P^2 of rings is "
+                 "%.2g, without noise), and rings are means of what may behave in several ways",
+                 low->reach, found->anisotropy);
+    } else if (found->kind == PS_CONVERGENCE_WHITE) {
+        snprintf(out, SENTENCE_BYTES,
+                 "converges as N^-1 for all integrands, in the end with %.4g (standard error "
+                 "%.2g) of the variance of white noise, since that is the power at zero",
+                 low->plateau, low->plateau_error);
+    } else {
+        write_law(out, found, low);
+    }
+}
+
 static void write_bound(char out[SENTENCE_BYTES], const char *relation, const ps_bound *bound,
                         const ps_error *reason) {
     if (reason->status != PSPEC_OK) {
@@ -118,12 +185,26 @@ static pspec_status add_low_end(ps_table *table, const ps_shape *shape, ps_error
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
+static pspec_status add_convergence(ps_table *table, const ps_shape *shape,
+                                    const ps_spectrum *spectrum, ps_error *error) {
+    const ps_error *const reason = &shape->low_reason;
+    const ps_convergence found = ps_convergence_find(&shape->low, spectrum);
+    char sentence[SENTENCE_BYTES];
+    write_convergence(sentence, &found, shape, spectrum);
+    const ps_meta entries[] = {
+        {"convergence", PS_TEXT(sentence)},
+        {"smooth_rate", number_if(reason, found.smooth)},
+        {"smooth_rate_error", number_if(reason, found.smooth_error)},
+        {"jump_rate", number_if(reason, found.jump)},
+        {"jump_rate_error", number_if(reason, found.jump_error)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
 pspec_status ps_shape_add_profiles(ps_table *table, const ps_shape *shape,
                                    const ps_spectrum *spectrum, ps_error *error) {
-    enum { DIMENSION_OF_SPHERE = 2 };
-    const bool on_sphere = spectrum->frequencies.kind == PS_FREQUENCIES_DEGREES;
-    const ps_bound_rates rates = ps_bound_find_rates(
-        &shape->above, on_sphere ? DIMENSION_OF_SPHERE : spectrum->frequencies.dimension);
+    const ps_bound_rates rates =
+        ps_bound_find_rates(&shape->above, ps_convergence_dimension(spectrum));
     const ps_error *const above = &shape->above_reason;
     const ps_error *const below = &shape->below_reason;
     char upper[SENTENCE_BYTES];
@@ -163,6 +244,7 @@ static pspec_status add_features(ps_table *table, const ps_spectrum *spectrum, p
 pspec_status ps_shape_add_header(ps_table *table, const ps_shape *shape,
                                  const ps_spectrum *spectrum, ps_error *error) {
     PS_TRY(add_low_end(table, shape, error));
+    PS_TRY(add_convergence(table, shape, spectrum, error));
     PS_TRY(ps_shape_add_profiles(table, shape, spectrum, error));
     return add_features(table, spectrum, error);
 }

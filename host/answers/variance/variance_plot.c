@@ -1,4 +1,5 @@
 /* Variances against N: a panel for each integrand, and in it a colour for each sampler. */
+#include "answers/variance/rates_table.h"
 #include "answers/variance/variance_table.h"
 #include "base/memory.h"
 
@@ -24,6 +25,7 @@ typedef struct row {
     const char *label, *sampler, *integrand; /* sampler "": its table has one, and no such column */
     double numbers[NUM_QUANTITIES];
     size_t curve, panel;
+    ps_uncertain rate; /* of its curve in its panel; nan: unknown */
 } row;
 
 /* A curve is a line, with the places and ends of its band, marks, with places and errors, and the
@@ -118,6 +120,8 @@ static void take_part(picture *self, const ps_chart_part *part) {
         for (size_t k = 0; k < NUM_QUANTITIES; k++) {
             one->numbers[k] = find_number(table, i, names[k]);
         }
+        one->rate = ps_rates_find(table, one->sampler[0] != '\0' ? one->sampler : one->label,
+                                  one->integrand);
         one->curve = find_class(self->curves, &self->num_curves, one, are_of_one_curve);
         one->panel = find_class(self->panels, &self->num_panels, one, are_of_one_panel);
     }
@@ -164,9 +168,15 @@ static ps_series *add_series(picture *self, size_t curve, size_t panel, quantity
     return series;
 }
 
-/* label: of this series, and begun already. */
-static pspec_status name_series(ps_series *series, ps_text *label, ps_error *error) {
-    ps_series_say_slope(series, label);
+/* label: of this series, and begun already. The rate, where it was asked for, is in the header,
+ * too. */
+static pspec_status name_series(ps_series *series, ps_text *label, ps_uncertain rate,
+                                ps_error *error) {
+    if (isfinite(rate.value)) {
+        ps_text_append(label, ": slope %.4g (%.2g)", -rate.value, rate.error);
+    } else {
+        ps_series_say_slope(series, label);
+    }
     series->label = ps_text_string(label);
     return ps_text_check(label, error);
 }
@@ -181,6 +191,14 @@ static void add_bound(picture *self, size_t curve, size_t panel, quantity which)
     if (num == 0) {
         self->num_series--;
     }
+}
+
+static ps_uncertain find_rate(const picture *self, size_t curve, size_t panel) {
+    size_t i = 0;
+    while (i < self->num_rows && (self->rows[i].curve != curve || self->rows[i].panel != panel)) {
+        i++;
+    }
+    return i < self->num_rows ? self->rows[i].rate : (ps_uncertain){NAN, NAN};
 }
 
 /* One entry of the key: marks have the colour of the line. */
@@ -201,7 +219,7 @@ static pspec_status add_curve(picture *self, size_t curve, size_t panel, ps_erro
     ps_text_append(label, "%s%s%s", first->label,
                    first->label[0] != '\0' && first->sampler[0] != '\0' ? ", " : "",
                    first->sampler);
-    return name_series(line, label, error);
+    return name_series(line, label, find_rate(self, curve, panel), error);
 }
 
 /* By the rows of the first sampler that there is: it depends on N alone. */
@@ -210,7 +228,7 @@ static pspec_status add_white(picture *self, size_t panel, ps_error *error) {
     ps_series *const line =
         add_series(self, self->panels[panel]->curve, panel, WHITE, PS_LOOK_REFERENCE);
     ps_text_append(label, "white noise");
-    return name_series(line, label, error);
+    return name_series(line, label, (ps_uncertain){NAN, NAN}, error);
 }
 
 static pspec_status add_panel(picture *self, size_t panel, ps_error *error) {

@@ -1,5 +1,6 @@
 #include "answers/variance/variance_question.h"
 
+#include "answers/variance/rates_table.h"
 #include "base/memory.h"
 #include "request/options.h"
 #include "request/point_source.h"
@@ -66,6 +67,9 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                        ps_option_show(arguments, PS_OPTION_BOUNDS).text,
                        PS_FEWEST_FITTED_REALIZATIONS,
                        (unsigned long long)arguments->num_realizations);
+    }
+    if (arguments->wants_rates) {
+        PS_TRY(ps_rates_check(arguments, error));
     }
     PS_TRY(ps_point_options_check(arguments, error));
     if (arguments->num_samplers > 0 && arguments->is_given[PS_OPTION_WEIGHTS]) {

@@ -3,6 +3,7 @@
 #include "answers/lead.h"
 #include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
+#include "answers/variance/rates_table.h"
 #include "answers/variance/tail_verdict.h"
 #include "base/memory.h"
 
@@ -16,7 +17,7 @@ static const char *const columns[] = {"points",         "predicted", "predicted_
                                       "measured_error", "z_score",   "white"};
 static const char *const bound_columns[] = {"best_bound", "worst_bound"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0], NUM_BOUNDS = 2 };
-enum { MOST_COLUMNS = NUM_COLUMNS + NUM_BOUNDS + 1 };
+enum { MOST_COLUMNS = NUM_COLUMNS + NUM_BOUNDS + PS_RATE_COLUMNS + 1 };
 
 static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *request) {
     size_t num = NUM_COLUMNS;
@@ -24,6 +25,10 @@ static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *re
     if (request->bounds.is_wanted) {
         memcpy(out + num, bound_columns, sizeof bound_columns);
         num += NUM_BOUNDS;
+    }
+    if (request->wants_rates) {
+        memcpy(out + num, ps_rate_columns, sizeof ps_rate_columns);
+        num += PS_RATE_COLUMNS;
     }
     if (request->paper_formula) {
         out[num++] = "paper";
@@ -53,7 +58,9 @@ static ps_cell points_cell(const ps_spectrum *spectrum) {
 }
 
 static pspec_status add_row(ps_table *table, const ps_request *request, const ps_lead *lead,
-                            const ps_variance_job *job, size_t integrand, ps_error *error) {
+                            ps_variance_job *const *jobs, size_t question, size_t integrand,
+                            ps_error *error) {
+    const ps_variance_job *const job = jobs[question];
     const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
     size_t num = NUM_COLUMNS;
     ps_cell cells[MOST_COLUMNS] = {
@@ -70,6 +77,10 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
     if (request->bounds.is_wanted) {
         cells[num++] = ps_number_or_missing(row->best_bound);
         cells[num++] = ps_number_or_missing(row->worst_bound);
+    }
+    if (request->wants_rates) {
+        ps_rates_cells(cells + num, request, jobs, question, integrand);
+        num += PS_RATE_COLUMNS;
     }
     if (request->paper_formula) {
         cells[num++] = ps_number_or_missing(row->paper);
@@ -185,10 +196,10 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
             PS_TRY(add_pairwise(table, &ps_variance_job_rows(jobs[i])[k], error));
-            PS_TRY(add_row(table, request, &lead, jobs[i], k, error));
+            PS_TRY(add_row(table, request, &lead, jobs, i, k, error));
         }
     }
-    return PSPEC_OK;
+    return request->wants_rates ? ps_rates_add_header(table, request, jobs, error) : PSPEC_OK;
 }
 
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,

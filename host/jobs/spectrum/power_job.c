@@ -220,6 +220,7 @@ void ps_power_job_destroy(ps_power_job *job) {
     free(job->c2);
     free(job->weights);
     free(job->weighted);
+    free(job->weighted_blocks);
     free(job->means);
     ps_frequencies_free(&job->frequencies);
     ps_power_sets_free(&job->sets);
@@ -340,6 +341,7 @@ static pspec_status weigh(ps_power_job *job, ps_error *error) {
     }
     PS_TRY(PS_NEW(&job->weights, num * job->frequencies.num, "weights of frequencies", error));
     PS_TRY(PS_NEW(&job->weighted, num, "weighted sums", error));
+    PS_TRY(PS_NEW(&job->weighted_blocks, num, "weighted sums", error));
     return question->weigh(question->weigh_payload, &job->frequencies, job->weights, error);
 }
 
@@ -349,6 +351,8 @@ static pspec_status find_weighted(ps_power_job *job, ps_error *error) {
         return PSPEC_OK;
     }
     PS_TRY(ps_estimator_weighted(job->runner.estimator, job->weighted, error));
+    memcpy(job->weighted_blocks, ps_estimator_weighted_blocks(job->runner.estimator),
+           num * sizeof *job->weighted_blocks);
     for (size_t i = 0; job->needs.one_realization && i < num; i++) {
         job->weighted[i].standard_error = 0;
     }

@@ -119,6 +119,8 @@ const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
 const char *ps_power_job_trouble(const ps_power_job *job);
 /* [question.num_weighted]; NULL: none were asked for. */
 const ps_mean *ps_power_job_weighted(const ps_power_job *job);
+/* The same by blocks of realizations, in another unit. */
+const ps_block_sums *ps_power_job_weighted_blocks(const ps_power_job *job);
 /* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
 const ps_mean *ps_power_job_c2(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */

@@ -28,8 +28,9 @@ struct ps_power_job {
     double *kept;
     size_t num_kept, kept_room;
     ps_mean *c2;
-    double *weights;   /* [num_weighted][number of frequencies] */
-    ps_mean *weighted; /* [num_weighted] */
+    double *weights;                /* [num_weighted][number of frequencies] */
+    ps_mean *weighted;              /* [num_weighted] */
+    ps_block_sums *weighted_blocks; /* the same */
     ps_text description;
     ps_mean *means; /* [all bins] for looks at the standard error */
     ps_sequential_look look;

@@ -62,6 +62,10 @@ const ps_mean *ps_power_job_weighted(const ps_power_job *job) {
     return job->weighted;
 }
 
+const ps_block_sums *ps_power_job_weighted_blocks(const ps_power_job *job) {
+    return job->weighted_blocks;
+}
+
 const ps_mean *ps_power_job_c2(const ps_power_job *job) {
     return job->c2;
 }

@@ -26,6 +26,7 @@ typedef struct measurement {
     double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
     double *estimates;       /* [batch][num_calls][trials_of_call] */
     ps_sums *sums;           /* [num_integrands] of the means of squares of a set */
+    ps_block_sums *blocks;   /* the same */
 } measurement;
 
 /* ---- room ---------------------------------------------------------------------------------- */
@@ -241,8 +242,10 @@ static pspec_status run_batch(measurement *self, uint64_t done, size_t num, ps_e
         const double exact = ps_integrand_integral(plan->integrands[i]);
         PS_TRY(estimate(self, i, done, num, error));
         for (size_t r = 0; r < num; r++) {
-            ps_sums_add(&self->sums[i],
-                        mean_square(self->estimates + r * stride, (size_t)plan->num_shifts, exact));
+            const double square =
+                mean_square(self->estimates + r * stride, (size_t)plan->num_shifts, exact);
+            ps_sums_add(&self->sums[i], square);
+            ps_block_sums_add(&self->blocks[i], square);
         }
     }
     return PSPEC_OK;
@@ -262,8 +265,8 @@ static pspec_status run_all(measurement *self, ps_error *error) {
 }
 
 pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
-                                ps_error *error) {
-    measurement self = {.plan = plan};
+                                ps_block_sums *blocks, ps_error *error) {
+    measurement self = {.plan = plan, .blocks = blocks};
     choose_sizes(&self);
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, fit_memory(&self, error));

@@ -29,8 +29,9 @@ pspec_status ps_measurement_bytes(const ps_measurement_plan *plan, double *bytes
                                   ps_error *error) PS_MUST_CHECK;
 
 /* variances[num_integrands]: mean over sets, and its standard error over them (nan of one set), of
- * the mean over the shifts of a set of (I - int F)^2. */
+ * the mean over the shifts of a set of (I - int F)^2. blocks [num_integrands], {0} before, have the
+ * same by blocks of sets. */
 pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
-                                ps_error *error) PS_MUST_CHECK;
+                                ps_block_sums *blocks, ps_error *error) PS_MUST_CHECK;
 
 #endif

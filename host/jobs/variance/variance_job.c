@@ -84,6 +84,7 @@ static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     PS_TRY(PS_NEW(&job->integrands, num, "integrands", error));
     PS_TRY(PS_NEW(&job->held, num, "energies", error));
     PS_TRY(PS_NEW(&job->measured, num, "variances", error));
+    PS_TRY(PS_NEW(&job->measured_blocks, num, "variances", error));
     PS_TRY(PS_NEW(&job->rows, num, "variances", error));
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_integrand_parse(&job->integrands[i], question->texts[i], place, error));
@@ -172,6 +173,7 @@ void ps_variance_job_destroy(ps_variance_job *job) {
     free(job->integrands);
     free(job->held);
     free(job->measured);
+    free(job->measured_blocks);
     free(job->rows);
     free(job);
 }
@@ -282,4 +284,16 @@ const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job) 
 
 const ps_shape *ps_variance_job_shape(const ps_variance_job *job) {
     return &job->shape;
+}
+
+/* What is added to the sum of powers for what lies beyond the cut-off has no error. */
+void ps_variance_job_log(const ps_variance_job *job, size_t integrand, bool is_measured,
+                         ps_log_variance *out) {
+    const ps_variance_row *const row = &job->rows[integrand];
+    const ps_mean variance =
+        is_measured ? (ps_mean){row->measured, row->measured_error}
+                    : (ps_mean){row->prediction.variance, row->prediction.standard_error};
+    ps_log_variance_make(out, ps_power_job_spectrum(job->spectrum)->mean_points, variance,
+                         is_measured ? &job->measured_blocks[integrand]
+                                     : &ps_power_job_weighted_blocks(job->spectrum)[integrand]);
 }

@@ -11,6 +11,7 @@
 
 #include "integrands/integrand.h"
 #include "jobs/spectrum/power_job.h"
+#include "jobs/variance/log_variance.h"
 #include "jobs/variance/prediction.h"
 #include "plan/phases.h"
 #include "spectra/shape/shape.h"
@@ -73,6 +74,9 @@ ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job);
 const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index);
 /* [question.num_integrands], after run */
 const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job);
+/* The logarithm of a row's variance, predicted or measured, after run. */
+void ps_variance_job_log(const ps_variance_job *job, size_t integrand, bool is_measured,
+                         ps_log_variance *out);
 /* The power that `upper` has beyond the cut-off, after run. */
 const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job);
 /* The profiles that bounds are made of, where they were asked for, after run. */

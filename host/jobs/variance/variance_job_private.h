@@ -9,11 +9,12 @@ struct ps_variance_job {
     const ps_variance_question *question;
     ps_power_question spectrum_question;
     ps_power_job *spectrum;
-    ps_integrand **integrands; /* [num] */
-    double *held;              /* [num] of the energy, up to the cut-off */
-    ps_mean *measured;         /* [num] */
-    ps_variance_row *rows;     /* [num] */
-    double reach;              /* the largest frequency or degree that matters */
+    ps_integrand **integrands;      /* [num] */
+    double *held;                   /* [num] of the energy, up to the cut-off */
+    ps_mean *measured;              /* [num] */
+    ps_block_sums *measured_blocks; /* [num] */
+    ps_variance_row *rows;          /* [num] */
+    double reach;                   /* the largest frequency or degree that matters */
     ps_power_beyond beyond;
     ps_shape shape;            /* where bounds were asked for */
     ps_variance_sets files;    /* {0} of a sampler */

@@ -114,7 +114,7 @@ pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) {
         status = open_source(job, &plan, &owned, error);
     }
     if (status == PSPEC_OK) {
-        status = ps_measurement_run(&plan, job->measured, error);
+        status = ps_measurement_run(&plan, job->measured, job->measured_blocks, error);
     }
     ps_source_destroy(owned);
     return status;

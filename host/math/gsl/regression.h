@@ -15,7 +15,7 @@ typedef struct ps_regression {
 } ps_regression;
 
 /* Least squares of y[num] on the columns of regressors[num][num_regressors], row by row; finite,
- * weights above 0, and more rows than regressors. */
+ * weights above 0, and no fewer rows than regressors. */
 pspec_status ps_regress(ps_regression *out, size_t num, size_t num_regressors,
                         const double *regressors, const double *y, const double *weights,
                         ps_error *error) PS_MUST_CHECK;

@@ -1,0 +1,32 @@
+/* Logarithms of variances, of which exponents, factors and crossings are made, with errors that
+ * know how they depend on each other: realization r of a sampler with N points and with 2 N, or of
+ * two samplers of one seed, may be made of the same random numbers. docs/mathematics/statistics.md,
+ * Rates. */
+#ifndef PS_JOBS_VARIANCE_LOG_VARIANCE_H
+#define PS_JOBS_VARIANCE_LOG_VARIANCE_H
+
+#include "spectra/accumulate.h"
+
+typedef struct ps_log_variance {
+    double points;     /* N */
+    double value;      /* without the bias of a logarithm; not finite: there is none */
+    double error;      /* nan: nobody knows; 0: of a sampler without randomness */
+    size_t num_blocks; /* that the error was found of; 0: it is exact, or 0 */
+    /* Sums of their products are covariances; 0 where there is no error */
+    double deviations[PS_MOST_BLOCKS];
+} ps_log_variance;
+
+typedef struct ps_uncertain {
+    double value, error;
+} ps_uncertain;
+
+void ps_log_variance_make(ps_log_variance *out, double points, ps_mean variance,
+                          const ps_block_sums *blocks);
+/* ln(a/b), at the N of a: 0 errors on both sides are one of 0 */
+ps_log_variance ps_log_variances_difference(const ps_log_variance *a, const ps_log_variance *b);
+/* sum of factors[i] * logs[i]. From few blocks errors are told badly: their inverse mean square is
+ * that of Student's distribution, which is counted in. nan from less than four. */
+ps_uncertain ps_log_variances_combine(const ps_log_variance *logs, const double *factors,
+                                      size_t num);
+
+#endif
