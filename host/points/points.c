@@ -4,28 +4,35 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/output_file.h"
+#include "points/points_foreign.h"
 #include "points/points_format.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-/* In the order of PS_POINT_FORMATS. The first is the one that is meant when nothing tells. */
+/* In the order of PS_INPUT_FORMATS. The first is the one that is meant when nothing tells. */
 static const ps_point_format *const formats[] = {
-    &ps_format_utk_text, &ps_format_csv,     &ps_format_psa_text,   &ps_format_gbn,
-    &ps_format_edat,     &ps_format_eps,     &ps_format_utk_binary, &ps_format_rps,
-    &ps_format_npy,      &ps_format_openquad};
+    &ps_format_utk_text, &ps_format_csv,      &ps_format_psa_text,   &ps_format_gbn,
+    &ps_format_edat,     &ps_format_eps,      &ps_format_utk_binary, &ps_format_rps,
+    &ps_format_npy,      &ps_format_openquad, &ps_format_utk1};
 enum { NUM_FORMATS = sizeof formats / sizeof formats[0] };
 
-pspec_status ps_point_format_find(const char *name, const ps_point_format **out, ps_error *error) {
+static const ps_point_format *find_named(const char *name) {
     for (size_t i = 0; i < NUM_FORMATS; i++) {
         if (strcmp(formats[i]->name, name) == 0) {
-            *out = formats[i];
-            return PSPEC_OK;
+            return formats[i];
         }
     }
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   "point format \"%s\" is none of " PS_POINT_FORMATS, name);
+    return NULL;
+}
+
+pspec_status ps_point_format_find(const char *name, const ps_point_format **out, ps_error *error) {
+    *out = find_named(name);
+    return *out != NULL && (*out)->write != NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "point format \"%s\" is none of " PS_POINT_FORMATS, name);
 }
 
 static bool ends_in(const char *path, const char *ending) {
@@ -68,15 +75,27 @@ const char *ps_points_format_by_ending(const char *path) {
 
 /* ---- detection --------------------------------------------------------------------------- */
 
-/* How many more bytes must be seen to tell whether the format's magic is there: 0 when they tell.
- */
-static size_t missing_bytes(const ps_point_format *format, const unsigned char *bytes,
+/* How many more bytes must be seen to tell whether a magic is there: 0 when they tell. */
+static size_t missing_bytes(const char *magic, size_t length, const unsigned char *bytes,
                             size_t num_bytes, bool *is_it) {
-    const size_t length = format->magic != NULL ? strlen(format->magic) : 0;
     const size_t there = num_bytes < length ? num_bytes : length;
-    const bool agrees = length > 0 && memcmp(bytes, format->magic, there) == 0;
+    const bool agrees = length > 0 && memcmp(bytes, magic, there) == 0;
     *is_it = agrees && there == length;
     return agrees ? length - there : 0;
+}
+
+/* The same for formats that are not read: the largest of them. */
+static size_t missing_of_foreign(const unsigned char *bytes, size_t num_bytes,
+                                 const ps_foreign_format **found) {
+    size_t missing = 0;
+    for (const ps_foreign_format *format = ps_foreign_formats; format->magic != NULL; format++) {
+        bool is_it = false;
+        const size_t more =
+            missing_bytes(format->magic, format->magic_bytes, bytes, num_bytes, &is_it);
+        missing = more > missing ? more : missing;
+        *found = is_it ? format : *found;
+    }
+    return missing;
 }
 
 /* Looks no further than needed: a pipe may bring a few bytes and wait. */
@@ -85,12 +104,18 @@ static pspec_status find_magic(ps_point_reader *reader, ps_error *error) {
     size_t num_bytes = 0;
     size_t wanted = 1;
     size_t missing = 1;
+    const ps_foreign_format *foreign = NULL;
     while (missing > 0) {
         PS_TRY(ps_input_peek(&reader->input, wanted, &bytes, &num_bytes, error));
-        missing = 0;
+        missing = missing_of_foreign(bytes, num_bytes, &foreign);
+        if (foreign != NULL) {
+            return ps_foreign_refuse(reader->input.name, foreign, error);
+        }
         for (size_t i = 0; i < NUM_FORMATS; i++) {
             bool is_it = false;
-            const size_t more = missing_bytes(formats[i], bytes, num_bytes, &is_it);
+            const char *const magic = formats[i]->magic;
+            const size_t length = magic != NULL ? strlen(magic) : 0;
+            const size_t more = missing_bytes(magic, length, bytes, num_bytes, &is_it);
             if (is_it) {
                 reader->format = formats[i];
                 return PSPEC_OK;
@@ -129,7 +154,11 @@ static pspec_status find_by_name(ps_point_reader *reader, const char *path, ps_e
 /* Files of these formats have a magic, which is refused here rather than misread as numbers. */
 static pspec_status find_format(ps_point_reader *reader, const char *path, ps_error *error) {
     if (reader->options.format != NULL) {
-        return ps_point_format_find(reader->options.format, &reader->format, error);
+        reader->format = find_named(reader->options.format);
+        return reader->format != NULL ? PSPEC_OK
+                                      : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                                "point format \"%s\" is none of " PS_INPUT_FORMATS,
+                                                reader->options.format);
     }
     PS_TRY(find_magic(reader, error));
     if (reader->format == NULL) {

@@ -46,9 +46,10 @@ typedef struct ps_point_format {
     pspec_status (*open)(ps_point_reader *reader, ps_error *error);
     pspec_status (*read)(ps_point_reader *reader, ps_rows_read *out, ps_error *error);
     void (*close)(ps_point_reader *reader);
-    /* Writing; errors of the stream show when the caller checks it. begin writes the header with
-     * the counts known so far, always of the same length, and is called again at the end when they
-     * were not. begin_set is called for every set (NULL: nothing), write for rows of it. */
+    /* Writing (all NULL: it is only read); errors of the stream show when the caller checks it.
+     * begin writes the header with the counts known so far, always of the same length, and is
+     * called again at the end when they were not. begin_set is called for every set (NULL:
+     * nothing), write for rows of it. */
     unsigned abilities;      /* of ps_format_ability */
     unsigned only_dimension; /* of the torus; 0: any */
     uint64_t max_count;      /* of sets, and of points of a set; 0: any */
@@ -104,9 +105,12 @@ const char *ps_place_show(char place[PS_PLACE_BYTES], const ps_point_reader *rea
 extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, ps_format_psa_text,
     ps_format_gbn, ps_format_eps, ps_format_utk_binary, ps_format_rps, ps_format_npy,
     ps_format_openquad;
+/* What is only read. */
+extern const ps_point_format ps_format_utk1;
 /* Numbers in lines that mean nothing; in no table, for only the options tell it from utk-text. */
 extern const ps_point_format ps_format_tokens;
 
+/* Of those that are written. */
 pspec_status ps_point_format_find(const char *name, const ps_point_format **out,
                                   ps_error *error) PS_MUST_CHECK;
 

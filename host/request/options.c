@@ -211,7 +211,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                        "reads them: an array where FILE ends in .npy, else text, "
                                        "one a line; 0 for points that were dropped",
                                FILE_OUT(weights_out)},
-    [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), .source = PS_OF_FILES,
+    [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_INPUT_FORMATS), .source = PS_OF_FILES,
                                 OF(READERS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
                                 WORD(reading.format)},

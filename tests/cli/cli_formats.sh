@@ -349,7 +349,8 @@ grep -q '^# input_columns: xy (columns x,y)$' table.csv || { echo "cli_formats: 
 file picture.txt 'GIF89a\1\0\n'
 cp utk.dat text.bin
 cp double.bin double.npy
-refuses 'neither text nor begins like a format that is known;--input-format rps' picture.txt
+refuses 'is a GIF image, which is not read' picture.txt
+refuses 'neither text nor begins like a format that is known;--input-format rps' <(printf '\x8aPIC\1\n')
 refuses 'ends in .bin, but does not begin like utk-binary;--input-format' text.bin
 reads "$square" --input-format utk-text text.bin
 reads '0.5 0.25|#|0.25 0.5' double.npy # what it begins with counts, not its name

@@ -149,5 +149,41 @@ powers '9.38938 5.53389' angular -l 2 "$folder/vec_3x12.npy"
 refuses 'are its columns the points? --transpose' power "$folder/plane_2x20.npy"
 [[ $("$program" convert --transpose "$folder/plane_2x20.npy" | wc -l) == 20 ]] || complain 'plane_2x20.npy: not 20 points'
 
+# ---- UTK 1
+reads '0.1 0.2|0.6 0.7|#|0.3 0.4|0.8 0.9' "$folder/utk1.pts"
+reads '0.1 0.2|#|0.3 0.4' --input-format utk1 <(printf 'mpts2 2 n unit-tor\r\n.1 .2\r\n#patch-separator\r\n.3 .4\r\n')
+refuses 'line 1: "mpts3 2", where UTK 1 has "mpts2 2 n unit-tor"' convert <(printf 'mpts3 2\n.1 .2\n')
+refuses 'holds no points' convert <(printf 'mpts2 2 n unit-tor\n')
+refuses '--format: "utk1" is not one of' convert "$folder/utk1.pts" --format utk1
+
+# ---- formats that are not read: one sentence with the name and what would do
+foreign() { # NAME;PART BYTES
+    local advice=${1#*;} name=${1%%;*}
+    printf '%b' "$2" >foreign
+    refuses "foreign is $name, which is not read;$advice" convert foreign
+}
+foreign 'an HDF5 file;numpy.save' '\x89HDF\r\n\x1a\n0'
+foreign 'a NetCDF file;numpy.save' 'CDF\x01'
+foreign 'a FITS file;numpy.save' 'SIMPLE  =                    T'
+foreign 'a Parquet file;CSV' PAR1
+foreign 'a VTK file;x y z on a line' '# vtk DataFile Version 3.0\n'
+foreign 'a VTK file;x y z on a line' '<VTKFile type="PolyData">\n'
+foreign 'an XML file;CSV' '<?xml version="1.0"?>\n'
+foreign 'an OFF file;x y z on a line' 'OFF\n1 0 0\n0 0 1\n'
+foreign 'an OFF file;x y z on a line' '# mesh\nCOFF \n1 0 0\n'
+foreign 'an OBJ file;x y z on a line' '# Blender\nv 0 0 1\nv 0 1 0\n'
+foreign 'an OBJ file;x y z on a line' 'mtllib cube.mtl\nv 0 0 1\n'
+foreign 'a JSON file;CSV' '{"points": [[0.1, 0.2]]}\n'
+foreign 'a JSON file;CSV' '[[0.1, 0.2], [0.3, 0.4]]\n'
+foreign 'a JSON file;CSV' '{\n'
+foreign 'a PNG image;no pictures' '\x89PNG\r\n'
+foreign 'a JPEG image;no pictures' '\xff\xd8\xff\xe0'
+foreign 'a TIFF image;no pictures' 'II*\0'
+foreign 'an EXR image;no pictures' 'v/1\x01'
+foreign 'a Radiance image;no pictures' '#?RADIANCE\n'
+foreign 'a PFM image;no pictures' 'PF\n2 2\n'
+reads '0.1 0.2' <(printf '# a comment\n.1 .2\n')
+reads '0.1' <(printf 'P\n.1\n')
+
 [[ $bad == 0 ]] || exit 1
 echo "cli_field: $checked files"

@@ -102,6 +102,16 @@ printf '%%!PS-Adobe\n%%%%EndComments\n500 500 scale\n0.5 0.25 p\n.1\t.2 p\r\nsho
     seed eps picture "$torus"
 printf '%%!\n' | seed eps nothing "$any"
 
+printf 'mpts2 2 n unit-tor\n0.1 0.2\n#patch-separator\n0.3 0.4\n' | seed utk1 sets "$torus"
+printf 'mpts2 2 n unit-tor\n0 0 1\n' | seed utk1 vectors "$sphere"
+printf 'mpts2 2 n unit-square\n0.1 0.2\n' | seed utk1 domain "$any"
+printf 'mpts2 2 n unit-tor\n' | seed utk1 nothing "$any"
+printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
+printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
+printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"
+printf '\x89HDF\r\n\x1a\n' | seed detection hdf5 "$any"
+printf 'SIMPLE  =                    T' | seed detection fits "$any"
+
 # ---- binary ----------------------------------------------------------------------------------
 
 { utk 5 1 2 2; f64 0.5 0.25 0 0.999; } | seed utk-binary double "$torus"

@@ -15,6 +15,7 @@ const fuzz_target fuzz_targets[] = {
     {"rps", fuzz_points, "rps", NULL},
     {"npy", fuzz_points, "npy", "binary.dict"},
     {"openquad", fuzz_points, "openquad", "binary.dict"},
+    {"utk1", fuzz_points, "utk1", "text.dict"},
     {"detection", fuzz_points, NULL, "binary.dict"},
     {"frequencies", fuzz_frequencies, NULL, "text.dict"},
     {"weights", fuzz_weights, NULL, "binary.dict"},

@@ -92,7 +92,7 @@ static void refuses_bad_text(void **state) {
         {"0.5 0x1p-3\n", &defaults, "line 1: \"0x1p-3\" is not a number"},
         {"0.5 0.5 # here\n", &defaults, "line 1: \"#\" is not a number"},
         {"0.5 0.5\r0.5 0.5\n", &defaults, "line 1: \"0.5\\x0d0.5\" is not a number"},
-        {"\x89PNG\x01\x02\n", &defaults, "points.txt is neither text nor begins like a format"},
+        {"\x8aPNG\x01\x02\n", &defaults, "points.txt is neither text nor begins like a format"},
         {"0.5 0.5\n\n0.5 0.5\n", &defaults, "line 2: a blank line, and more after it"},
         {"0.5 0.5\n#\n#\n0.5 0.5\n", &defaults, "line 3: set 2 has no points"},
         {".1 .1 .1 .1 .1 .1 .1\n.1\n", &defaults, "line 1: 7 columns; at most 6 dimensions"},
@@ -137,9 +137,9 @@ static void refuses_what_cannot_be_opened(void **state) {
         assert_non_null(strstr(error.message, "Permission denied"));
         assert_int_equal(chmod(path, 0600), 0);
     }
-    const ps_point_options unknown = {.format = "ply"};
+    const ps_point_options unknown = {.format = "off"};
     assert_int_equal(ps_points_open(&reader, path, &unknown, &error), PSPEC_ERROR_INVALID_ARGUMENT);
-    assert_string_equal(error.message, "point format \"ply\" is none of " PS_POINT_FORMATS);
+    assert_string_equal(error.message, "point format \"off\" is none of " PS_INPUT_FORMATS);
     const ps_point_options too_many = {.dimension = 7};
     assert_int_equal(ps_points_open(&reader, path, &too_many, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);

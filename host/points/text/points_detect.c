@@ -1,6 +1,7 @@
 /* Formats of text that no first bytes tell apart: the first lines do. */
 #include "files/decimal.h"
 #include "math/unit_vector.h"
+#include "points/points_foreign.h"
 #include "points/text/points_text.h"
 
 #include <string.h>
@@ -135,6 +136,7 @@ pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
                        "pairs are read with --input-format rps",
                        reader->input.name);
     }
+    PS_TRY(ps_foreign_check_line(reader->input.name, state->lines.cursor, error));
     if (strcspn(state->lines.cursor, ",;") < strcspn(state->lines.cursor, "\n")) {
         reader->format = &ps_format_csv;
         return PSPEC_OK;
