@@ -45,6 +45,7 @@ add_program_test(cli_variance_integrands) # integrands from files: numbers, scen
 add_program_test(cli_variance)  # columns, formats, the same bits beside other questions, scenes, what is refused
 add_program_test(cli_variance_bounds)  # --bounds: profiles below and above, given and found
 add_program_test(cli_variance_rates)  # --rates: exponents and crossings of samplers whose laws are known
+add_program_test(cli_variance_rank)  # --rank: order, factors and their scores
 add_program_test(cli_variance_cutoff)  # --tail, what does not matter, shells, the formula of the paper
 add_program_test(cli_weights)   # weights at the ends of the range of doubles, sums that are 0
 add_program_test(cli_terminal)  # tables on a terminal, in files and in pipes

@@ -107,6 +107,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          .help = "exponents of N, from N = A to B, with errors, and where two "
                                  "samplers change places; two columns more: from N to N",
                          .set = ps_set_rates},
+    [PS_OPTION_RANK] = {NAMED("rank", 0, NULL), OF(0, BIT(variance)),
+                        .help = "which sampler has the least variance, factors of the others",
+                        FLAG(wants_ranking)},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",

@@ -34,6 +34,7 @@ typedef enum ps_option_id {
     PS_OPTION_PAPER_FORMULA,     /* --paper-formula */
     PS_OPTION_BOUNDS,            /* --bounds auto|G,A,B..G,A,B */
     PS_OPTION_RATES,             /* --rates auto|A..B */
+    PS_OPTION_RANK,              /* --rank */
     PS_OPTION_AGAINST,           /* --against FILE */
     PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
@@ -150,7 +151,7 @@ typedef struct ps_request {
     bool wants_fit;
     double fit_exponent; /* of profiles; nan: the one that is found */
     ps_bounds_spec bounds;
-    bool wants_rates;
+    bool wants_rates, wants_ranking;
     double rates[2]; /* the smallest N and the largest */
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */

@@ -1,5 +1,6 @@
 #include "answers/variance/variance_question.h"
 
+#include "answers/variance/ranking.h"
 #include "answers/variance/rates_table.h"
 #include "base/memory.h"
 #include "request/options.h"
@@ -70,6 +71,9 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     }
     if (arguments->wants_rates) {
         PS_TRY(ps_rates_check(arguments, error));
+    }
+    if (arguments->wants_ranking) {
+        PS_TRY(ps_rank_check(arguments, error));
     }
     PS_TRY(ps_point_options_check(arguments, error));
     if (arguments->num_samplers > 0 && arguments->is_given[PS_OPTION_WEIGHTS]) {

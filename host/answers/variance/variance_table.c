@@ -3,6 +3,7 @@
 #include "answers/lead.h"
 #include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
+#include "answers/variance/ranking.h"
 #include "answers/variance/rates_table.h"
 #include "answers/variance/tail_verdict.h"
 #include "base/memory.h"
@@ -17,7 +18,7 @@ static const char *const columns[] = {"points",         "predicted", "predicted_
                                       "measured_error", "z_score",   "white"};
 static const char *const bound_columns[] = {"best_bound", "worst_bound"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0], NUM_BOUNDS = 2 };
-enum { MOST_COLUMNS = NUM_COLUMNS + NUM_BOUNDS + PS_RATE_COLUMNS + 1 };
+enum { MOST_COLUMNS = NUM_COLUMNS + NUM_BOUNDS + PS_RATE_COLUMNS + PS_RANK_COLUMNS + 1 };
 
 static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *request) {
     size_t num = NUM_COLUMNS;
@@ -29,6 +30,10 @@ static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *re
     if (request->wants_rates) {
         memcpy(out + num, ps_rate_columns, sizeof ps_rate_columns);
         num += PS_RATE_COLUMNS;
+    }
+    if (request->wants_ranking) {
+        memcpy(out + num, ps_rank_columns, sizeof ps_rank_columns);
+        num += PS_RANK_COLUMNS;
     }
     if (request->paper_formula) {
         out[num++] = "paper";
@@ -81,6 +86,10 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
     if (request->wants_rates) {
         ps_rates_cells(cells + num, request, jobs, question, integrand);
         num += PS_RATE_COLUMNS;
+    }
+    if (request->wants_ranking) {
+        ps_rank_cells(cells + num, request, jobs, question, integrand);
+        num += PS_RANK_COLUMNS;
     }
     if (request->paper_formula) {
         cells[num++] = ps_number_or_missing(row->paper);
@@ -199,7 +208,10 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
             PS_TRY(add_row(table, request, &lead, jobs, i, k, error));
         }
     }
-    return request->wants_rates ? ps_rates_add_header(table, request, jobs, error) : PSPEC_OK;
+    if (request->wants_rates) {
+        PS_TRY(ps_rates_add_header(table, request, jobs, error));
+    }
+    return request->wants_ranking ? ps_rank_add_header(table, request, jobs, error) : PSPEC_OK;
 }
 
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,
