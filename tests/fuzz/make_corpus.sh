@@ -106,6 +106,20 @@ printf 'mpts2 2 n unit-tor\n0.1 0.2\n#patch-separator\n0.3 0.4\n' | seed utk1 se
 printf 'mpts2 2 n unit-tor\n0 0 1\n' | seed utk1 vectors "$sphere"
 printf 'mpts2 2 n unit-square\n0.1 0.2\n' | seed utk1 domain "$any"
 printf 'mpts2 2 n unit-tor\n' | seed utk1 nothing "$any"
+frame='ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 10\n-1 1e1\n0 10\nITEM: ATOMS id type'
+selected=$(options 02 80 00 00 00 01)
+printf '%b' "$frame xs ys zs\n1 1 0.1 0.2 0.3\n2 2 .5 .5 .5\n" | seed lammps scaled "$any"
+printf '%b' "$frame x y z\n1 1 1 2 3\n2 2 9.5 5 5\n$frame x y z\n1 1 1 2 3\n2 1 9.5 5 5\n" | seed lammps selected "$selected"
+printf '%b' "$frame xu yu zu\n1 1 11 2 3\n2 2 -9.5 5 5" | seed lammps wrap "$wrap"
+printf '%b' "$frame xs ys zs\n1 1 0.1 0.2 0.3\n" | seed lammps short "$any"
+printf 'ITEM: UNITS\nlj\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 0\n' | seed lammps tilted "$any"
+printf '2\nwater\nH 0 0 1\nO 0 1 0 2\n' | seed xyz ragged "$sphere"
+printf '2\n\nH 0 0 1\nO 0 1 0\n1\n\nH 1 0 0\n' | seed xyz vectors "$sphere"
+lattice='Lattice="10.0 0 0 0 20.0 0 0 0 20.0" Properties=species:S:1:pos:R:3:velo:R:3'
+printf '%b' "2\n$lattice\nAr 1 2 3 0 0 0\nKr 5 5 5 0 0 0\n" | seed xyz extended "$selected"
+printf '%b' "1\n$lattice\nAr 1 2 3 0 0 0\n" | seed xyz selected "$(options 02 81 00 00 00 01)"
+printf '1\nProperties=pos:R:x\nAr 1 2 3\n' | seed xyz properties "$any"
+printf '%b' "2\n$lattice\nAr 1 2 3 0 0 0\nKr 5 5 5 0 0 0\n" | seed detection xyz "$any"
 printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
 printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
 printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"

@@ -16,6 +16,8 @@ const fuzz_target fuzz_targets[] = {
     {"npy", fuzz_points, "npy", "binary.dict"},
     {"openquad", fuzz_points, "openquad", "binary.dict"},
     {"utk1", fuzz_points, "utk1", "text.dict"},
+    {"lammps", fuzz_points, "lammps", "text.dict"},
+    {"xyz", fuzz_points, "xyz", "text.dict"},
     {"detection", fuzz_points, NULL, "binary.dict"},
     {"frequencies", fuzz_frequencies, NULL, "text.dict"},
     {"weights", fuzz_weights, NULL, "binary.dict"},
