@@ -16,7 +16,7 @@ static const ps_point_format *const formats[] = {
     &ps_format_utk_text, &ps_format_csv,      &ps_format_psa_text,   &ps_format_gbn,
     &ps_format_edat,     &ps_format_eps,      &ps_format_utk_binary, &ps_format_rps,
     &ps_format_npy,      &ps_format_openquad, &ps_format_utk1,       &ps_format_lammps,
-    &ps_format_xyz};
+    &ps_format_xyz,      &ps_format_ply};
 enum { NUM_FORMATS = sizeof formats / sizeof formats[0] };
 
 static const ps_point_format *find_named(const char *name) {
@@ -208,7 +208,8 @@ static pspec_status check_names(const ps_point_reader *reader, ps_error *error) 
     const bool may_have_names =
         reader->format == &ps_format_utk_text || reader->format == &ps_format_csv;
     const bool are_frames = reader->format == &ps_format_lammps || reader->format == &ps_format_xyz;
-    PS_TRY(check_chosen(reader, may_have_names || are_frames, error));
+    PS_TRY(check_chosen(reader, may_have_names || are_frames || reader->format == &ps_format_ply,
+                        error));
     if (options->select != NULL && !are_frames) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: --select is for lammps and xyz, and this is %s", reader->input.name,

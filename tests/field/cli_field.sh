@@ -173,6 +173,7 @@ refuses '--select mass=3, and the columns are "id type xs ys zs"' convert --sele
 refuses '--select: "type" is not NAME=VALUE' convert --select type "$dump"
 refuses '--select is for lammps and xyz, and this is utk-text' convert --select type=1 "$folder/box84.txt"
 refuses 'line 11: 4 columns, where the header names 5' convert <(sed '11s/ 0.80$//' "$dump")
+refuses '5 names of columns, and the row after has 6' power <(sed '10s/$/ 9/' "$dump")
 refuses 'is truncated: it ends inside set 2' power <(head -n -1 "$dump")
 refuses 'a box that is no cuboid' convert <(sed 's/BOUNDS/BOUNDS xy xz yz/' "$dump")
 refuses 'line 6: two bounds of the box' convert <(sed '6s/10.0/0.0/' "$dump")
@@ -195,6 +196,29 @@ refuses 'in other units? --box X0,X1' power <(printf '1\n\nH 4 5 6\n')
 refuses 'a lattice that is no cuboid' convert <(sed 's/10.0 0/10.0 1/' "$folder/ext.xyz")
 refuses 'line 2: Properties are no NAME:TYPE:COUNT' convert <(sed 's/R:3/R:x/' "$folder/ext.xyz")
 refuses 'is truncated: it ends inside set 1' power <(head -n 5 "$folder/ext.xyz")
+
+# ---- vertices of PLY, as text and as numbers of either byte order
+header='format FORMAT 1.0\ncomment by hand\nelement vertex 2\nproperty float x\nproperty uchar red\nproperty double y\nproperty short z\n'
+faces='element face 1\nproperty list uchar int vertex_indices\nend_header\n'
+printf '%b' "ply\n${header/FORMAT/ascii}${faces}0 7 0 1\n1 8 0 0\n3 0 1 1\n" >ascii.ply
+rows='\0\0\0\0\a\0\0\0\0\0\0\0\0\1\0\0\0\x80\x3f\b\0\0\0\0\0\0\0\0\0\0'
+printf '%b' "ply\n${header/FORMAT/binary_little_endian}$faces${rows}faces" >little.ply
+rows='\0\0\0\0\a\0\0\0\0\0\0\0\0\0\1\x3f\x80\0\0\b\xbf\xf0\0\0\0\0\0\0\xff\xff'
+printf '%b' "ply\r\n${header/FORMAT/binary_big_endian}$faces$rows" >big.ply
+reads '0 0 1|1 0 0' ascii.ply
+reads '0 0 1|1 0 0' little.ply
+reads '0 0 1|1 0 0' <(cat little.ply)
+reads '0.5 0.5 0.75|0.75 0.25 0.25' -d 3 --box -2,2 big.ply
+reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 ascii.ply
+reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 little.ply
+refuses '--select is for lammps and xyz, and this is ply' convert --select red=7 ascii.ply
+refuses 'is not a unit vector' angular big.ply
+refuses 'is truncated: 1 vertices are not there' angular <(head -c -20 little.ply)
+refuses 'line 13: 3 columns, where the header names 4' angular <(sed 's/^1 8 0 0/1 8 0/' ascii.ply)
+refuses 'a property of vertices that is no number' angular <(sed 's/uchar red/list uchar int red/' ascii.ply)
+refuses 'vertices must be the first element' angular <(sed 's/element vertex/element camera/' ascii.ply)
+refuses 'ends inside the header of PLY' angular <(head -n 5 ascii.ply)
+refuses 'a format of PLY that is not known' angular <(sed 's/ascii/text/' ascii.ply)
 
 # ---- formats that are not read: one sentence with the name and what would do
 foreign() { # NAME;PART BYTES

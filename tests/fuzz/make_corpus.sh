@@ -120,6 +120,15 @@ printf '%b' "2\n$lattice\nAr 1 2 3 0 0 0\nKr 5 5 5 0 0 0\n" | seed xyz extended 
 printf '%b' "1\n$lattice\nAr 1 2 3 0 0 0\n" | seed xyz selected "$(options 02 81 00 00 00 01)"
 printf '1\nProperties=pos:R:x\nAr 1 2 3\n' | seed xyz properties "$any"
 printf '%b' "2\n$lattice\nAr 1 2 3 0 0 0\nKr 5 5 5 0 0 0\n" | seed detection xyz "$any"
+vertices='ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 2\nproperty float x\nproperty uchar red\nproperty double y\n'
+printf '%b' "${vertices}element face 1\nproperty list uchar int vertex_indices\nend_header\n.5 1 .25\n.1 2 .2\n3 0 1 1\n" |
+    seed ply ascii "$(options 00 0f 00 00 00 01)"
+printf '%b' "${vertices}property float z\nend_header\n.5 1 .25 0\n.1 2 .2 .3\n" | seed ply space "$torus"
+printf '%b' "${vertices}property float z\nend_header\n.5 1 .25 0\n" | seed ply short "$any"
+little=${vertices/ascii/binary_little_endian}
+{ printf '%b' "${little}property float z\nend_header\n"; f32 0.5; printf a; f64 0.25; f32 0 .1; printf b; f64 .2; f32 .3; } | seed ply binary "$any"
+{ printf '%b' "${little}property short z\nend_header\n"; f32 0.5; } | seed ply binary-short "$any"
+printf 'ply\nelement vertex 1\nproperty list uchar int x\nend_header\n' | seed ply list "$any"
 printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
 printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
 printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"

@@ -18,6 +18,7 @@ const fuzz_target fuzz_targets[] = {
     {"utk1", fuzz_points, "utk1", "text.dict"},
     {"lammps", fuzz_points, "lammps", "text.dict"},
     {"xyz", fuzz_points, "xyz", "text.dict"},
+    {"ply", fuzz_points, "ply", "binary.dict"},
     {"detection", fuzz_points, NULL, "binary.dict"},
     {"frequencies", fuzz_frequencies, NULL, "text.dict"},
     {"weights", fuzz_weights, NULL, "binary.dict"},

@@ -99,6 +99,11 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     }
     PS_TRY(
         ps_text_header_read(&state->header, frame->names, frame->row, ' ', wanted, where, error));
+    if (state->header.lacks_name) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %u names of columns, and the row after has %u", where,
+                       state->header.num_columns - 1, state->header.num_columns);
+    }
     state->header.chooses = true;
     PS_TRY(find_filter(reader, frame, where, error));
     find_axes(state, frame);
