@@ -187,13 +187,13 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
 }
 
 /* Only text with one point per line may have names of columns. */
-/* Columns are chosen in texts. */
+/* Columns are chosen by names in texts, and by numbers in arrays, too. */
 static pspec_status check_chosen(const ps_point_reader *reader, bool may_have_names,
                                  ps_error *error) {
     const char *const names = reader->options.column_names;
     unsigned num = 0;
     const bool are_numbers = names != NULL && ps_columns_numbers(names, NULL, 0, &num);
-    if (names == NULL || may_have_names) {
+    if (names == NULL || may_have_names || (are_numbers && reader->format == &ps_format_npy)) {
         return PSPEC_OK;
     }
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -67,7 +67,7 @@ typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_INPUT_FORMATS */
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
     const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names;
-                                 or "3,7", numbers of the columns of a text */
+                                 or "3,7", numbers of the columns of a text or an array */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
     const char *select;       /* "type=1": rows of frames with this in the column of that name */
     bool transpose;           /* points are the columns of an array of two axes */

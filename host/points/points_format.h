@@ -110,6 +110,11 @@ extern const ps_point_format ps_format_utk1, ps_format_lammps, ps_format_xyz, ps
 /* Numbers in lines that mean nothing; in no table, for only the options tell it from utk-text. */
 extern const ps_point_format ps_format_tokens;
 
+/* How points_npy.c writes openquad. */
+void ps_openquad_begin(ps_point_writer *writer);
+void ps_openquad_write(ps_point_writer *writer, const double *rows, size_t num_rows);
+pspec_status ps_openquad_finish(ps_point_writer *writer, ps_error *error) PS_MUST_CHECK;
+
 /* Of those that are written. */
 pspec_status ps_point_format_find(const char *name, const ps_point_format **out,
                                   ps_error *error) PS_MUST_CHECK;

@@ -197,6 +197,21 @@ refuses 'a lattice that is no cuboid' convert <(sed 's/10.0 0/10.0 1/' "$folder/
 refuses 'line 2: Properties are no NAME:TYPE:COUNT' convert <(sed 's/R:3/R:x/' "$folder/ext.xyz")
 refuses 'is truncated: it ends inside set 1' power <(head -n 5 "$folder/ext.xyz")
 
+# ---- columns of arrays by their numbers: 20 points of two coordinates in rows, and columns of one
+plane=$folder/plane_2x20.npy
+"$program" convert --transpose "$plane" -o rows.npy
+whole=$("$program" convert rows.npy)
+swapped=$(awk '{ print $2, $1 }' <<<"$whole")
+[[ $("$program" convert --columns 2,1 rows.npy) == "$swapped" ]] || complain 'rows.npy: other columns than 2,1'
+[[ $("$program" convert --columns 2,1 - <rows.npy) == "$swapped" ]] || complain 'rows.npy by a pipe: other columns than 2,1'
+[[ $("$program" convert --columns 2,1 --transpose "$plane") == "$swapped" ]] || complain 'plane_2x20.npy: other columns than 2,1'
+[[ $("$program" convert --columns 2,1 --transpose <(cat "$plane")) == "$swapped" ]] || complain 'plane_2x20.npy by a pipe'
+[[ $("$program" convert --columns 2, rows.npy) == "$(cut -d ' ' -f 2 <<<"$whole")" ]] || complain 'rows.npy: not column 2'
+columns 'xy (columns 2,1)' power -k 1 --columns 2,1 --input-format npy rows.npy
+refuses 'are its rows the points, or its columns?;--transpose' power --columns 2,1 "$plane"
+refuses '--columns asks for a column that is not there' power --columns 1,3 --input-format npy rows.npy
+refuses '--columns names columns (x,y), and npy has no names' power --columns x,y rows.npy
+
 # ---- vertices of PLY, as text and as numbers of either byte order
 header='format FORMAT 1.0\ncomment by hand\nelement vertex 2\nproperty float x\nproperty uchar red\nproperty double y\nproperty short z\n'
 faces='element face 1\nproperty list uchar int vertex_indices\nend_header\n'
