@@ -15,7 +15,8 @@
 static const ps_point_format *const formats[] = {
     &ps_format_utk_text, &ps_format_csv,      &ps_format_psa_text,   &ps_format_gbn,
     &ps_format_edat,     &ps_format_eps,      &ps_format_utk_binary, &ps_format_rps,
-    &ps_format_npy,      &ps_format_openquad, &ps_format_utk1};
+    &ps_format_npy,      &ps_format_openquad, &ps_format_utk1,       &ps_format_lammps,
+    &ps_format_xyz,      &ps_format_ply};
 enum { NUM_FORMATS = sizeof formats / sizeof formats[0] };
 
 static const ps_point_format *find_named(const char *name) {
@@ -186,13 +187,13 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
 }
 
 /* Only text with one point per line may have names of columns. */
-/* Columns are chosen in texts. */
+/* Columns are chosen by names in texts, and by numbers in arrays, too. */
 static pspec_status check_chosen(const ps_point_reader *reader, bool may_have_names,
                                  ps_error *error) {
     const char *const names = reader->options.column_names;
     unsigned num = 0;
     const bool are_numbers = names != NULL && ps_columns_numbers(names, NULL, 0, &num);
-    if (names == NULL || may_have_names) {
+    if (names == NULL || may_have_names || (are_numbers && reader->format == &ps_format_npy)) {
         return PSPEC_OK;
     }
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -206,7 +207,14 @@ static pspec_status check_names(const ps_point_reader *reader, ps_error *error) 
     const ps_point_options *const options = &reader->options;
     const bool may_have_names =
         reader->format == &ps_format_utk_text || reader->format == &ps_format_csv;
-    PS_TRY(check_chosen(reader, may_have_names, error));
+    const bool are_frames = reader->format == &ps_format_lammps || reader->format == &ps_format_xyz;
+    PS_TRY(check_chosen(reader, may_have_names || are_frames || reader->format == &ps_format_ply,
+                        error));
+    if (options->select != NULL && !are_frames) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: --select is for lammps and xyz, and this is %s", reader->input.name,
+                       reader->format->name);
+    }
     if (options->transpose && reader->format != &ps_format_npy &&
         reader->format != &ps_format_openquad) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -51,7 +51,7 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
 /* Names of all formats and of all layouts of columns, for options. */
 #define PS_POINT_FORMATS "utk-text|csv|psa-text|gbn|edat|eps|utk-binary|rps|npy|openquad"
 /* And with those that are only read. */
-#define PS_INPUT_FORMATS PS_POINT_FORMATS "|utk1"
+#define PS_INPUT_FORMATS PS_POINT_FORMATS "|utk1|lammps|xyz|ply"
 #define PS_SPHERE_COLUMNS                                                                          \
     "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w|theta-phi:degrees|"    \
     "theta-phi-w:degrees|phi-theta:degrees|phi-theta-w:degrees"
@@ -67,8 +67,9 @@ typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_INPUT_FORMATS */
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
     const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names;
-                                 or "3,7", numbers of the columns of a text */
+                                 or "3,7", numbers of the columns of a text or an array */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
+    const char *select;       /* "type=1": rows of frames with this in the column of that name */
     bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
     size_t points_per_set; /* of formats that do not say (rps), where 0 means that all is one set;

@@ -7,7 +7,7 @@
 
 static const char arrays[] = "numpy.save of its array of coordinates (N, d) gives a .npy file, "
                              "which is read";
-static const char meshes[] = "its vertices are read as text, x y z on a line";
+static const char meshes[] = "its vertices are read as a PLY file, or as text, x y z on a line";
 static const char pictures[] = "points are read, one on a line, and no pictures of them";
 static const char tables[] = "its coordinates are read as lines of numbers, or as CSV with names";
 

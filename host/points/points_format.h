@@ -106,9 +106,14 @@ extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, 
     ps_format_gbn, ps_format_eps, ps_format_utk_binary, ps_format_rps, ps_format_npy,
     ps_format_openquad;
 /* What is only read. */
-extern const ps_point_format ps_format_utk1;
+extern const ps_point_format ps_format_utk1, ps_format_lammps, ps_format_xyz, ps_format_ply;
 /* Numbers in lines that mean nothing; in no table, for only the options tell it from utk-text. */
 extern const ps_point_format ps_format_tokens;
+
+/* How points_npy.c writes openquad. */
+void ps_openquad_begin(ps_point_writer *writer);
+void ps_openquad_write(ps_point_writer *writer, const double *rows, size_t num_rows);
+pspec_status ps_openquad_finish(ps_point_writer *writer, ps_error *error) PS_MUST_CHECK;
 
 /* Of those that are written. */
 pspec_status ps_point_format_find(const char *name, const ps_point_format **out,

@@ -18,9 +18,11 @@ enum {
 typedef struct npy_state {
     ps_npy_header header;
     size_t num_sets, num_points;
+    size_t file_columns;             /* of the array */
+    unsigned picked[PS_MAX_COLUMNS]; /* of these, those of a row */
     bool is_fortran_order;
     off_t data_position; /* where the array starts; -1: a pipe */
-    double *block;       /* [BLOCK_ELEMENTS], Fortran order only, like the rest */
+    double *block;       /* [BLOCK_ELEMENTS], of Fortran order or picked columns */
     double *cache;       /* sets from first_cached on */
     size_t cache_capacity, first_cached, num_cached;
 } npy_state;
@@ -77,6 +79,14 @@ static pspec_status find_points(ps_point_reader *reader, bool *are_columns, ps_e
     }
     const size_t num_rows = header->shape[0];
     const size_t num_columns = header->shape[1];
+    if (options->column_names != NULL) { /* more rows than columns are points */
+        return num_rows > num_columns
+                   ? PSPEC_OK
+                   : fail_shape(reader,
+                                "are its rows the points, or its columns? --input-format npy or "
+                                "--transpose",
+                                error);
+    }
     const bool may_be_rows = ps_columns_agree(options, num_columns);
     const bool may_be_columns = ps_columns_agree(options, num_rows);
     if (may_be_rows && may_be_columns && num_rows <= num_columns && num_columns > 1) {
@@ -94,13 +104,41 @@ static pspec_status find_points(ps_point_reader *reader, bool *are_columns, ps_e
                : PSPEC_OK;
 }
 
-static void take_columns(ps_point_reader *reader) {
+/* All columns, or those that --columns numbers. */
+static pspec_status pick_columns(ps_point_reader *reader, size_t num, ps_error *error) {
+    npy_state *const state = reader->state;
+    const char *const numbers = reader->options.column_names;
+    unsigned num_picked = (unsigned)num;
+    for (unsigned i = 0; i < PS_MAX_COLUMNS; i++) {
+        state->picked[i] = i + 1;
+    }
+    if (numbers != NULL) {
+        ps_columns_numbers(numbers, state->picked, PS_MAX_COLUMNS, &num_picked);
+        reader->own_columns = ps_columns_meaning(numbers);
+        reader->chosen = numbers;
+    }
+    if (num_picked > PS_MAX_COLUMNS || num > BLOCK_ELEMENTS) {
+        return fail_shape(reader,
+                          "points are rows of at most 6 dimensions; --columns 1,2 chooses columns",
+                          error);
+    }
+    for (unsigned i = 0; i < num_picked; i++) {
+        if (state->picked[i]-- > num) {
+            return fail_shape(reader, "--columns asks for a column that is not there", error);
+        }
+    }
+    state->file_columns = num;
+    reader->columns = num_picked;
+    return PSPEC_OK;
+}
+
+static pspec_status take_columns(ps_point_reader *reader, ps_error *error) {
     npy_state *const state = reader->state;
     const ps_npy_header *const header = &state->header;
     state->num_sets = 1;
     state->num_points = header->shape[1];
     state->is_fortran_order = !header->is_fortran_order;
-    reader->columns = (unsigned)header->shape[0];
+    return pick_columns(reader, header->shape[0], error);
 }
 
 static pspec_status interpret_openquad(ps_point_reader *reader, ps_error *error) {
@@ -113,7 +151,7 @@ static pspec_status interpret_openquad(ps_point_reader *reader, ps_error *error)
         return fail_shape(reader, "--transpose does not go with openquad, whose rows are angles",
                           error);
     }
-    take_columns(reader);
+    PS_TRY(take_columns(reader, error));
     reader->own_columns = reader->columns == 3 ? "theta-phi-w" : "theta-phi";
     return PSPEC_OK;
 }
@@ -124,22 +162,17 @@ static pspec_status interpret_points(ps_point_reader *reader, ps_error *error) {
     const size_t *const extent = header->shape;
     bool are_columns = false;
     PS_TRY(find_points(reader, &are_columns, error));
-    if (are_columns && extent[0] <= PS_MAX_COLUMNS) {
-        take_columns(reader);
-        return PSPEC_OK;
+    if (are_columns && (extent[0] <= PS_MAX_COLUMNS || reader->options.column_names != NULL)) {
+        return take_columns(reader, error);
     }
     if (header->rank < 1 || header->rank > 3) {
         return fail_shape(reader, "points are (N, d), (M, N, d) or (N)", error);
     }
     const size_t columns = header->rank == 1 ? 1 : extent[header->rank - 1];
-    if (columns > PS_MAX_COLUMNS) {
-        return fail_shape(reader, "points are rows of at most 6 dimensions", error);
-    }
     state->num_sets = header->rank == 3 ? extent[0] : 1;
     state->num_points = header->rank == 3 ? extent[1] : extent[0];
     state->is_fortran_order = header->is_fortran_order && header->rank > 1;
-    reader->columns = (unsigned)columns;
-    return PSPEC_OK;
+    return pick_columns(reader, columns, error);
 }
 
 static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
@@ -153,7 +186,7 @@ static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
                                                  : interpret_points(reader, error));
     state->data_position = reader->input.is_seekable ? ps_input_position(&reader->input) : -1;
     reader->rows_per_set = state->data_position >= 0 ? state->num_points : 0;
-    if (state->is_fortran_order) {
+    if (state->is_fortran_order || reader->chosen != NULL) {
         PS_TRY(PS_NEW(&state->block, BLOCK_ELEMENTS, "NPY block", error));
     }
     return PSPEC_OK;
@@ -179,9 +212,11 @@ static void scatter_block(const ps_point_reader *reader, size_t first, size_t nu
     size_t column = first / state->num_sets / state->num_points;
     for (size_t i = 0; i < num; i++) {
         const size_t slot = set - state->first_cached; /* earlier sets wrap around to large ones */
-        if (slot < state->num_cached) {
-            state->cache[(slot * state->num_points + point) * reader->columns + column] =
-                state->block[i];
+        for (unsigned j = 0; slot < state->num_cached && j < reader->columns; j++) {
+            if (state->picked[j] == column) {
+                state->cache[(slot * state->num_points + point) * reader->columns + j] =
+                    state->block[i];
+            }
         }
         if (++set == state->num_sets) {
             set = 0;
@@ -268,7 +303,8 @@ static pspec_status gather_columns(ps_point_reader *reader, ps_rows_read *out, p
         for (size_t first = 0; first < out->num; first += BLOCK_ELEMENTS) {
             const size_t left = out->num - first;
             const size_t num = left < BLOCK_ELEMENTS ? left : BLOCK_ELEMENTS;
-            const size_t element = column * state->num_points + reader->rows_in_set + first;
+            const size_t element =
+                state->picked[column] * state->num_points + reader->rows_in_set + first;
             PS_TRY(ps_input_seek(
                 &reader->input,
                 state->data_position + (off_t)(element * state->header.type.num_bytes), error));
@@ -281,13 +317,33 @@ static pspec_status gather_columns(ps_point_reader *reader, ps_rows_read *out, p
     return PSPEC_OK;
 }
 
+/* Rows of C order, of which some columns are picked. */
+static pspec_status read_picked(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    const npy_state *const state = reader->state;
+    const size_t fitting = BLOCK_ELEMENTS / state->file_columns;
+    for (size_t first = 0; first < out->num; first += fitting) {
+        const size_t num = out->num - first < fitting ? out->num - first : fitting;
+        PS_TRY(ps_npy_read_elements(&reader->input, &state->header, state->block,
+                                    num * state->file_columns, error));
+        for (size_t i = 0; i < num; i++) {
+            for (unsigned j = 0; j < reader->columns; j++) {
+                out->rows[(first + i) * reader->columns + j] =
+                    state->block[i * state->file_columns + state->picked[j]];
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
 /* ---- read -------------------------------------------------------------------------------- */
 
 static pspec_status read_npy(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     const npy_state *const state = reader->state;
     const size_t left = state->num_points - reader->rows_in_set;
     out->num = left < out->capacity ? left : out->capacity;
-    if (!state->is_fortran_order) {
+    if (!state->is_fortran_order && reader->chosen != NULL) {
+        PS_TRY(read_picked(reader, out, error));
+    } else if (!state->is_fortran_order) {
         PS_TRY(ps_npy_read_elements(&reader->input, &state->header, out->rows,
                                     out->num * reader->columns, error));
     } else if (state->num_sets == 1 && state->data_position >= 0) {
@@ -315,31 +371,6 @@ static void write_npy(ps_point_writer *writer, const double *rows, size_t num_ro
     ps_output_write(writer->file, rows, sizeof *rows, num_rows * writer->columns);
 }
 
-/* Columns are written one after the other, so the set is kept until it is complete. */
-static void begin_openquad(ps_point_writer *writer) {
-    (void)writer;
-}
-
-static void write_openquad(ps_point_writer *writer, const double *rows, size_t num_rows) {
-    ps_text_append_bytes(&writer->kept, (const char *)rows,
-                         num_rows * writer->columns * sizeof *rows);
-}
-
-static pspec_status finish_openquad(ps_point_writer *writer, ps_error *error) {
-    PS_TRY(ps_text_check(&writer->kept, error));
-    const size_t num = writer->kept.length / sizeof(double) / writer->columns;
-    const size_t shape[] = {writer->columns, num};
-    ps_npy_write_header(ps_output_stream(writer->file), 2, shape);
-    for (unsigned column = 0; column < writer->columns; column++) {
-        for (size_t i = 0; i < num; i++) {
-            ps_output_write(writer->file,
-                            writer->kept.data + (i * writer->columns + column) * sizeof(double),
-                            sizeof(double), 1);
-        }
-    }
-    return PSPEC_OK;
-}
-
 const ps_point_format ps_format_npy = {.name = "npy",
                                        .endings = {".npy"},
                                        .magic = "\x93NUMPY",
@@ -357,6 +388,6 @@ const ps_point_format ps_format_openquad = {.name = "openquad",
                                             .read = read_npy,
                                             .close = close_npy,
                                             .abilities = PS_HOLDS_WEIGHTS | PS_HOLDS_ANGLES,
-                                            .begin = begin_openquad,
-                                            .write = write_openquad,
-                                            .finish = finish_openquad};
+                                            .begin = ps_openquad_begin,
+                                            .write = ps_openquad_write,
+                                            .finish = ps_openquad_finish};

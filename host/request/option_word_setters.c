@@ -204,6 +204,15 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
                          reading->box_high - reading->box_low, LEAST_BOX);
 }
 
+/* "type=1" */
+pspec_status ps_set_select(const ps_said *said, ps_error *error) {
+    const char *const value = strchr(said->text, '=');
+    return value != NULL && value != said->text && value[1] != '\0'
+               ? ps_set_text(said, error)
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: \"%s\" is not NAME=VALUE, as in type=1", said->shown, said->text);
+}
+
 /* A comma tells names of columns from what columns are, which may follow them: "ra,dec=lon-lat". */
 pspec_status ps_set_columns(const ps_said *said, ps_error *error) {
     const bool are_names = strchr(said->text, ',') != NULL;

@@ -226,6 +226,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                    "the first line of a text has, or numbers, as in 3,7, and "
                                    "perhaps what they are, as in ra,dec=lon-lat",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
+    [PS_OPTION_SELECT] = {NAMED("select", 0, "NAME=VALUE"), .source = PS_OF_FILES,
+                          OF(READERS, BIT(convert)),
+                          .help = "of frames of simulations (lammps, xyz) only the rows with this "
+                                  "value in the column of this name, as in type=1 or element=Ar",
+                          .set = ps_set_select, .offset = offsetof(ps_request, reading.select)},
     [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), .source = PS_OF_FILES,
                           OF(READERS, BIT(convert)),
                           .help = "has the first line of a text names of columns? (default: found "

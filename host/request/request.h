@@ -57,6 +57,7 @@ typedef enum ps_option_id {
     PS_OPTION_WEIGHTS_OUT,       /* --weights-out FILE */
     PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
     PS_OPTION_COLUMNS,           /* --columns NAME */
+    PS_OPTION_SELECT,            /* --select NAME=VALUE */
     PS_OPTION_HEADER,            /* --header yes|no */
     PS_OPTION_TRANSPOSE,         /* --transpose */
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */

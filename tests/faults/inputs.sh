@@ -56,6 +56,12 @@ make_inputs() {
     printf '1 0\n0 1\n1000 -3\n' >vectors.txt
     gzip -n <points.txt >packed.gz
     printf '0,90\n45,0\n-30,-60\n' >angles.csv
+    printf 'ITEM: %s\n' 'NUMBER OF ATOMS' 2 'BOX BOUNDS pp pp pp' '0 2' '0 2' '0 2' 'ATOMS type x y z' |
+        sed -E '/^ITEM: [0-9]/s/ITEM: //' >atoms.dump
+    printf '1 0 1 1.5\n2 1 1 1\n' >>atoms.dump
+    printf '2\nLattice="2 0 0 0 2 0 0 0 2"\nAr 0 1 1.5\nKr 1 1 1\n' >atoms.xyz
+    printf '%s\n' ply 'format binary_little_endian 1.0' 'element vertex 1' 'property uchar '{x,y,z} end_header >mesh.ply
+    printf '\0\1\0' >>mesh.ply
     make_fortran_array >columns.npy
     make_archive points.npy arr_0.npy >packed.npz
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.json

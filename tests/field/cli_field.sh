@@ -156,6 +156,85 @@ refuses 'line 1: "mpts3 2", where UTK 1 has "mpts2 2 n unit-tor"' convert <(prin
 refuses 'holds no points' convert <(printf 'mpts2 2 n unit-tor\n')
 refuses '--format: "utk1" is not one of' convert "$folder/utk1.pts" --format utk1
 
+# ---- frames of simulations: coordinates in units of the box become those of [0,1), every axis by itself
+dump=$folder/two_frames.dump
+scaled='0.1 0.2 0.3|0.6 0.2 0.8|0.1 0.7 0.8|0.6 0.7 0.3|#|0.11 0.2 0.3|0.6 0.21 0.8|0.1 0.7 0.81|0.6 0.7 0.3'
+reads "$scaled" "$dump"
+columns xyz power -k 1 "$dump"
+awk 'NF == 5 && $1 != "ITEM:" { $3 *= 10; $4 *= 10; $5 *= 10 } { sub(/xs ys zs/, "x y z"); print }' "$dump" >absolute.dump
+reads "$scaled" absolute.dump
+sed 's/x y z/xu yu zu/; s/^0.0 10.0/-10 10/' absolute.dump >unwrapped.dump
+reads '0.55 0.6 0.65|0.8 0.6 0.9' --select-points ..2 --select-sets 1 unwrapped.dump
+reads '0.1 0.7 0.8|0.6 0.7 0.3|#|0.1 0.7 0.81|0.6 0.7 0.3' --select type=2 "$dump"
+reads '0.2 0.1|0.7 0.6' --columns ys,xs --select id=1 <(sed -n '1,9p; 10p; 13p' "$dump" | sed 's/^4$/2/; s/^4 2/1 2/')
+reads '0.1 0.2|0.6 0.2' -d 2 --select type=1 --select-sets 1 "$dump"
+refuses 'set 1 has no row with type=3' convert --select type=3 "$dump"
+refuses '--select mass=3, and the columns are "id type xs ys zs"' convert --select mass=3 "$dump"
+refuses '--select: "type" is not NAME=VALUE' convert --select type "$dump"
+refuses '--select is for lammps and xyz, and this is utk-text' convert --select type=1 "$folder/box84.txt"
+refuses 'line 11: 4 columns, where the header names 5' convert <(sed '11s/ 0.80$//' "$dump")
+refuses '5 names of columns, and the row after has 6' power <(sed '10s/$/ 9/' "$dump")
+refuses 'is truncated: it ends inside set 2' power <(head -n -1 "$dump")
+refuses 'a box that is no cuboid' convert <(sed 's/BOUNDS/BOUNDS xy xz yz/' "$dump")
+refuses 'line 6: two bounds of the box' convert <(sed '6s/10.0/0.0/' "$dump")
+refuses 'line 4: this is no number of atoms' convert <(sed '4s/4/0/' "$dump")
+refuses 'line 5: atoms before their number and the bounds' convert <(sed '5,8d' "$dump")
+refuses 'is not a unit vector' angular "$dump"
+refuses '--box, and the file states the box itself' convert --box 0,1 "$dump"
+atoms='0.1 0.1 0.15|0.6 0.1 0.4|0.1 0.35 0.4|0.6 0.35 0.15'
+reads "$atoms" "$folder/ext.xyz"
+reads "$atoms|#|$atoms" <(cat "$folder/ext.xyz" "$folder/ext.xyz")
+reads '0.1 0.35 0.4|0.6 0.35 0.15' --select element=Kr "$folder/ext.xyz"
+reads '0.1 0.1 0.15|0.6 0.1 0.4' --select species=Ar "$folder/ext.xyz"
+reads '0.15 0.1 0.15' --select-points 1 <(sed 's/Properties/Origin="-0.5 0 0" Properties/' "$folder/ext.xyz")
+reads '0.1 0.15' --columns x,z --select-points 1 "$folder/ext.xyz"
+reads '0.1 0.35 0.4 2' --columns x,y,z,mass=xyzw --domain torus --select element=Kr --select-points 1 \
+    <(sed 's/pos:R:3/pos:R:3:mass:R:1/; s/^[AK]r.*/& 2/' "$folder/ext.xyz")
+reads '0 0 1|0 1 0' <(printf '2\nwater\nH 0 0 1\nO 0 1 0\n')
+reads '0.1 0.2 0.3' --box 0,10 <(printf '1\n\nH 1 2 3 0.5\n')
+refuses 'in other units? --box X0,X1' power <(printf '1\n\nH 4 5 6\n')
+refuses 'a lattice that is no cuboid' convert <(sed 's/10.0 0/10.0 1/' "$folder/ext.xyz")
+refuses 'line 2: Properties are no NAME:TYPE:COUNT' convert <(sed 's/R:3/R:x/' "$folder/ext.xyz")
+refuses 'is truncated: it ends inside set 1' power <(head -n 5 "$folder/ext.xyz")
+
+# ---- columns of arrays by their numbers: 20 points of two coordinates in rows, and columns of one
+plane=$folder/plane_2x20.npy
+"$program" convert --transpose "$plane" -o rows.npy
+whole=$("$program" convert rows.npy)
+swapped=$(awk '{ print $2, $1 }' <<<"$whole")
+[[ $("$program" convert --columns 2,1 rows.npy) == "$swapped" ]] || complain 'rows.npy: other columns than 2,1'
+[[ $("$program" convert --columns 2,1 - <rows.npy) == "$swapped" ]] || complain 'rows.npy by a pipe: other columns than 2,1'
+[[ $("$program" convert --columns 2,1 --transpose "$plane") == "$swapped" ]] || complain 'plane_2x20.npy: other columns than 2,1'
+[[ $("$program" convert --columns 2,1 --transpose <(cat "$plane")) == "$swapped" ]] || complain 'plane_2x20.npy by a pipe'
+[[ $("$program" convert --columns 2, rows.npy) == "$(cut -d ' ' -f 2 <<<"$whole")" ]] || complain 'rows.npy: not column 2'
+columns 'xy (columns 2,1)' power -k 1 --columns 2,1 --input-format npy rows.npy
+refuses 'are its rows the points, or its columns?;--transpose' power --columns 2,1 "$plane"
+refuses '--columns asks for a column that is not there' power --columns 1,3 --input-format npy rows.npy
+refuses '--columns names columns (x,y), and npy has no names' power --columns x,y rows.npy
+
+# ---- vertices of PLY, as text and as numbers of either byte order
+header='format FORMAT 1.0\ncomment by hand\nelement vertex 2\nproperty float x\nproperty uchar red\nproperty double y\nproperty short z\n'
+faces='element face 1\nproperty list uchar int vertex_indices\nend_header\n'
+printf '%b' "ply\n${header/FORMAT/ascii}${faces}0 7 0 1\n1 8 0 0\n3 0 1 1\n" >ascii.ply
+rows='\0\0\0\0\a\0\0\0\0\0\0\0\0\1\0\0\0\x80\x3f\b\0\0\0\0\0\0\0\0\0\0'
+printf '%b' "ply\n${header/FORMAT/binary_little_endian}$faces${rows}faces" >little.ply
+rows='\0\0\0\0\a\0\0\0\0\0\0\0\0\0\1\x3f\x80\0\0\b\xbf\xf0\0\0\0\0\0\0\xff\xff'
+printf '%b' "ply\r\n${header/FORMAT/binary_big_endian}$faces$rows" >big.ply
+reads '0 0 1|1 0 0' ascii.ply
+reads '0 0 1|1 0 0' little.ply
+reads '0 0 1|1 0 0' <(cat little.ply)
+reads '0.5 0.5 0.75|0.75 0.25 0.25' -d 3 --box -2,2 big.ply
+reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 ascii.ply
+reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 little.ply
+refuses '--select is for lammps and xyz, and this is ply' convert --select red=7 ascii.ply
+refuses 'is not a unit vector' angular big.ply
+refuses 'is truncated: 1 vertices are not there' angular <(head -c -20 little.ply)
+refuses 'line 13: 3 columns, where the header names 4' angular <(sed 's/^1 8 0 0/1 8 0/' ascii.ply)
+refuses 'a property of vertices that is no number' angular <(sed 's/uchar red/list uchar int red/' ascii.ply)
+refuses 'vertices must be the first element' angular <(sed 's/element vertex/element camera/' ascii.ply)
+refuses 'ends inside the header of PLY' angular <(head -n 5 ascii.ply)
+refuses 'a format of PLY that is not known' angular <(sed 's/ascii/text/' ascii.ply)
+
 # ---- formats that are not read: one sentence with the name and what would do
 foreign() { # NAME;PART BYTES
     local advice=${1#*;} name=${1%%;*}

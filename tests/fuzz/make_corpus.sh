@@ -106,6 +106,29 @@ printf 'mpts2 2 n unit-tor\n0.1 0.2\n#patch-separator\n0.3 0.4\n' | seed utk1 se
 printf 'mpts2 2 n unit-tor\n0 0 1\n' | seed utk1 vectors "$sphere"
 printf 'mpts2 2 n unit-square\n0.1 0.2\n' | seed utk1 domain "$any"
 printf 'mpts2 2 n unit-tor\n' | seed utk1 nothing "$any"
+frame='ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 10\n-1 1e1\n0 10\nITEM: ATOMS id type'
+selected=$(options 02 80 00 00 00 01)
+printf '%b' "$frame xs ys zs\n1 1 0.1 0.2 0.3\n2 2 .5 .5 .5\n" | seed lammps scaled "$any"
+printf '%b' "$frame x y z\n1 1 1 2 3\n2 2 9.5 5 5\n$frame x y z\n1 1 1 2 3\n2 1 9.5 5 5\n" | seed lammps selected "$selected"
+printf '%b' "$frame xu yu zu\n1 1 11 2 3\n2 2 -9.5 5 5" | seed lammps wrap "$wrap"
+printf '%b' "$frame xs ys zs\n1 1 0.1 0.2 0.3\n" | seed lammps short "$any"
+printf 'ITEM: UNITS\nlj\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 0\n' | seed lammps tilted "$any"
+printf '2\nwater\nH 0 0 1\nO 0 1 0 2\n' | seed xyz ragged "$sphere"
+printf '2\n\nH 0 0 1\nO 0 1 0\n1\n\nH 1 0 0\n' | seed xyz vectors "$sphere"
+lattice='Lattice="10.0 0 0 0 20.0 0 0 0 20.0" Properties=species:S:1:pos:R:3:velo:R:3'
+printf '%b' "2\n$lattice\nAr 1 2 3 0 0 0\nKr 5 5 5 0 0 0\n" | seed xyz extended "$selected"
+printf '%b' "1\n$lattice\nAr 1 2 3 0 0 0\n" | seed xyz selected "$(options 02 81 00 00 00 01)"
+printf '1\nProperties=pos:R:x\nAr 1 2 3\n' | seed xyz properties "$any"
+printf '%b' "2\n$lattice\nAr 1 2 3 0 0 0\nKr 5 5 5 0 0 0\n" | seed detection xyz "$any"
+vertices='ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 2\nproperty float x\nproperty uchar red\nproperty double y\n'
+printf '%b' "${vertices}element face 1\nproperty list uchar int vertex_indices\nend_header\n.5 1 .25\n.1 2 .2\n3 0 1 1\n" |
+    seed ply ascii "$(options 00 0f 00 00 00 01)"
+printf '%b' "${vertices}property float z\nend_header\n.5 1 .25 0\n.1 2 .2 .3\n" | seed ply space "$torus"
+printf '%b' "${vertices}property float z\nend_header\n.5 1 .25 0\n" | seed ply short "$any"
+little=${vertices/ascii/binary_little_endian}
+{ printf '%b' "${little}property float z\nend_header\n"; f32 0.5; printf a; f64 0.25; f32 0 .1; printf b; f64 .2; f32 .3; } | seed ply binary "$any"
+{ printf '%b' "${little}property short z\nend_header\n"; f32 0.5; } | seed ply binary-short "$any"
+printf 'ply\nelement vertex 1\nproperty list uchar int x\nend_header\n' | seed ply list "$any"
 printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
 printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
 printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"
@@ -133,6 +156,9 @@ f32 0.5 | seed rps half "$any"
 f32 -1e-10 0.5 | seed rps below-1 "$wrap"
 
 { npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | seed npy plane "$torus"
+{ npy '<f8' False '3, 2'; f64 0.5 0.25 0 0.75 .1 .2; } | seed npy numbers "$(options 00 0f 00 00 00 01)"
+{ npy '<f8' True '2, 2, 2'; f64 0.5 0.25 0 0.75 .1 .2 .3 .4; } | seed npy numbered-sets "$(options 00 0f 08 00 00 01)"
+{ npy '<f8' False '2, 3'; f64 0.5 0.25 0 0.75 .1 .2; } | seed npy numbered-columns "$(options 00 0f c0 00 00 01)"
 { npy '<f8' False '2, 2, 1'; f64 0.5 0.25 0 0.75; } | seed npy sets "$any"
 { npy '<f8' True '2, 2, 2'; f64 0.5 0.25 0 0.75 0.1 0.2 0.3 0.4; } | seed npy fortran-sets "$any"
 { npy '<f4' True '3, 2'; f32 0.5 0.25 0 0.75 0.1 0.2; } | seed npy fortran "$any"

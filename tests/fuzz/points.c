@@ -1,7 +1,8 @@
 /* Point files. The first bytes of the input are options, the rest is the file:
  *
  *   0  domain (2 bits), weight column, ignore weights, wrap, normalize, keep angles, whole read by pipe
- *   1  columns: 0 none, else one of PS_POINT_COLUMNS, or behind these numbers of columns
+ *   1  columns: 0 none, else one of PS_POINT_COLUMNS, or behind these numbers of columns,
+ *      or behind these a selection
  *   2  dimension (3 bits), blocks by pipe, blocks are kept, the writer is told the counts,
  *      --header or --transpose (2 bits)
  *   3  points per set
@@ -18,9 +19,9 @@ enum { COLUMNS_BYTES = 24 };
 /* Number index, counted from 1, of PS_POINT_COLUMNS; NULL for 0. Columns by number come last. */
 static const char *choose_columns(unsigned index, char text[COLUMNS_BYTES], const char **numbers) {
     static const char *const chosen[] = {"2,1", "1,3,2=phi-theta-w", "4,"};
-    enum { NUM_WORDS = 15, NUM_CHOICES = NUM_WORDS + 3 };
+    enum { NUM_WORDS = 15, NUM_CHOICES = NUM_WORDS + 3, SELECTION = 0x80 };
     const char *word = PS_POINT_COLUMNS;
-    index %= NUM_CHOICES;
+    index = index < SELECTION ? index % NUM_CHOICES : 0;
     *numbers = index >= NUM_WORDS ? chosen[index - NUM_WORDS] : NULL;
     if (index == 0 || index >= NUM_WORDS) {
         return NULL;
@@ -48,6 +49,8 @@ static void take_choices(fuzz_choices *out, fuzz_bytes *input, const char *forma
     out->options.normalize_vectors = (flags & 32) != 0;
     out->options.keep_angles = (flags & 64) != 0;
     out->whole_from_pipe = (flags & 128) != 0;
+    const unsigned choice = input->size > 0 ? input->data[0] : 0;
+    out->options.select = choice == 0x80 ? "type=1" : choice == 0x81 ? "element=Ar" : NULL;
     out->options.columns = choose_columns(fuzz_take(input), columns, &out->options.column_names);
     const uint8_t more_flags = fuzz_take(input);
     out->options.dimension = more_flags & 7;

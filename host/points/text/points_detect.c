@@ -106,6 +106,10 @@ static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, p
     if (reader->options.header != NULL && strcmp(reader->options.header, "yes") == 0) {
         return PSPEC_OK; /* the first line is nothing else */
     }
+    PS_TRY(ps_xyz_detect(reader, error));
+    if (reader->format == &ps_format_xyz) {
+        return PSPEC_OK;
+    }
     PS_TRY(ps_edat_detect(reader, is_named_edat, error));
     if (reader->format != &ps_format_utk_text) {
         return PSPEC_OK;

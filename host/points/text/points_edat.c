@@ -164,8 +164,7 @@ static pspec_status open_edat(ps_point_reader *reader, ps_error *error) {
                          state->columns_line, reader->columns, state->num_corners);
 }
 
-/* What lies below the upper corner stays below 1. */
-static double scale(double x, double lower, double upper) {
+double ps_text_scale(double x, double lower, double upper) {
     const double last_inside = 1 - 0x1p-53;
     const double scaled = (x - lower) / (upper - lower);
     return x < upper && scaled >= 1 ? last_inside : scaled;
@@ -176,7 +175,7 @@ static void scale_rows(const ps_point_reader *reader, double *rows, size_t num) 
     for (size_t i = 0; i < num; i++) {
         double *const row = rows + i * reader->columns;
         for (unsigned j = 0; j < state->num_corners; j++) {
-            row[j] = scale(row[j], state->lower[j], state->upper[j]);
+            row[j] = ps_text_scale(row[j], state->lower[j], state->upper[j]);
         }
     }
 }

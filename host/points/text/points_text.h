@@ -20,7 +20,11 @@ typedef struct ps_text_state {
     /* edat: the domain of this set */
     unsigned num_corners; /* coordinates of a corner */
     bool needs_header;    /* the next line is that of the next set */
-    double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION];
+    double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION]; /* of frames, too */
+    /* frames: rows that are to come, and those of the set that are kept */
+    uint64_t rows_left, num_kept;
+    int filter;                 /* the column that --select looks at; -1: none */
+    short axes[PS_MAX_COLUMNS]; /* of the columns that are scaled; -1: as they are */
 } ps_text_state;
 
 typedef enum ps_line_kind { PS_LINE_POINT, PS_LINE_MARK, PS_LINE_BLANK, PS_LINE_NONE } ps_line_kind;
@@ -52,6 +56,12 @@ unsigned ps_text_parse_line(const char *line, double row[PS_MAX_COLUMNS]);
 /* Makes edat the format where the lines at the cursor are its header, and refuses those that could
  * also be points. is_named: the file has the name of one. */
 pspec_status ps_edat_detect(ps_point_reader *reader, bool is_named, ps_error *error) PS_MUST_CHECK;
+
+/* Makes xyz the format where the lines at the cursor begin a frame of it. */
+pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
+
+/* (x - lower) / (upper - lower); what lies below the upper end stays below 1. */
+double ps_text_scale(double x, double lower, double upper);
 
 /* No header, and '#' between sets. */
 void ps_text_begin(ps_point_writer *writer);

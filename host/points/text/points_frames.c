@@ -1,0 +1,216 @@
+#include "points/text/points_frames.h"
+
+#include "points/text/text_fields.h"
+
+#include <string.h>
+
+enum { AXES = 3 };
+
+static void show_place(char place[PS_PLACE_BYTES], const ps_point_reader *reader) {
+    snprintf(place, PS_PLACE_BYTES, "%.440s, line %zu", reader->input.name,
+             ((const ps_text_state *)reader->state)->lines.line_number);
+}
+
+pspec_status ps_frame_line(ps_point_reader *reader, const char **line, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_line_kind kind = PS_LINE_NONE;
+    PS_TRY(ps_text_next_line(state, &kind, error));
+    *line = state->lines.cursor;
+    return kind != PS_LINE_NONE
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: it ends inside set %llu",
+                         reader->input.name, (unsigned long long)reader->num_sets + 1);
+}
+
+/* ---- which columns ----------------------------------------------------------------------- */
+
+/* Number of the field of this name, or -1. */
+static int find_field(const char *names, const char *name, size_t length) {
+    ps_field field;
+    bool is_more = true;
+    for (int i = 0; ps_field_next(&names, ' ', &is_more, &field); i++) {
+        if (field.length == length && strncmp(field.text, name, length) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* The first num of the names "x,y,z". */
+static void shorten(char text[32], const char *names, unsigned num) {
+    size_t length = 0;
+    for (unsigned i = 0; i < num; i++) {
+        length += (i > 0) + strcspn(names + length + (i > 0), ",");
+    }
+    snprintf(text, 32, "%.*s", (int)length, names);
+}
+
+/* Coordinates in units of the box: which axis they are of. */
+static void find_axes(ps_text_state *state, const ps_frame *frame) {
+    const char *name = frame->absolute;
+    for (unsigned i = 0; i < PS_MAX_COLUMNS; i++) {
+        state->axes[i] = -1;
+    }
+    for (int i = 0; frame->has_box && *name != '\0'; i++) {
+        const size_t length = strcspn(name, ",");
+        const int column = find_field(frame->names, name, length);
+        if (column >= 0 && state->header.places[column] >= 0) {
+            state->axes[state->header.places[column]] = (short)(i % AXES);
+        }
+        name += length + (name[length] == ',');
+    }
+}
+
+/* "type=1": rows that have this in the column of that name. */
+static pspec_status find_filter(ps_point_reader *reader, const ps_frame *frame, const char *where,
+                                ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const char *const select = reader->options.select;
+    const size_t length = select != NULL ? strcspn(select, "=") : 0;
+    state->filter = select != NULL ? find_field(frame->names, select, length) : -1;
+    const bool means_filter = length > 0 && (strncmp(select, "type", length) == 0 ||
+                                             strncmp(select, "element", length) == 0);
+    if (state->filter < 0 && means_filter && frame->filter != NULL) {
+        state->filter = find_field(frame->names, frame->filter, strlen(frame->filter));
+    }
+    char shown[PS_TOKEN_BYTES];
+    return select == NULL || state->filter >= 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: --select %s, and the columns are \"%s\"",
+                         where, select,
+                         ps_token_show(shown, frame->names, strcspn(frame->names, "\r\n")));
+}
+
+pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const ps_point_options *const options = &reader->options;
+    const char *wanted = options->column_names;
+    char chosen[32];
+    char where[PS_PLACE_BYTES];
+    show_place(where, reader);
+    if (frame->has_box && options->box_high > options->box_low) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: --box, and the file states the box itself", where);
+    }
+    if (wanted == NULL) {
+        const unsigned told = options->dimension;
+        shorten(chosen, frame->chosen, told > 0 && told < AXES ? told : AXES);
+        wanted = told == 1 ? strcat(chosen, ",") : chosen;
+    }
+    PS_TRY(
+        ps_text_header_read(&state->header, frame->names, frame->row, ' ', wanted, where, error));
+    if (state->header.lacks_name) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %u names of columns, and the row after has %u", where,
+                       state->header.num_columns - 1, state->header.num_columns);
+    }
+    state->header.chooses = true;
+    PS_TRY(find_filter(reader, frame, where, error));
+    find_axes(state, frame);
+    state->rows_left = frame->num_rows;
+    state->num_corners = frame->has_box ? AXES : 0;
+    state->num_kept = 0;
+    return reader->columns == 0 || reader->columns == state->header.num_chosen
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u columns after sets of %u", where,
+                         state->header.num_chosen, reader->columns);
+}
+
+pspec_status ps_frame_open(ps_point_reader *reader, ps_frame_header *header, ps_error *error) {
+    PS_TRY(ps_text_open_lines(reader, ' ', error));
+    PS_TRY(header(reader, error));
+    ps_text_state *const state = reader->state;
+    ps_text_set_columns(reader, state->header.num_chosen);
+    reader->own_columns = ps_columns_meaning(reader->options.column_names);
+    reader->chosen = reader->options.column_names != NULL ? state->header.used : NULL;
+    ps_point_options *const options = &reader->options;
+    const bool is_told = options->columns != NULL || reader->own_columns != NULL ||
+                         options->dimension > 0 || options->lift != PS_NO_LIFT;
+    if (!is_told && state->num_corners > 0) { /* the box tells that they are no vectors */
+        options->dimension =
+            reader->columns - (options->weight_column && options->column_names != NULL);
+    }
+    return PSPEC_OK;
+}
+
+/* ---- rows -------------------------------------------------------------------------------- */
+
+static bool is_selected(const ps_point_reader *reader, const char *line) {
+    const ps_text_state *const state = reader->state;
+    ps_field field = {NULL, 0, false};
+    bool is_more = true;
+    for (int i = 0; i <= state->filter; i++) {
+        ps_field_next(&line, ' ', &is_more, &field);
+    }
+    const char *const value = state->filter >= 0 ? strchr(reader->options.select, '=') + 1 : NULL;
+    return value == NULL ||
+           (field.length == strlen(value) && strncmp(field.text, value, field.length) == 0);
+}
+
+static void scale_row(const ps_text_state *state, unsigned columns, double *row) {
+    for (unsigned i = 0; i < columns; i++) {
+        const int axis = state->axes[i];
+        if (axis >= 0) {
+            row[i] = ps_text_scale(row[i], state->lower[axis], state->upper[axis]);
+        }
+    }
+}
+
+static pspec_status read_row(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    double *const row = out->rows + out->num * reader->columns;
+    const char *line = NULL;
+    char where[PS_PLACE_BYTES];
+    PS_TRY(ps_frame_line(reader, &line, error));
+    if (ps_text_header_row(&state->header, line, ' ', row) == NULL) {
+        show_place(where, reader);
+        return ps_text_header_refuse(&state->header, line, ' ', where, error);
+    }
+    if (is_selected(reader, line)) {
+        scale_row(state, reader->columns, row);
+        out->num++;
+        state->num_kept++;
+    }
+    ps_lines_skip(&state->lines);
+    state->rows_left--;
+    return PSPEC_OK;
+}
+
+/* Behind the last row of a frame: another one, or blank lines and the end. */
+static pspec_status end_frame(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_line_kind kind = PS_LINE_NONE;
+    if (state->num_kept == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: set %llu has no row with %s",
+                       reader->input.name, (unsigned long long)reader->num_sets + 1,
+                       reader->options.select);
+    }
+    PS_TRY(ps_text_next_line(state, &kind, error));
+    while (kind == PS_LINE_BLANK) {
+        ps_lines_skip(&state->lines);
+        PS_TRY(ps_text_next_line(state, &kind, error));
+    }
+    out->end = kind == PS_LINE_NONE ? PS_END_OF_INPUT : PS_END_OF_SET;
+    return PSPEC_OK;
+}
+
+pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out, ps_frame_header *header,
+                           ps_error *error) {
+    ps_text_state *const state = reader->state;
+    if (state->rows_left == 0 && state->num_kept == 0) {
+        PS_TRY(header(reader, error));
+    }
+    reader->first_line = state->filter < 0 ? state->lines.line_number : 0;
+    while (state->rows_left > 0 && out->num < out->capacity) {
+        const pspec_status status = read_row(reader, out, error);
+        if (status != PSPEC_OK) { /* which the next call finds again */
+            return out->num > 0 ? PSPEC_OK : status;
+        }
+    }
+    if (state->rows_left > 0) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = end_frame(reader, out, error);
+    state->num_kept = 0;
+    return status;
+}

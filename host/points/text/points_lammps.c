@@ -1,0 +1,146 @@
+/* Dumps of LAMMPS: items "ITEM: NAME", of which BOX BOUNDS are the box and ATOMS the names of the
+ * columns, before the atoms of every time step. */
+#include "points/text/points_frames.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char item[] = "ITEM: ";
+
+static bool begins(const char *line, const char *text) {
+    return strncmp(line, text, strlen(text)) == 0;
+}
+
+static bool has_word(const char *line, const char *word) {
+    const size_t length = strlen(word);
+    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
+        const size_t token = ps_token_length(line);
+        if (token == length && strncmp(line, word, length) == 0) {
+            return true;
+        }
+        line += token > 0 ? token : 1;
+    }
+    return false;
+}
+
+static pspec_status fail_line(const ps_point_reader *reader, const char *what, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %s", reader->input.name,
+                   ((const ps_text_state *)reader->state)->lines.line_number, what);
+}
+
+static pspec_status read_count(ps_point_reader *reader, uint64_t *count, ps_error *error) {
+    const double most = 1e15; /* counts in doubles are exact */
+    const char *line = NULL;
+    double row[PS_MAX_COLUMNS];
+    PS_TRY(ps_frame_line(reader, &line, error));
+    if (ps_text_parse_line(line, row) != 1 || !(row[0] >= 1 && row[0] <= most) ||
+        row[0] != floor(row[0])) {
+        return fail_line(reader, "this is no number of atoms", error);
+    }
+    *count = (uint64_t)row[0];
+    ps_lines_skip(&((ps_text_state *)reader->state)->lines);
+    return PSPEC_OK;
+}
+
+static pspec_status read_bounds(ps_point_reader *reader, ps_error *error) {
+    enum { AXES = 3 };
+    ps_text_state *const state = reader->state;
+    for (int axis = 0; axis < AXES; axis++) {
+        const char *line = NULL;
+        double row[PS_MAX_COLUMNS];
+        PS_TRY(ps_frame_line(reader, &line, error));
+        if (ps_text_parse_line(line, row) != 2 || !(row[1] > row[0]) ||
+            !isfinite(row[1] - row[0])) {
+            return fail_line(reader, "two bounds of the box should be here, the lower one first",
+                             error);
+        }
+        state->lower[axis] = row[0];
+        state->upper[axis] = row[1];
+        ps_lines_skip(&state->lines);
+    }
+    return PSPEC_OK;
+}
+
+/* The names of the columns are at the cursor. */
+static pspec_status begin_atoms(ps_point_reader *reader, ps_frame *frame, ps_error *error) {
+    static const char *const choices[] = {"xs,ys,zs", "x,y,z", "xsu,ysu,zsu", "xu,yu,zu"};
+    ps_text_state *const state = reader->state;
+    PS_TRY(ps_lines_peek(&state->lines, 1, &frame->row, error));
+    if (frame->row == NULL) {
+        return fail_line(reader, "the file ends before the atoms", error);
+    }
+    frame->names = ps_skip_blanks(state->lines.cursor + sizeof "ITEM: ATOMS" - 1);
+    for (size_t i = 0; i < sizeof choices / sizeof choices[0] && frame->chosen == NULL; i++) {
+        char first[8];
+        snprintf(first, sizeof first, "%.*s", (int)strcspn(choices[i], ","), choices[i]);
+        frame->chosen = has_word(frame->names, first) ? choices[i] : NULL;
+    }
+    if (frame->chosen == NULL && reader->options.column_names == NULL) {
+        return fail_line(reader, "no columns x y z, xs ys zs, xu yu zu or xsu ysu zsu", error);
+    }
+    frame->absolute = "x,y,z,xu,yu,zu";
+    PS_TRY(ps_frame_begin(reader, frame, error));
+    ps_lines_skip(&state->lines);
+    return PSPEC_OK;
+}
+
+static pspec_status read_item(ps_point_reader *reader, ps_frame *frame, bool *is_complete,
+                              ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const char *line = NULL;
+    PS_TRY(ps_frame_line(reader, &line, error));
+    const char *const name = begins(line, item) ? line + sizeof item - 1 : line;
+    const bool is_bounds = name != line && begins(name, "BOX BOUNDS");
+    const bool is_count = name != line && begins(name, "NUMBER OF ATOMS");
+    if (name != line && begins(name, "ATOMS")) {
+        *is_complete = true;
+        return frame->num_rows > 0 && frame->has_box
+                   ? begin_atoms(reader, frame, error)
+                   : fail_line(reader, "atoms before their number and the bounds of the box",
+                               error);
+    }
+    if (is_bounds && (has_word(name, "xy") || has_word(name, "origin"))) {
+        return fail_line(reader,
+                         "a box that is no cuboid (xy xz yz), which is not read; write the atoms "
+                         "of a cuboid box",
+                         error);
+    }
+    if (!is_bounds && !is_count &&
+        (name == line || !(begins(name, "TIME") || begins(name, "UNITS")))) {
+        return fail_line(reader, "an item of a LAMMPS dump should be here (ITEM: TIMESTEP)", error);
+    }
+    ps_lines_skip(&state->lines);
+    if (is_bounds) {
+        frame->has_box = true;
+        return read_bounds(reader, error);
+    }
+    if (is_count) {
+        return read_count(reader, &frame->num_rows, error);
+    }
+    PS_TRY(ps_frame_line(reader, &line, error)); /* a time step, or a word */
+    ps_lines_skip(&state->lines);
+    return PSPEC_OK;
+}
+
+static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
+    ps_frame frame = {.filter = "type"};
+    bool is_complete = false;
+    while (!is_complete) {
+        PS_TRY(read_item(reader, &frame, &is_complete, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status open_lammps(ps_point_reader *reader, ps_error *error) {
+    return ps_frame_open(reader, read_header, error);
+}
+
+static pspec_status read_lammps(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    return ps_frame_read(reader, out, read_header, error);
+}
+
+const ps_point_format ps_format_lammps = {.name = "lammps",
+                                          .magic = "ITEM: ",
+                                          .open = open_lammps,
+                                          .read = read_lammps,
+                                          .close = ps_text_close};
