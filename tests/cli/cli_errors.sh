@@ -322,7 +322,7 @@ refuses 2 'standard input (-) is named 2 times' angular -l 3 - -
 refuses 2 '"npy" is not one of csv, json' devices --format npy
 refuses 2 'no file is read' devices list
 POINTSPEC_DEVICE=quantum refuses 2 'no OpenCL device fits "quantum"' devices
-refuses 2 'no OpenCL device fits "quantum"' plan power --engine host_direct --sampler white --sampler step -n 64 -k 4 --device quantum
+refuses 2 'no OpenCL device fits "quantum"' plan power --engine host_direct --sampler white --sampler step -n 64 -k 4 --device quantum --kept-sets 0
 OCL_ICD_VENDORS=$scratch/none refuses 1 'no OpenCL driver can be found' power --sampler white -n 4 -k 2 # devices: cli_no_device
 
 echo "cli_errors: $checked command lines"

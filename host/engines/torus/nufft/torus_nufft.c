@@ -62,7 +62,7 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
         .bytes_per_realization = (double)layout->bytes_per_realization,
-        .row_bytes = (double)layout->bytes_per_realization,
+        .row_bytes = (double)(layout->stride * layout->real_bytes),
         .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization,
         .takes_blocks = way->takes_one};
 }
