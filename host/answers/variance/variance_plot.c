@@ -186,7 +186,7 @@ static void add_bound(picture *self, size_t curve, size_t panel, quantity which)
     ps_series *const line = add_series(self, curve, panel, which, PS_LOOK_BOUND);
     size_t num = 0;
     for (size_t i = 0; i < line->num; i++) {
-        num += isfinite(line->y[i]);
+        num += isfinite(line->y[i]) ? 1 : 0;
     }
     if (num == 0) {
         self->num_series--;
