@@ -24,12 +24,7 @@ nufft_columns(const powers_numbers numbers, __global const real *restrict grid,
     const size_t realization = get_global_id(2);
     const uint q = in_tiles % (2 * column_K + 1);
     const transform_axis transform = {radices, twiddles, position, gains, n, K};
-    __global const real *from =
-        grid + (realization * get_global_size(1) + in_tiles) * n * (size_t)(2 * LANES);
-    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-        store_complex(column, i, load_global_complex(from, i));
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
+    load_row(column, grid, realization * get_global_size(1) + in_tiles, n);
     write_powers(column, transform,
                  scales[first_row + realization] *
                      column_gains[q >= column_K ? q - column_K : column_K - q],

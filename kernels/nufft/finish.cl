@@ -12,14 +12,6 @@
 #include "nufft/transform/finish.h"
 #include "nufft/numbers.h"
 
-static inline void load_row(__local real *row, __global const real *rows, const size_t index,
-                            const uint n) {
-    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-        store_complex(row, i, load_global_complex(rows, index * n + i));
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-}
-
 __kernel void nufft_finish_tile(const powers_numbers numbers, __global const real *restrict rows,
                                 __global const uint *restrict radices,
                                 __global const real *restrict twiddles,

@@ -93,11 +93,7 @@ nufft_line_columns(const line_numbers numbers, __global const real *restrict gri
     const uint group = get_global_id(1) / (last_K + 1), q = get_global_id(1) % (last_K + 1);
     const size_t first_row = numbers.first_row + group * LANES;
     const transform_axis axis = {radices, twiddles, position, gains, n, K};
-    __global const real *from = grid + get_global_id(1) * n * (size_t)(2 * LANES);
-    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-        store_complex(row, i, load_global_complex(from, i));
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
+    load_row(row, grid, get_global_id(1), n);
     fft_transform(row, 2 * LANES, n, radices, twiddles);
     for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
         const real gain = gains[i >= K ? i - K : K - i] * last_gains[q];

@@ -15,6 +15,15 @@ typedef struct transform_axis {
     uint n, K;
 } transform_axis;
 
+/* Row `index` of rows [n][re, im][LANES]. */
+static inline void load_row(FFT_SPACE real *row, __global const real *rows, const size_t index,
+                            const uint n) {
+    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
+        store_complex(row, i, load_global_complex(rows, index * n + i));
+    }
+    barrier(FFT_FENCE);
+}
+
 /* Frequency 0, in lane 0 of tile 0, is known: mean times pattern[cell][cosine, sine] is what it
  * leaves in the cells. */
 static inline void take_off_mean(FFT_SPACE real *row, const real mean, __global const real *pattern,
