@@ -279,6 +279,12 @@ reads "$square" --columns x,y wide.csv
 reads '0.25 0.5|0.125 0.75' --columns y,x wide.csv
 refuses 'there is no column "z", or it is named twice; the names are "id", "y", "label", "x"' --columns x,z wide.csv
 refuses 'there is no column "x", or it is named twice' --columns x,x wide.csv
+# a list of names ends behind a whole name, of any alphabet
+long=$(printf 'a\u00e9%.0s' {1..50})
+file long.csv "$long,$long,x\n0.5,0.25,0.125\n"
+refuses "the names are \"$long\", and more" --columns x,z long.csv
+file longest.csv "$long$long,x\n0.5,0.25\n"
+refuses 'the names are too long to be shown' --columns x,z longest.csv
 refuses 'a comma in a number; decimals are written with a point' decimals.csv
 refuses 'line 1: 3 names of columns, but the line after it has 2' short.csv
 refuses 'ragged.csv, line 3: 2 columns, where the header names 3' ragged.csv

@@ -39,8 +39,8 @@ void *fuzz_allocate(void *old, size_t count, size_t element_bytes);
 /* A promise was broken: says so and aborts. */
 void fuzz_fail(const char *format, ...) PS_PRINTF(1, 2) __attribute__((noreturn));
 
-/* Whether the words of a message may hold what the input holds: only the command line, whose
- * control characters main() replaces. */
+/* Whether the words of a message may hold any byte of the input: only those of the command line,
+ * whose control characters main() replaces. Others quote text in UTF-8 at most. */
 typedef enum fuzz_quotes { FUZZ_PRINTABLE, FUZZ_QUOTES_INPUT } fuzz_quotes;
 
 /* A status other than PSPEC_OK must be one of those that input can cause, with a sentence. */

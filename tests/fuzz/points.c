@@ -1,7 +1,7 @@
 /* Point files. The first bytes of the input are options, the rest is the file:
  *
  *   0  domain (2 bits), weight column, ignore weights, wrap, normalize, keep angles, whole read by pipe
- *   1  columns: 0 none, else one of PS_POINT_COLUMNS, or behind these numbers of columns,
+ *   1  columns: 0 none, else one of PS_POINT_COLUMNS, or behind these numbers or names of columns,
  *      or behind these a selection
  *   2  dimension (3 bits), blocks by pipe, blocks are kept, the writer is told the counts,
  *      --header or --transpose (2 bits)
@@ -18,8 +18,8 @@ enum { COLUMNS_BYTES = 24 };
 
 /* Number index, counted from 1, of PS_POINT_COLUMNS; NULL for 0. Columns by number come last. */
 static const char *choose_columns(unsigned index, char text[COLUMNS_BYTES], const char **numbers) {
-    static const char *const chosen[] = {"2,1", "1,3,2=phi-theta-w", "4,"};
-    enum { NUM_WORDS = 15, NUM_CHOICES = NUM_WORDS + 3, SELECTION = 0x80 };
+    static const char *const chosen[] = {"2,1", "1,3,2=phi-theta-w", "4,", "y,x"};
+    enum { NUM_WORDS = 15, NUM_CHOICES = NUM_WORDS + 4, SELECTION = 0x80 };
     const char *word = PS_POINT_COLUMNS;
     index = index < SELECTION ? index % NUM_CHOICES : 0;
     *numbers = index >= NUM_WORDS ? chosen[index - NUM_WORDS] : NULL;

@@ -2,6 +2,8 @@
 
 #include "fuzz.h"
 
+#include "base/text.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -65,8 +67,10 @@ void fuzz_check_error(pspec_status status, const ps_error *error, fuzz_quotes qu
     if (error->message[0] == '\0') {
         fuzz_fail("status %d without a sentence", (int)status);
     }
-    for (const char *c = error->message; *c != '\0' && quotes == FUZZ_PRINTABLE; c++) {
-        if (*c < ' ' || *c > '~') {
+    size_t bytes = 0;
+    for (const char *c = error->message; *c != '\0' && quotes == FUZZ_PRINTABLE; c += bytes) {
+        bytes = ps_text_character(c);
+        if (bytes == 0 || strchr("\t\r\n", *c) != NULL) {
             fuzz_fail("byte %d in the sentence: %s", *c, error->message);
         }
     }

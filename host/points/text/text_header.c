@@ -80,10 +80,14 @@ static bool is_index(ps_field token) {
     return is_unnamed(token) || is_named_index(token);
 }
 
+/* As many names as a sentence has room for, none of them cut. */
 static void show_names(ps_text *out, const ps_field *names, unsigned num) {
-    for (unsigned i = 0; i < num; i++) {
+    enum { MOST_BYTES = 300 };
+    unsigned i = 0;
+    for (; i < num && out->length + names[i].length < MOST_BYTES; i++) {
         ps_text_append(out, "%s\"%.*s\"", i > 0 ? ", " : "", (int)names[i].length, names[i].text);
     }
+    ps_text_append(out, "%s", i == num ? "" : i > 0 ? ", and more" : "too long to be shown");
 }
 
 static pspec_status fail_name(const ps_field *names, unsigned num, const char *name, size_t length,
@@ -92,8 +96,8 @@ static pspec_status fail_name(const ps_field *names, unsigned num, const char *n
     show_names(&list, names, num);
     const pspec_status status =
         ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                "%s: there is no column \"%.*s\", or it is named twice; the names are %.300s",
-                where, (int)length, name, ps_text_string(&list));
+                "%s: there is no column \"%.*s\", or it is named twice; the names are %s", where,
+                (int)length, name, ps_text_string(&list));
     ps_text_free(&list);
     return status;
 }
