@@ -43,11 +43,11 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
     }
     PS_TRY(check_domain(request, error));
     PS_TRY(ps_request_check_one_count(request, "and a saved spectrum is of one", error));
-    return request->num_samplers <= 1
+    return request->num_sources <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "one sampler is compared with one saved spectrum, but %zu were given",
-                         request->num_samplers);
+                         request->num_sources);
 }
 
 static void discard(void *computed) {

@@ -59,7 +59,7 @@ static double smallest_p_value(const ps_check_results *results) {
 /* One seed, one sampler: the realizations are those that were saved. */
 static pspec_status add_seed_note(ps_table *table, const ps_request *arguments,
                                   const ps_saved_spectrum *saved, ps_error *error) {
-    return arguments->num_samplers > 0 && saved->has_seed && arguments->seed == saved->seed
+    return arguments->num_sources > 0 && saved->has_seed && arguments->seed == saved->seed
                ? ps_table_add_meta(table, "note",
                                    PS_TEXT("the seed is that of the saved spectrum: realizations "
                                            "of the same sampler are the same, not independent"),
