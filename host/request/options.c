@@ -32,9 +32,8 @@
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
 /* Sets of verbs that many options have: kinds of spectra, those of them on the sphere, kinds that
- * look at point sets, all that read them from files, those that have a curve for each of several, and
- * kinds that have a lobe; commands that try
- * engines, and those whose output is a table. */
+ * look at point sets, all that read them from files, those that have a curve for each of several,
+ * and kinds that have a lobe; commands that try engines, and those whose output is a table. */
 #define BIT PS_VERB_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)

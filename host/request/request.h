@@ -107,7 +107,8 @@ typedef enum ps_option_form {
     PS_FORM_KEY     /* points, in a scene */
 } ps_option_form;
 
-/* Where the points of a curve, or of a group of rows, come from: a sampler, or files under a name. */
+/* Where the points of a curve, or of a group of rows, come from: a sampler, or files under a name.
+ */
 typedef struct ps_source_words {
     const char *sampler;          /* as --sampler has it; NULL: */
     const char *files;            /* those of --set, a list with commas */

@@ -5,8 +5,8 @@
 #include "jobs/quadrature/quadrature_setup.h"
 #include "request/file_list.h"
 
-/* One question for each sampler or set and number of points, or one for the files, as the request counts
- * them. The questions borrow from it, and from here. */
+/* One question for each sampler or set and number of points, or one for the files, as the request
+ * counts them. The questions borrow from it, and from here. */
 typedef struct ps_quadrature_list {
     ps_brdf *brdf;
     size_t num;

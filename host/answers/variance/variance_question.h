@@ -5,8 +5,8 @@
 #include "jobs/variance/variance_job.h"
 #include "request/file_list.h"
 
-/* One question for each sampler or set and number of points, as the request counts them. The questions
- * borrow from it, and from here. */
+/* One question for each sampler or set and number of points, as the request counts them. The
+ * questions borrow from it, and from here. */
 typedef struct ps_variance_list {
     size_t num;
     ps_variance_question *questions; /* [num] */

@@ -1,5 +1,6 @@
 /* The sets of point files whose variance is asked for: the first half of them predicts, the second
- * is measured; where nothing is to be measured all of them predict. A single set is both: nothing of it is random but where it is moved to. */
+ * is measured; where nothing is to be measured all of them predict. A single set is both: nothing
+ * of it is random but where it is moved to. */
 #ifndef PS_JOBS_VARIANCE_VARIANCE_SETS_H
 #define PS_JOBS_VARIANCE_VARIANCE_SETS_H
 

@@ -28,8 +28,8 @@ static ps_variance_trials choose_trials(const ps_variance_job *job) {
                : (ps_variance_trials){false, num, question->num_shifts};
 }
 
-/* Samplers, sets of a request and numbers of points have moves of their own, so that answers beside each other are
- * independent. */
+/* Samplers, sets of a request and numbers of points have moves of their own, so that answers beside
+ * each other are independent. */
 static pspec_status choose_seed(const ps_variance_job *job, uint64_t *seed, ps_error *error) {
     const ps_variance_question *const question = job->question;
     const ps_sampler_request *const sampler = question->spectrum.sampler;
