@@ -12,8 +12,8 @@ static void add(ps_lead *lead, const char *name, ps_cell cell) {
 
 ps_lead ps_lead_make(const ps_request *request, size_t question) {
     ps_lead out = {0};
-    if (request->num_samplers > 1) {
-        add(&out, "sampler", PS_TEXT(ps_request_sampler(request, question)));
+    if (request->num_sources > 1) {
+        add(&out, "sampler", PS_TEXT(ps_request_name(request, question)));
     }
     if (request->num_counts > 1) {
         add(&out, "points", PS_INTEGER(ps_request_points(request, question)));
@@ -31,6 +31,14 @@ void ps_lead_label(const ps_lead *lead, ps_text *out) {
             ps_text_append(out, "N = %lld", (long long)cell->integer);
         }
     }
+}
+
+pspec_status ps_lead_add_source(ps_table *table, const ps_request *request, size_t question,
+                                ps_error *error) {
+    return request->num_sources == 0
+               ? PSPEC_OK
+               : ps_table_add_meta(table, "sampler", PS_TEXT(ps_request_name(request, question)),
+                                   error);
 }
 
 pspec_status ps_lead_create_table(ps_table **out, const char *command, const ps_lead *lead,

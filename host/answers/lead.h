@@ -13,11 +13,17 @@ typedef struct ps_lead {
     ps_cell cells[2]; /* texts borrowed */
 } ps_lead;
 
-/* Of a question of a request: `sampler` where it has several, `points` where it has several numbers
+/* Of a question of a request: `sampler` where it has several samplers or sets,
+ * `points` where it has several numbers
  * of points, of which this is the one that was asked for. */
 ps_lead ps_lead_make(const ps_request *request, size_t question);
 /* The same for people, "jittered, N = 64"; nothing where there is one question. */
 void ps_lead_label(const ps_lead *lead, ps_text *out);
+
+/* The header line `sampler` of a question: the sampler, or the name of the set; none of files
+ * alone. */
+pspec_status ps_lead_add_source(ps_table *table, const ps_request *request, size_t question,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* A table with these columns, then others [num]. */
 pspec_status ps_lead_create_table(ps_table **out, const char *command, const ps_lead *lead,

@@ -121,10 +121,7 @@ static pspec_status add_header(const ps_planner *planner, const ps_request *argu
     ps_table *const table = planner->table;
     const ps_problem *const problem = job->problem;
     const ps_device_limits *const limits = job->limits;
-    const char *const sampler = ps_request_sampler(arguments, index);
-    if (sampler != NULL) {
-        PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(sampler), error));
-    }
+    PS_TRY(ps_lead_add_source(table, arguments, index, error));
     PS_TRY(
         ps_table_add_meta(table, "device", PS_TEXT(limits != NULL ? limits->name : "host"), error));
     PS_TRY(ps_table_add_meta(table, "figures",

@@ -31,17 +31,17 @@ pspec_status ps_points_check_words(const ps_request *request, bool may_be_severa
                        "no input file is read, but %s was given; -o FILE names the output",
                        request->files[0]);
     }
-    if (request->num_samplers == 0) {
+    if (request->num_sources == 0) {
         return fail_without_sampler(error);
     }
     if (may_be_several) {
         return PSPEC_OK;
     }
-    return request->num_samplers == 1
+    return request->num_sources == 1
                ? ps_sample_check_counts(request, error)
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%zu samplers were given; one output holds the points of one",
-                         request->num_samplers);
+                         request->num_sources);
 }
 
 pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,

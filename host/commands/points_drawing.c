@@ -39,8 +39,8 @@ pspec_status ps_points_draw_file(ps_points_picture *picture, const char *path,
 static void write_title(ps_text *title, const ps_points_picture *picture,
                         const ps_request *request) {
     const bool is_of_files = request->num_files > 0;
-    if (picture->num_sets > 1 && !is_of_files && request->num_samplers == 1) {
-        ps_text_append(title, "%s", request->samplers[0]);
+    if (picture->num_sets > 1 && !is_of_files && request->num_sources == 1) {
+        ps_text_append(title, "%s", ps_request_source_name(request, 0));
     } else if (picture->num_sets > 1) {
         ps_text_append(title, "%zu %s", picture->num_sets,
                        is_of_files                ? "files"
@@ -49,7 +49,8 @@ static void write_title(ps_text *title, const ps_points_picture *picture,
     } else if (is_of_files && request->merge && request->num_files > 1) {
         ps_text_append(title, "%zu files, N = %zu", request->num_files, picture->num_points);
     } else {
-        ps_text_append(title, "%s, N = %zu", is_of_files ? request->files[0] : request->samplers[0],
+        ps_text_append(title, "%s, N = %zu",
+                       is_of_files ? request->files[0] : ps_request_source_name(request, 0),
                        picture->num_points);
     }
     if (is_of_files) {

@@ -32,7 +32,7 @@ pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *reques
     ps_phases phases = ps_plan_table_begin_phases(planner);
     const bool is_drawn = ps_request_only_draws(request);
     double bytes = 0; /* of the largest */
-    if (request->num_samplers != 1 && !(is_drawn && request->num_samplers > 0)) {
+    if (request->num_sources != 1 && !(is_drawn && request->num_sources > 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
     if (!is_drawn) {

@@ -74,6 +74,7 @@ typedef struct ps_point_options {
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
     size_t points_per_set; /* of formats that do not say (rps), where 0 means that all is one set;
                                sets of other formats must have so many, unless 0 */
+    bool points_vary;      /* they may have others: the number is that of samplers beside them */
     ps_point_range sets;   /* others are passed over */
     ps_domain domain;      /* what the caller can use */
     bool weight_column;    /* the last column holds the weight */

@@ -238,7 +238,8 @@ static pspec_status fail_empty_set(const ps_point_reader *reader, ps_error *erro
 static pspec_status check_count(const ps_point_reader *reader, bool ends_set, ps_error *error) {
     const size_t wanted = reader->options.points_per_set;
     const size_t there = reader->rows_in_set;
-    if (wanted == 0 || there == wanted || (there < wanted && !ends_set)) {
+    if (wanted == 0 || there == wanted || reader->options.points_vary ||
+        (there < wanted && !ends_set)) {
         return PSPEC_OK;
     }
     return ps_fail(error, PSPEC_ERROR_INPUT,

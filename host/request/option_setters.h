@@ -10,9 +10,9 @@ ps_option_setter ps_set_flag, ps_set_text, ps_add_text, ps_set_count, ps_set_poi
     ps_set_range, ps_set_word, ps_set_positive, ps_set_share;
 
 ps_option_setter ps_set_nothing, ps_set_dimension, ps_set_max_frequency, ps_set_max_degree,
-    ps_set_smoothness, ps_set_plot_log, ps_set_plot_range, ps_set_bins, ps_set_box, ps_set_columns,
-    ps_set_select, ps_set_weights, ps_set_weight_sum, ps_set_domain, ps_set_lift, ps_set_morph,
-    ps_set_normalize, ps_set_precision, ps_set_false_alarm_rate, ps_set_fit, ps_set_bounds,
-    ps_set_rates;
+    ps_set_smoothness, ps_set_plot_log, ps_set_plot_range, ps_add_sampler, ps_add_set, ps_set_bins,
+    ps_set_box, ps_set_columns, ps_set_select, ps_set_weights, ps_set_weight_sum, ps_set_domain,
+    ps_set_lift, ps_set_morph, ps_set_normalize, ps_set_precision, ps_set_false_alarm_rate,
+    ps_set_fit, ps_set_bounds, ps_set_rates;
 
 #endif

@@ -32,21 +32,22 @@
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
 /* Sets of verbs that many options have: kinds of spectra, those of them on the sphere, kinds that
- * look at point sets, all that read them from files, and kinds that have a lobe; commands that try
- * engines, and those whose output is a table. */
+ * look at point sets, all that read them from files, those that have a curve for each of several,
+ * and kinds that have a lobe; commands that try engines, and those whose output is a table. */
 #define BIT PS_VERB_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
 #define SETS (SPECTRA | BIT(quadrature) | BIT(check))
 #define READERS (SETS | BIT(variance))
 #define LOBES (BIT(quadrature) | BIT(truncation))
+#define SERIES (SPECTRA | BIT(quadrature) | BIT(variance))
 #define ENGINES READERS
 #define PICTURES (SPECTRA | LOBES | BIT(variance))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
 
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
- * one counts, but for --sampler. */
+ * one counts, but for --sampler, --set and --integrand. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
         {NAMED("points", 'n', "N"), OF(ENGINES | BIT(sample), BIT(convert)),
@@ -77,8 +78,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
                            OF(ENGINES | BIT(sample), 0),
-                           .help = "what makes the points, see Samplers",
-                           TEXTS(samplers, PS_MAX_SAMPLERS)},
+                           .help = "what makes the points, see Samplers", .set = ps_add_sampler,
+                           .maximum = PS_MAX_SAMPLERS},
+    [PS_OPTION_SET] = {NAMED("set", 0, "NAME=FILES"), OF(0, SERIES),
+                       .help =
+                           "points of files, with commas or patterns as in bnot=b1.dat,b2*.dat: "
+                           "realizations of one average, a curve NAME beside those of samplers",
+                       .set = ps_add_set, .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
                              .help = "what is integrated, see Integrands",
                              TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},

@@ -6,10 +6,13 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
 }
 
-/* Options that are about the other kind of source. */
+/* Options that are about the other kind of source, where there is but one kind. */
 static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
-    const bool are_files = arguments->num_files > 0;
+    const bool are_files = ps_request_has_files(arguments);
     const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
+    if (are_files && ps_request_has_samplers(arguments)) {
+        return PSPEC_OK;
+    }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         const bool is_of_both = id == PS_OPTION_SEED && (arguments->frequencies.per_ring > 0 ||
                                                          arguments->num_integrands > 0);
@@ -48,9 +51,23 @@ pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *erro
                : PSPEC_OK;
 }
 
+pspec_status ps_sources_check(const ps_request *arguments, const char *what, ps_error *error) {
+    if (arguments->num_sources == 0 && arguments->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: name point files (- for standard input) or a --sampler", what);
+    }
+    return arguments->num_sources == 0 || arguments->num_files == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s does not go with %s: points come from one of them; --set NAME=FILES "
+                         "names files whose points stand beside those of samplers",
+                         ps_request_has_samplers(arguments) ? "--sampler" : "--set",
+                         arguments->files[0]);
+}
+
 pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_other_source(arguments, error));
-    if (arguments->num_samplers == 0) {
+    if (ps_request_has_files(arguments) || arguments->num_sources == 0) {
         PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
     }
     return check_lift(arguments, error);
@@ -61,6 +78,7 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
     options.dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0;
     options.points_per_set =
         arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->counts[0] : 0;
+    options.points_vary = ps_request_has_samplers(arguments);
     options.memory_limit = arguments->limits.constraints.memory_limit;
     return options;
 }

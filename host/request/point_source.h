@@ -25,6 +25,11 @@ pspec_status ps_sample_check_counts(const ps_request *arguments, ps_error *error
 /* Refuses weights of a file for several numbers of points. */
 pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
 
+/* Refuses questions about no points, and files without a name beside samplers and sets; what:
+ * "nothing to take a spectrum of". */
+pspec_status ps_sources_check(const ps_request *arguments, const char *what,
+                              ps_error *error) PS_MUST_CHECK;
+
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_request *arguments);
 /* Refuses options about the other of samplers and files, several numbers of points of files, and

@@ -17,19 +17,6 @@ const ps_request ps_request_default = {
     .smoothness = 1.5,
     .command_line = ""};
 
-size_t ps_request_num_questions(const ps_request *request) {
-    const size_t num_sources = request->num_samplers > 0 ? request->num_samplers : 1;
-    return num_sources * request->num_counts;
-}
-
-const char *ps_request_sampler(const ps_request *request, size_t question) {
-    return request->num_samplers > 0 ? request->samplers[question / request->num_counts] : NULL;
-}
-
-uint64_t ps_request_points(const ps_request *request, size_t question) {
-    return request->counts[question % request->num_counts];
-}
-
 pspec_status ps_request_check_one_count(const ps_request *request, const char *why,
                                         ps_error *error) {
     return request->num_counts == 1

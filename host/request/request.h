@@ -18,7 +18,7 @@
 #include <stdint.h>
 
 /* The doubles of 1 up to the largest N are 34 numbers. */
-enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64, PS_MAX_INTEGRANDS = 16 };
+enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64, PS_MAX_INTEGRANDS = 16, PS_SET_NAME_BYTES = 64 };
 
 typedef enum ps_option_id {
     PS_OPTION_POINTS,            /* -n, --points N,..|N..M */
@@ -27,6 +27,7 @@ typedef enum ps_option_id {
     PS_OPTION_DIMENSION,         /* -d, --dimension D */
     PS_OPTION_SEED,              /* -s, --seed S */
     PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_SET,               /* --set NAME=FILES, repeatable */
     PS_OPTION_INTEGRAND,         /* --integrand NAME[:key=value,...] */
     PS_OPTION_SHIFTS,            /* --shifts S */
     PS_OPTION_IN_PLACE,          /* --in-place */
@@ -106,6 +107,14 @@ typedef enum ps_option_form {
     PS_FORM_KEY     /* points, in a scene */
 } ps_option_form;
 
+/* Where the points of a curve, or of a group of rows, come from: a sampler, or files under a name.
+ */
+typedef struct ps_source_words {
+    const char *sampler;          /* as --sampler has it; NULL: */
+    const char *files;            /* those of --set, a list with commas */
+    char name[PS_SET_NAME_BYTES]; /* of these */
+} ps_source_words;
+
 typedef struct ps_request {
     bool is_given[PS_NUM_OPTIONS];        /* which options were said */
     ps_option_form forms[PS_NUM_OPTIONS]; /* of those */
@@ -114,8 +123,8 @@ typedef struct ps_request {
     uint64_t num_realizations;            /* 1 unless given */
     unsigned dimension;                   /* 2 unless given, 1..6 */
     uint64_t seed;                        /* 1 unless given */
-    size_t num_samplers;
-    const char *samplers[PS_MAX_SAMPLERS];
+    size_t num_sources; /* samplers and sets, as they were said; 0: the points are those of files */
+    ps_source_words sources[PS_MAX_SAMPLERS];
     size_t num_integrands;
     const char *integrands[PS_MAX_INTEGRANDS];
     uint64_t num_shifts; /* 1 unless given */
@@ -162,10 +171,17 @@ typedef struct ps_request {
 /* Nothing was said. */
 extern const ps_request ps_request_default;
 
-/* A request asks a question of each sampler, or of its files, with each number of points. */
+/* A request asks a question of each source, or of its files, with each number of points. */
 size_t ps_request_num_questions(const ps_request *request);
 /* The sampler of a question; NULL: files. */
 const char *ps_request_sampler(const ps_request *request, size_t question);
+/* What tables and pictures call a source: the sampler as it was said, or the name of the set. */
+const char *ps_request_source_name(const ps_request *request, size_t source);
+/* That of the source of a question; NULL: the files of the request. */
+const char *ps_request_name(const ps_request *request, size_t question);
+/* Are there samplers, and files in sets or alone? */
+bool ps_request_has_samplers(const ps_request *request);
+bool ps_request_has_files(const ps_request *request);
 uint64_t ps_request_points(const ps_request *request, size_t question);
 /* Refuses several numbers of points; why: "and one output holds sets of one". */
 pspec_status ps_request_check_one_count(const ps_request *request, const char *why,

@@ -1,6 +1,8 @@
 /* Which files a request reads, and which it writes. */
+#include "request/file_list.h"
 #include "request/options.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* The texts of the option in the request; *num is 0 where it was not given. */
@@ -51,6 +53,34 @@ size_t ps_request_outputs(ps_request_file out[PS_NUM_OPTIONS], const ps_request 
     return num;
 }
 
+static pspec_status visit_list(const ps_file_list *list, const char *shown,
+                               ps_request_visit_input *visit, void *payload, ps_error *error) {
+    for (size_t i = 0; i < list->num; i++) {
+        ps_request_file input = {.path = list->paths[i]};
+        snprintf(input.option.text, sizeof input.option.text, "%s", shown);
+        PS_TRY(visit(payload, &input, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Files of sets, and those without an option. */
+static pspec_status visit_points(const ps_request *request, ps_request_visit_input *visit,
+                                 void *payload, ps_error *error) {
+    const ps_shown_option set = ps_option_show(request, PS_OPTION_SET);
+    const ps_file_list alone = {.num = request->num_files, .paths = request->files};
+    for (size_t i = 0; i < request->num_sources; i++) {
+        ps_file_list list;
+        pspec_status status =
+            ps_file_list_of_question(&list, request, i * request->num_counts, error);
+        if (status == PSPEC_OK) {
+            status = visit_list(&list, set.text, visit, payload, error);
+        }
+        ps_file_list_free(&list);
+        PS_TRY(status);
+    }
+    return visit_list(&alone, "the input", visit, payload, error);
+}
+
 pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
                                      void *payload, ps_error *error) {
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
@@ -58,9 +88,5 @@ pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit
             PS_TRY(visit_option(request, (ps_option_id)id, visit, payload, error));
         }
     }
-    for (size_t i = 0; i < request->num_files; i++) {
-        const ps_request_file input = {{"the input"}, request->files[i]};
-        PS_TRY(visit(payload, &input, error));
-    }
-    return PSPEC_OK;
+    return visit_points(request, visit, payload, error);
 }

@@ -107,6 +107,56 @@ runs 0 "${host[@]}" --against even.json --sampler white-hemisphere -m 5
 runs 0 "${host[@]}" --against one.json --sampler hammersley
 refuses 'save at least 2 realizations' --against one.json --sampler white
 
+# ---- two saved spectra: nothing is computed ----
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 30 -k 12 -s 7 -o again.json
+"$program" power "${host[@]}" --sampler white -n 64 -m 30 -k 12 -s 7 -o white.jsonl
+runs 0 --against saved.json again.json
+[[ $(key verdict) == same && $(key different) == "0 of 12 rings" && $(key measured) == again.json && $(key against) == saved.json &&
+    $(key realizations) == 30 && $(key saved_realizations) == 40 && $(key points) == 64 && $(key engine) == none && $(rows) == 13 ]] ||
+    complain "two saved: $(<out)"
+# the same numbers as where the other side is measured anew, but for the digits of the error bounds
+grep -v '^#' out >of_files
+runs 0 "${host[@]}" --against saved.json --sampler jittered -m 30 -s 7
+grep -v '^#' out | cmp -s - of_files || complain "measured and saved: $(diff of_files <(grep -v '^#' out))"
+runs 3 --against saved.json white.jsonl -o both.csv
+says 'not the spectrum of "saved.json"'
+says 'ring 1 (power '
+grep -q '^# verdict: different' both.csv || complain "different: $(<both.csv)"
+runs 0 --against saved.json saved.json
+[[ $(key note) == *"not independent"* && $(column z_score 3) == 0 && $(column p_value 12) == 1 ]] || complain "itself: $(<out)"
+for of in shells bins sphere even one; do
+    runs 0 --against $of.json $of.json
+    [[ $(column z_score 1) == 0 ]] || complain "$of itself: $(<out)"
+done
+"$program" plan check --against saved.json again.json >planned.txt 2>err || complain "plan: $(<err)"
+[[ $(<planned.txt) == *'both spectra were saved'* && $(grep -c ',chosen,' planned.txt) == 1 ]] || complain "plan: $(<planned.txt)"
+# two of files are the same, too, in gzip as well
+gzip -kf again.json
+runs 0 --against saved.json again.json.gz
+# other kinds and frequencies: one sentence
+kinds='spectra of two kinds are not compared'
+refuses '"sphere.json" has degrees of the sphere up to 10, normalization power, and "saved.json" has rings of the torus in 2 dimensions up to 12, normalization power: '"$kinds" \
+    --against saved.json sphere.json
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 9 -k 11 -o fewer.json
+refuses 'up to 11, normalization power, and' --against saved.json fewer.json
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 9 -k 12 --normalize effective -o effective.json
+refuses 'normalization effective, and' --against saved.json effective.json
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 9 -k 12 --bins floor -o floor.json
+refuses 'rings by floor of the torus in 2 dimensions' --against saved.json floor.json
+"$program" power "${host[@]}" --sampler white -d 4 -n 32 -m 20 -k 5 --per-ring 8 -s 6 -o other_subset.json
+refuses '8 of every ring by the seed 6' --against subset.json other_subset.json
+runs 0 --against subset.json subset.json
+refuses 'even degrees of the hemisphere' --against sphere.json even.json
+"$program" power "${host[@]}" --sampler jittered -n 81 -m 9 -k 12 -o larger.json
+refuses 'the sets of "larger.json" have 81 points, those of "saved.json" have 64; spectra change' --against saved.json larger.json
+sed '/^    {"bin": 5, /d' again.json >bad.json
+refuses '"bad.json" and "saved.json" do not have the same rings: the first that differs is number 5, of 11 and 12' --against saved.json bad.json
+refuses '-m does not go with two saved spectra' --against saved.json again.json -m 4
+refuses '--box does not go with two saved spectra' --against saved.json again.json --box 0,1
+refuses '--engine does not go with two saved spectra' "${host[@]}" --against saved.json again.json
+head -c 300 again.json >bad.json
+refuses 'no JSON at byte' --against saved.json bad.json
+
 # ---- what is refused ----
 refuses '--against FILE, the saved spectrum, or --homogeneous is needed' sets.txt
 refuses 'nothing to take a spectrum of' --against saved.json

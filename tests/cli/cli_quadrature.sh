@@ -203,7 +203,7 @@ fi
 
 refuses '--brdf NAME is needed' "${fibonacci[@]}"
 refuses 'no rule' --brdf diffuse
-refuses 'not from both' --brdf diffuse "${fibonacci[@]}" morphed.txt
+refuses 'points come from one of them' --brdf diffuse "${fibonacci[@]}" morphed.txt
 refuses 'points of the whole sphere' --sampler fibonacci -n 16 --brdf diffuse
 refuses 'points of the torus' --sampler white -n 16 --brdf diffuse
 refuses 'is not between 1 and 2' "${fibonacci[@]}" --brdf diffuse --smoothness 2.5

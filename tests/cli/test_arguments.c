@@ -98,9 +98,9 @@ static void every_option_finds_its_field(void **state) {
     assert_int_equal(l.arguments.num_realizations, 3);
     assert_int_equal(l.arguments.dimension, 4);
     assert_true(l.arguments.seed == UINT64_MAX);
-    assert_int_equal(l.arguments.num_samplers, 2);
-    assert_string_equal(l.arguments.samplers[0], "a");
-    assert_string_equal(l.arguments.samplers[1], "b:c=d");
+    assert_int_equal(l.arguments.num_sources, 2);
+    assert_string_equal(l.arguments.sources[0].sampler, "a");
+    assert_string_equal(l.arguments.sources[1].sampler, "b:c=d");
     assert_int_equal(l.arguments.frequencies.max_frequency, 1 << 28);
     assert_true(l.arguments.accuracy.tolerance == 0.5 && l.arguments.accuracy.floor == 1e-4);
     assert_int_equal(l.arguments.limits.constraints.precision, 1);
@@ -336,7 +336,7 @@ static void many_samplers_fit_and_one_more_does_not(void **state) {
     }
     assert_int_equal(ps_arguments_parse(&arguments, &large, PS_MAX_SAMPLERS, words, &error),
                      PSPEC_OK);
-    assert_int_equal(arguments.num_samplers, PS_MAX_SAMPLERS);
+    assert_int_equal(arguments.num_sources, PS_MAX_SAMPLERS);
     ps_arguments_free(&arguments);
     assert_int_equal(ps_arguments_parse(&arguments, &large, PS_MAX_SAMPLERS + 1, words, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);

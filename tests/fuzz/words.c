@@ -131,7 +131,7 @@ static void check_ranges(const ps_command *command, const ps_request *a, int num
                          a->accuracy.tolerance <= 1 && a->accuracy.floor >= 0 &&
                          isfinite(a->accuracy.floor) && a->limits.constraints.precision >= -1 &&
                          a->limits.constraints.precision <= MOST_PRECISION &&
-                         a->num_samplers <= PS_MAX_SAMPLERS && a->num_files <= (size_t)num_words;
+                         a->num_sources <= PS_MAX_SAMPLERS && a->num_files <= (size_t)num_words;
     if (!is_good) {
         fuzz_fail("%s: a value outside its limits", command->name);
     }

@@ -209,9 +209,9 @@ static void assert_same_request(const ps_request *a, const ps_request *b) {
     assert_true(a->weights.kind == b->weights.kind &&
                 is_same_text(a->weights.path, b->weights.path) &&
                 is_same_text(a->limits.constraints.engine, b->limits.constraints.engine));
-    assert_int_equal(a->num_samplers, b->num_samplers);
-    for (size_t i = 0; i < a->num_samplers; i++) {
-        assert_string_equal(a->samplers[i], b->samplers[i]);
+    assert_int_equal(a->num_sources, b->num_sources);
+    for (size_t i = 0; i < a->num_sources; i++) {
+        assert_string_equal(ps_request_source_name(a, i), ps_request_source_name(b, i));
     }
     assert_int_equal(a->num_files, b->num_files);
     for (size_t i = 0; i < a->num_files; i++) {

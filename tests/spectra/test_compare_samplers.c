@@ -2,7 +2,7 @@
  * what it refuses. */
 #include "harness_public.h"
 
-#include "answers/check/saved_spectrum.h"
+#include "answers/check/check_sides.h"
 #include "test_samplers.h"
 
 #include <math.h>
@@ -193,6 +193,34 @@ static void deterministic_sets(void **state) {
 
 /* ---- files of the library, as the program reads them ---------------------------------------- */
 
+/* Two files of the library, one of which is the other with 100 times the power in one shell. */
+static void compare_with_itself(ps_saved_spectrum *saved, const char *path) {
+    enum { MOST_BINS = 64, LOUD = 2 };
+    ps_comparison rows[MOST_BINS];
+    ps_saved_bin bins[MOST_BINS];
+    ps_saved_spectrum louder = *saved;
+    const ps_check_side first = {saved, path};
+    const ps_check_side second = {&louder, path};
+    ps_error error;
+    assert_true(ps_saved_spectrum_is_one(path) && saved->num_bins <= MOST_BINS);
+    assert_true(saved->modes == 80 && saved->sample_size == 16);
+    memcpy(bins, saved->bins, saved->num_bins * sizeof *bins);
+    louder.bins = bins;
+    bins[LOUD].power *= 100;
+    assert_int_equal(ps_check_same_kind(&first, &second, &error), PSPEC_OK);
+    assert_int_equal(ps_check_compare(rows, &first, &second, rate, &error), PSPEC_OK);
+    for (size_t b = 0; b < saved->num_bins; b++) {
+        assert_true(saved->bins[b].num_computed == saved->bins[b].count);
+        assert_int_equal(rows[b].differs, b == LOUD);
+        assert_true(b == LOUD ? rows[b].score > 3 : rows[b].p_value == 1);
+    }
+    bins[LOUD].frequency += 1;
+    assert_int_equal(ps_check_compare(rows, &first, &second, rate, &error), PSPEC_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "the first that differs is number 3"));
+    louder.max_frequency++;
+    assert_int_equal(ps_check_same_kind(&first, &second, &error), PSPEC_ERROR_INPUT);
+}
+
 static void saved_files(void **state) {
     (void)state;
     char path[] = "/tmp/pointspec-test-XXXXXX";
@@ -218,6 +246,7 @@ static void saved_files(void **state) {
         assert_true(saved.bins[b].key == bins[b].bin && saved.bins[b].power == bins[b].power);
         assert_true(saved.bins[b].standard_error == bins[b].standard_error);
     }
+    compare_with_itself(&saved, path);
     ps_saved_spectrum_free(&saved);
     pspec_spectrum_destroy(spectrum);
     static const int32_t list[] = {1, 0, 2, 1};

@@ -10,12 +10,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The saved spectrum, and the measured one. */
+/* The saved spectrum, and the measured one, which may have been saved, too. */
 typedef struct checked {
-    ps_saved_spectrum saved;
+    ps_saved_spectrum saved, measured;
     ps_request own; /* what is asked of the measured side */
     ps_question_list list;
-    ps_power_job *job;
+    ps_power_job *job;   /* NULL: nothing is measured */
     ps_comparison *rows; /* [saved.num_bins] */
     /* Where that is asked instead, and the others are not there; else NULL. */
     ps_homogeneity *homogeneity;
@@ -33,6 +33,27 @@ static pspec_status check_domain(const ps_request *request, ps_error *error) {
     return PSPEC_OK;
 }
 
+static bool are_both_saved(const ps_request *request) {
+    return request->against != NULL && request->num_sources == 0 && request->num_files == 1 &&
+           ps_saved_spectrum_is_one(request->files[0]);
+}
+
+/* Options about points and how they are computed with. */
+static pspec_status check_both(const ps_request *request, ps_error *error) {
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        const bool is_of_points = ps_options[id].source != PS_OF_BOTH || id == PS_OPTION_POINTS ||
+                                  id == PS_OPTION_WEIGHTS || id == PS_OPTION_ENGINE;
+        if (request->is_given[id] && is_of_points) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "%s does not go with two saved spectra, \"%s\" and \"%s\": nothing is "
+                           "computed",
+                           ps_option_show(request, (ps_option_id)id).text, request->files[0],
+                           request->against);
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     if (request->homogeneous) {
         return ps_homogeneity_check(request, error);
@@ -42,12 +63,15 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
                        "--against FILE, the saved spectrum, or --homogeneous is needed");
     }
     PS_TRY(check_domain(request, error));
+    if (are_both_saved(request)) {
+        return check_both(request, error);
+    }
     PS_TRY(ps_request_check_one_count(request, "and a saved spectrum is of one", error));
-    return request->num_samplers <= 1
+    return request->num_sources <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "one sampler is compared with one saved spectrum, but %zu were given",
-                         request->num_samplers);
+                         request->num_sources);
 }
 
 static void discard(void *computed) {
@@ -59,8 +83,17 @@ static void discard(void *computed) {
     ps_power_job_destroy(check->job);
     ps_questions_free(&check->list);
     ps_saved_spectrum_free(&check->saved);
+    ps_saved_spectrum_free(&check->measured);
     free(check->rows);
     free(check);
+}
+
+static pspec_status read_other(checked *check, const ps_request *request, ps_error *error) {
+    const ps_check_side saved = {&check->saved, request->against};
+    const ps_check_side other = {&check->measured, request->files[0]};
+    check->own = *request;
+    PS_TRY(ps_saved_spectrum_read(&check->measured, other.path, error));
+    return ps_check_same_kind(&saved, &other, error);
 }
 
 /* Reads the saved spectrum and finds out what it asks of the measured side. *out is for discard,
@@ -70,8 +103,16 @@ static pspec_status ask(checked **out, const ps_request *request, ps_error *erro
     PS_TRY(PS_NEW(out, 1, "a check", error));
     checked *const check = *out;
     PS_TRY(ps_saved_spectrum_read(&check->saved, request->against, error));
+    if (are_both_saved(request)) {
+        return read_other(check, request, error);
+    }
     check->own = ps_check_request(request, &check->saved);
     return ps_check_question_make(&check->list, &check->own, &check->saved, error);
+}
+
+static pspec_status plan_nothing(ps_planner *planner, ps_error *error) {
+    const ps_phases phases = ps_plan_table_begin_phases(planner);
+    return ps_plan_table_add_host(planner, &phases, 0, "both spectra were saved", error);
 }
 
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
@@ -81,7 +122,9 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     }
     pspec_status status = ask(&check, request, error);
     if (status == PSPEC_OK) {
-        status = ps_spectra_plan_list(planner, &check->own, &check->list, error);
+        status = are_both_saved(request)
+                     ? plan_nothing(planner, error)
+                     : ps_spectra_plan_list(planner, &check->own, &check->list, error);
     }
     discard(check);
     return status;
@@ -89,110 +132,10 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-typedef struct range_text {
-    char text[48];
-} range_text;
-
-/* "64", or "61 to 69" */
-static range_text show_range(uint64_t smallest, uint64_t largest) {
-    range_text out;
-    if (smallest == largest) {
-        snprintf(out.text, sizeof out.text, "%llu", (unsigned long long)smallest);
-    } else {
-        snprintf(out.text, sizeof out.text, "%llu to %llu", (unsigned long long)smallest,
-                 (unsigned long long)largest);
-    }
-    return out;
-}
-
-/* Sets of a sampler whose numbers of points vary have the same spectrum wherever in their range. */
-static pspec_status check_points(const ps_saved_spectrum *saved, const ps_spectrum *measured,
-                                 const char *path, ps_error *error) {
-    return saved->smallest_points <= measured->largest_points &&
-                   measured->smallest_points <= saved->largest_points
-               ? PSPEC_OK
-               : ps_fail(
-                     error, PSPEC_ERROR_INPUT,
-                     "these sets have %s points, those of \"%s\" have %s; spectra change with the "
-                     "number of points (-n says how files without it are cut)",
-                     show_range(measured->smallest_points, measured->largest_points).text, path,
-                     show_range(saved->smallest_points, saved->largest_points).text);
-}
-
-/* Do the rows of the file tell of these frequencies? Its digits are all there, but the order of a
- * sum may be another. */
-static pspec_status check_frequency(const ps_saved_bin *saved, const ps_spectrum_bin *measured,
-                                    const char *path, const char *name, ps_error *error) {
-    const double rounding = 1e-9;
-    if (fabs(saved->frequency - measured->frequency) > rounding * measured->frequency) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "\"%s\": %s %lld has the frequency %.10g, which cannot be: it is %.10g",
-                       path, name, (long long)saved->key, saved->frequency, measured->frequency);
-    }
-    return saved->count == 0 || saved->count == measured->count
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "\"%s\": %s %lld has the count %llu, which cannot be: there are %llu "
-                         "frequencies",
-                         path, name, (long long)saved->key, (unsigned long long)saved->count,
-                         (unsigned long long)measured->count);
-}
-
-static pspec_status check_bins(const ps_saved_spectrum *saved, const ps_spectrum *measured,
-                               const char *path, ps_error *error) {
-    const char *const name = ps_check_bin_name(saved);
-    for (size_t b = 0; b < measured->num_bins; b++) {
-        if (b >= saved->num_bins || saved->bins[b].key != measured->bins[b].key) {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "\"%s\" lacks %s %lld, or what comes before it is out of place", path,
-                           name, (long long)measured->bins[b].key);
-        }
-        PS_TRY(check_frequency(&saved->bins[b], &measured->bins[b], path, name, error));
-    }
-    return saved->num_bins == measured->num_bins
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "\"%s\" has %zu %ss, but up to %d there are %zu",
-                         path, saved->num_bins, name, (int)saved->max_frequency,
-                         measured->num_bins);
-}
-
-/* The unit is taken to be that of the measured sets on both sides. */
-static void make_sides(ps_compared *saved_side, ps_compared *measured_side,
-                       const ps_saved_spectrum *saved, const ps_power_job *job) {
-    const ps_spectrum *const measured = ps_power_job_spectrum(job);
-    const double modes = ps_compared_modes(&measured->frequencies);
-    const double unit = ps_compared_unit(saved->normalization, measured->mean_points,
-                                         measured->sample_size.mean, measured->smallest_points);
-    for (size_t b = 0; b < measured->num_bins; b++) {
-        const ps_saved_bin *const x = &saved->bins[b];
-        const ps_spectrum_bin *const y = &measured->bins[b];
-        const double share = (double)y->num_computed / modes;
-        const double error = ps_power_job_accuracy(job)->error;
-        saved_side[b] = (ps_compared){x->power, x->standard_error,
-                                      ps_compared_error(x->power, saved->error, share, unit)};
-        measured_side[b] = (ps_compared){y->power, y->standard_error,
-                                         ps_compared_error(y->power, error, share, unit)};
-    }
-}
-
-static pspec_status compare(ps_comparison *rows, const ps_request *request,
-                            const ps_saved_spectrum *saved, const ps_power_job *job,
-                            ps_error *error) {
-    ps_compared *sides = NULL;
-    const size_t num = saved->num_bins;
-    PS_TRY(ps_allocate_for(&sides, num, 2 * sizeof(ps_compared), "bins to compare", error));
-    make_sides(sides, sides + num, saved, job);
-    const pspec_status status =
-        ps_compare(rows, num, sides, saved->num_realizations, sides + num,
-                   ps_power_job_spectrum(job)->num_realizations, request->false_alarm_rate, error);
-    free(sides);
-    return status;
-}
-
 /* The bins that differ most. */
 static void append_worst(ps_text *text, const ps_check_results *results) {
     enum { MOST_NAMED = 3 };
-    const ps_spectrum *const measured = ps_power_job_spectrum(results->job);
+    const ps_saved_spectrum *const measured = results->measured;
     size_t named[MOST_NAMED];
     size_t num = 0;
     while (num < MOST_NAMED && num < results->num_different) {
@@ -255,20 +198,24 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     const pspec_status asked = ask(&check, request, error);
     *out = check;
     PS_TRY(asked);
-    PS_TRY(ps_spectra_run_one(&check->job, &check->list.questions[0], hooks, error));
-    const ps_saved_spectrum *const saved = &check->saved;
-    const ps_spectrum *const measured = ps_power_job_spectrum(check->job);
-    PS_TRY(check_points(saved, measured, request->against, error));
-    PS_TRY(check_bins(saved, measured, request->against, error));
-    PS_TRY(PS_NEW(&check->rows, saved->num_bins, "compared bins", error));
-    return compare(check->rows, request, saved, check->job, error);
+    const bool is_measured = check->list.num > 0;
+    const ps_check_side saved = {&check->saved, request->against};
+    const ps_check_side other = {&check->measured, is_measured ? NULL : request->files[0]};
+    if (is_measured) {
+        PS_TRY(ps_spectra_run_one(&check->job, &check->list.questions[0], hooks, error));
+        PS_TRY(ps_check_measured(&check->measured, check->job, error));
+    } else {
+        ps_answer_begin_next(hooks);
+    }
+    PS_TRY(PS_NEW(&check->rows, check->saved.num_bins, "compared bins", error));
+    return ps_check_compare(check->rows, &saved, &other, request->false_alarm_rate, error);
 }
 
 /* The table is there whatever the verdict. */
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const checked *const check = computed;
-    ps_check_results results = {&check->saved, check->job, check->rows, 0};
+    ps_check_results results = {&check->saved, &check->measured, check->job, check->rows, 0};
     if (check->homogeneity != NULL) {
         return ps_homogeneity_tabulate(out, check->homogeneity, error);
     }

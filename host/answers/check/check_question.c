@@ -12,7 +12,7 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
     own.frequencies.bins = saved->bin_rule;
     own.frequencies.per_ring = saved->per_ring;
     own.normalization = saved->normalization;
-    if (arguments->num_samplers == 0) {
+    if (arguments->num_sources == 0) {
         return own;
     }
     if (!arguments->is_given[PS_OPTION_POINTS]) {

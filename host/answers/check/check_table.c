@@ -19,14 +19,10 @@ static const char *const torus_columns[] = {"bin",
                                             "verdict"};
 enum { NUM_COLUMNS = sizeof torus_columns / sizeof torus_columns[0] };
 
-const char *ps_check_bin_name(const ps_saved_spectrum *saved) {
-    return saved->on_sphere ? "degree" : ps_bin_rule_noun(&saved->bin_rule);
-}
-
 /* first: of the columns above that the table has. */
 static pspec_status add_rows(ps_table *table, const ps_check_results *results, size_t first,
                              ps_error *error) {
-    const ps_spectrum *const measured = ps_power_job_spectrum(results->job);
+    const ps_saved_spectrum *const measured = results->measured;
     for (size_t b = 0; b < measured->num_bins; b++) {
         const ps_comparison *const row = &results->rows[b];
         const ps_saved_bin *const saved = &results->saved->bins[b];
@@ -58,8 +54,12 @@ static double smallest_p_value(const ps_check_results *results) {
 
 /* One seed, one sampler: the realizations are those that were saved. */
 static pspec_status add_seed_note(ps_table *table, const ps_request *arguments,
-                                  const ps_saved_spectrum *saved, ps_error *error) {
-    return arguments->num_samplers > 0 && saved->has_seed && arguments->seed == saved->seed
+                                  const ps_check_results *results, ps_error *error) {
+    const ps_saved_spectrum *const saved = results->saved;
+    const ps_saved_spectrum *const other = results->measured;
+    const bool has_seed = results->job != NULL ? arguments->num_sources > 0 : other->has_seed;
+    const uint64_t seed = results->job != NULL ? arguments->seed : other->seed;
+    return has_seed && saved->has_seed && seed == saved->seed
                ? ps_table_add_meta(table, "note",
                                    PS_TEXT("the seed is that of the saved spectrum: realizations "
                                            "of the same sampler are the same, not independent"),
@@ -84,15 +84,39 @@ static pspec_status add_verdict(ps_table *table, const ps_request *arguments,
         ps_table_add_meta(table, "adjusted_p_value", PS_NUMBER(smallest_p_value(results)), error));
     PS_TRY(ps_table_add_meta(table, "verdict",
                              PS_TEXT(results->num_different > 0 ? "different" : "same"), error));
-    return add_seed_note(table, arguments, saved, error);
+    return add_seed_note(table, arguments, results, error);
+}
+
+static pspec_status begin_saved(ps_table *table, const ps_request *arguments, ps_error *error) {
+    const ps_meta entries[] = {{"pointspec_version", PS_TEXT(pspec_version())},
+                               {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
+                               {"command", PS_TEXT(arguments->command_line)},
+                               {"measured", PS_TEXT(arguments->files[0])}};
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status end_saved(ps_table *table, const ps_saved_spectrum *measured, ps_error *error) {
+    const ps_points_range range = {measured->mean_points, measured->smallest_points,
+                                   measured->largest_points};
+    const ps_meta entries[] = {
+        {"realizations", PS_INTEGER(measured->num_realizations)},
+        {measured->on_sphere ? "max_degree" : "max_frequency", PS_INTEGER(measured->max_frequency)},
+        {"device", PS_TEXT("none")},
+        {"engine", PS_TEXT("none")},
+        {"predicted_error", PS_NUMBER(measured->error)},
+        {"skipped", PS_TEXT("all spectra: both sides were saved")}};
+    PS_TRY(ps_header_add_points(table, &range, range.smallest < range.largest, error));
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_check_results *results, size_t first, ps_error *error) {
-    PS_TRY(ps_header_begin(table, arguments, results->job, error));
-    PS_TRY(add_verdict(table, arguments, results, error));
     const ps_power_job *const job = results->job;
-    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, error));
+    PS_TRY(job != NULL ? ps_header_begin(table, arguments, job, error)
+                       : begin_saved(table, arguments, error));
+    PS_TRY(add_verdict(table, arguments, results, error));
+    PS_TRY(job != NULL ? ps_header_add_job(table, arguments, &job, 1, 0, error)
+                       : end_saved(table, results->measured, error));
     return add_rows(table, results, first, error);
 }
 

@@ -2,22 +2,24 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
+#include "spectra/compare.h"
 #include "spectra/file/spectrum_file.h"
 #include "spectra/file/spectrum_format.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* ---- files of the library ---------------------------------------------------------------- */
 
-static pspec_status copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
-                              ps_error *error) {
+pspec_status ps_saved_spectrum_copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
+                                         ps_error *error) {
     PS_TRY(PS_NEW(&out->bins, averages->num_bins, "saved bins", error));
     out->num_bins = averages->num_bins;
     for (size_t b = 0; b < averages->num_bins; b++) {
         const ps_spectrum_bin *const bin = &averages->bins[b];
-        out->bins[b] =
-            (ps_saved_bin){bin->key, bin->power, bin->standard_error, bin->frequency, bin->count};
+        out->bins[b] = (ps_saved_bin){bin->key,       bin->power, bin->standard_error,
+                                      bin->frequency, bin->count, bin->num_computed};
     }
     return PSPEC_OK;
 }
@@ -54,9 +56,11 @@ static pspec_status take_sums(ps_saved_spectrum *out, const ps_spectrum_sums *su
         .smallest_points = averages.smallest_points,
         .largest_points = averages.largest_points,
         .mean_points = averages.mean_points,
+        .sample_size = averages.sample_size.mean,
+        .modes = ps_compared_modes(set),
         .error = sums->error,
     };
-    const pspec_status status = copy_bins(out, &averages, error);
+    const pspec_status status = ps_saved_spectrum_copy_bins(out, &averages, error);
     ps_spectrum_free(&averages);
     return status;
 }
@@ -97,6 +101,22 @@ static pspec_status read_text(ps_input *input, char **text, size_t *num_bytes, p
     return PSPEC_OK;
 }
 
+/* What a table says by its columns and numbers of points: weights are taken to be equal. */
+static void complete(ps_saved_spectrum *out) {
+    const ps_frequencies set = {.kind =
+                                    out->on_sphere ? PS_FREQUENCIES_DEGREES : PS_FREQUENCIES_BOX,
+                                .dimension = out->dimension,
+                                .max_frequency = out->max_frequency,
+                                .degree_step = out->on_hemisphere ? 2 : 1};
+    const uint64_t most = out->per_ring > 0 ? 2 * out->per_ring : UINT64_MAX;
+    out->sample_size = out->mean_points;
+    out->modes = ps_compared_modes(&set);
+    for (size_t b = 0; b < out->num_bins; b++) {
+        ps_saved_bin *const bin = &out->bins[b];
+        bin->num_computed = bin->count < most ? bin->count : most;
+    }
+}
+
 static pspec_status read_table(ps_saved_spectrum *out, ps_input *input, ps_error *error) {
     char *text = NULL;
     size_t num_bytes = 0;
@@ -104,14 +124,18 @@ static pspec_status read_table(ps_saved_spectrum *out, ps_input *input, ps_error
     if (status == PSPEC_OK) {
         status = ps_saved_table_parse(out, text, num_bytes, input->name, error);
     }
+    if (status == PSPEC_OK) {
+        complete(out);
+    }
     free(text);
     return status;
 }
 
 /* ---- which ------------------------------------------------------------------------------- */
 
-static pspec_status read_either(ps_saved_spectrum *out, ps_input *input, const char *path,
-                                ps_error *error) {
+typedef enum file_kind { OTHER, SUMS, TABLE } file_kind;
+
+static pspec_status find_kind(file_kind *out, ps_input *input, const char *path, ps_error *error) {
     enum { MOST_PEEKED = 16 };
     const size_t length =
         sizeof PS_SPECTRUM_MAGIC - 1 < MOST_PEEKED ? sizeof PS_SPECTRUM_MAGIC - 1 : MOST_PEEKED;
@@ -119,10 +143,33 @@ static pspec_status read_either(ps_saved_spectrum *out, ps_input *input, const c
     size_t num = 0;
     PS_TRY(ps_input_open(input, path, error));
     PS_TRY(ps_input_peek(input, length, &bytes, &num, error));
-    if (num >= length && memcmp(bytes, PS_SPECTRUM_MAGIC, length) == 0) {
+    const bool is_sums = num >= length && memcmp(bytes, PS_SPECTRUM_MAGIC, length) == 0;
+    *out = is_sums ? SUMS : num > 0 && bytes[0] == '{' ? TABLE : OTHER;
+    return PSPEC_OK;
+}
+
+/* A stream would lose what is looked at, and points may come by one. */
+bool ps_saved_spectrum_is_one(const char *path) {
+    struct stat facts;
+    ps_input input = {0};
+    ps_error reason = {0};
+    file_kind kind = OTHER;
+    if (strcmp(path, "-") == 0 || stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+        return false;
+    }
+    const pspec_status status = find_kind(&kind, &input, path, &reason);
+    ps_input_close(&input);
+    return status == PSPEC_OK && kind != OTHER;
+}
+
+static pspec_status read_either(ps_saved_spectrum *out, ps_input *input, const char *path,
+                                ps_error *error) {
+    file_kind kind = OTHER;
+    PS_TRY(find_kind(&kind, input, path, error));
+    if (kind == SUMS) {
         return read_sums(out, path, error);
     }
-    if (num > 0 && bytes[0] == '{') {
+    if (kind == TABLE) {
         return read_table(out, input, error);
     }
     return ps_fail(error, PSPEC_ERROR_INPUT,

@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "frequencies/bin_rule.h"
+#include "spectra/spectrum.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,6 +16,7 @@ typedef struct ps_saved_bin {
     double power, standard_error; /* nan: one realization */
     double frequency;             /* mean |k|, or the degree */
     uint64_t count;               /* lattice points of both signs; 0: the file does not say */
+    uint64_t num_computed;        /* of them; 0: the file does not say */
 } ps_saved_bin;
 
 typedef struct ps_saved_spectrum {
@@ -29,16 +31,25 @@ typedef struct ps_saved_spectrum {
     uint64_t num_realizations;
     uint64_t smallest_points, largest_points;
     double mean_points;
-    double error; /* bound of the error of S, in units of sqrt(V) */
+    double sample_size; /* mean of (sum w)^2 / sum w^2; mean_points where the file does not say */
+    double modes;       /* frequencies of both signs, or orders, over which the error is a mean */
+    double error;       /* bound of the error of S, in units of sqrt(V) */
     size_t num_bins;
     ps_saved_bin *bins; /* ascending keys */
 } ps_saved_spectrum;
+
+/* Has the file the beginning of a saved spectrum, and is no stream? */
+bool ps_saved_spectrum_is_one(const char *path);
 
 /* What is no saved spectrum, damaged, or has no rings or degrees, is PSPEC_ERROR_INPUT with path in
  * the sentence. */
 pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 void ps_saved_spectrum_free(ps_saved_spectrum *saved);
+
+/* Makes the bins those of the averages. */
+pspec_status ps_saved_spectrum_copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
+                                         ps_error *error) PS_MUST_CHECK;
 
 /* The table of a saved JSON text; name is for sentences. *out is {0}. */
 pspec_status ps_saved_table_parse(ps_saved_spectrum *out, const char *text, size_t num_bytes,

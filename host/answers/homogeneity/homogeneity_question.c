@@ -24,8 +24,8 @@ static pspec_status find_domain(bool *on_sphere, const ps_request *arguments, ps
         arguments->reading.domain == PS_DOMAIN_SPHERE || arguments->reading.lift != PS_NO_LIFT ||
         arguments->is_given[PS_OPTION_HEMISPHERE] || arguments->is_given[PS_OPTION_MAX_DEGREE];
     *on_sphere = is_said && arguments->reading.domain != PS_DOMAIN_TORUS;
-    if (arguments->num_samplers > 0) {
-        PS_TRY(ps_sampler_parse(&sampler, arguments->samplers[0], error));
+    if (arguments->num_sources > 0) {
+        PS_TRY(ps_sampler_parse(&sampler, ps_request_source_name(arguments, 0), error));
         *on_sphere = ps_sampler_is_on_sphere(&sampler);
     }
     return PSPEC_OK;
@@ -58,10 +58,10 @@ static pspec_status check_request(const ps_request *own, ps_error *error) {
                        ps_option_show(own, PS_OPTION_HOMOGENEOUS).text);
     }
     PS_TRY(ps_request_check_one_count(own, "and sets of one are checked at a time", error));
-    return own->num_samplers <= 1
+    return own->num_sources <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "one sampler is checked at a time, but %zu were given", own->num_samplers);
+                         "one sampler is checked at a time, but %zu were given", own->num_sources);
 }
 
 pspec_status ps_homogeneity_question_make(ps_question_list *out, const ps_request *own,

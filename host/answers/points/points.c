@@ -60,7 +60,7 @@ static uint64_t count_kept(const ps_request *request) {
 
 static pspec_status find_sampler(ps_sampler_request *out, const ps_request *request,
                                  ps_error *error) {
-    if (request->num_samplers != 1) {
+    if (request->num_sources != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "sampler: points are of a sampler, and none is named");
     }
@@ -77,7 +77,7 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "arrays: an array holds sets of the same number of points, and those of "
                          "%s have different ones (exact=yes, or one realization)",
-                         request->samplers[0])
+                         ps_request_source_name(request, 0))
                : PSPEC_OK;
 }
 
@@ -180,7 +180,7 @@ static pspec_status add_header(ps_table *table, const points_answer *self, ps_er
         {"device", PS_TEXT("none")},
         {"engine", PS_TEXT("host")},
         {"precision", PS_TEXT("double")},
-        {"sampler", PS_TEXT(self->arguments->samplers[0])},
+        {"sampler", PS_TEXT(ps_request_source_name(self->arguments, 0))},
         {"domain", PS_TEXT(domains[ps_sampler_where(&self->sampler)])},
         {"dimension", PS_INTEGER(self->sampler.dimension)},
         {"points", mean_points(self)},

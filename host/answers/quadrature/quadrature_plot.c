@@ -78,7 +78,7 @@ pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature
     ps_series lines[LINES * PS_MAX_SAMPLERS];
     pspec_status status = PSPEC_OK;
     for (size_t i = 0; i < list->num; i++) {
-        const char *const sampler = list->num > 1 ? ps_request_sampler(arguments, i) : NULL;
+        const char *const sampler = list->num > 1 ? ps_request_name(arguments, i) : NULL;
         PS_TRY_OUT(status,
                    make_curves(&all[i], lines + LINES * i, LINES * i, sampler, &results[i], error));
     }
@@ -115,7 +115,7 @@ static pspec_status take_errors(error_lines *out, size_t line, const ps_request 
     ps_series *const series = &out->series[line];
     *series = (ps_series){.kind = line, .num = num, .x = x, .y = y};
     if (out->num > 1) {
-        ps_text_append(label, "%s", ps_request_sampler(arguments, line * num));
+        ps_text_append(label, "%s", ps_request_name(arguments, line * num));
     }
     ps_series_say_slope(series, label);
     series->label = ps_text_string(label);

@@ -15,14 +15,9 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");
     }
-    if ((arguments->num_samplers > 0) == (arguments->num_files > 0)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       arguments->num_files > 0
-                           ? "points come from a --sampler or from files, not from both"
-                           : "no rule: name point files (- for standard input) or a --sampler");
-    }
+    PS_TRY(ps_sources_check(arguments, "no rule", error));
     PS_TRY(ps_point_options_check(arguments, error));
-    return arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0
+    return arguments->weights.kind == PS_WEIGHTS_COLUMN && ps_request_has_samplers(arguments)
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "--weights column does not go with --sampler: samplers make points only")
                : PSPEC_OK;
@@ -40,8 +35,8 @@ static pspec_status check_weights(const ps_request *arguments, ps_error *error) 
                    (ps_request_num_questions(arguments) > 1 ||
                     ps_num_realizations_asked(arguments) > 1)
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has the weights of one rule, but several samplers, numbers of points "
-                         "or realizations were asked for",
+                         "%s has the weights of one rule, but several samplers, sets, numbers of "
+                         "points or realizations were asked for",
                          arguments->wants_array ? "arrays" : "--weights-out")
                : PSPEC_OK;
 }
@@ -76,9 +71,6 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
     ps_quadrature_question out = {
         .brdf = brdf,
         .smoothness = arguments->smoothness,
-        .num_realizations = arguments->num_samplers > 0 ? ps_num_realizations_asked(arguments) : 0,
-        .paths = arguments->files,
-        .num_paths = arguments->num_files,
         .weights = arguments->weights,
         .keeps_weights = arguments->weights_out != NULL || arguments->wants_array,
         .point_options = ps_point_options_make(arguments),
@@ -99,6 +91,18 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
     return out;
 }
 
+static pspec_status fill_points(ps_quadrature_question *out, const ps_quadrature_list *list,
+                                size_t index, const ps_request *arguments, ps_error *error) {
+    out->paths = list->files[index].paths;
+    out->num_paths = list->files[index].num;
+    if (out->num_paths > 0) {
+        return PSPEC_OK;
+    }
+    out->sampler = &list->requests[index];
+    out->num_realizations = ps_num_realizations_asked(arguments);
+    return make_request(&list->requests[index], arguments, index, list->brdf, error);
+}
+
 pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
                                      ps_error *error) {
     const size_t num = ps_request_num_questions(arguments);
@@ -109,12 +113,10 @@ pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *
     PS_TRY(PS_NEW(&out->questions, num, "questions", error));
     PS_TRY(PS_NEW(&out->requests, num, "questions", error));
     out->num = num;
+    PS_TRY(ps_file_lists_make(&out->files, arguments, error));
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, out->brdf);
-        if (arguments->num_samplers > 0) {
-            PS_TRY(make_request(&out->requests[i], arguments, i, out->brdf, error));
-            out->questions[i].sampler = &out->requests[i];
-        }
+        PS_TRY(fill_points(&out->questions[i], out, i, arguments, error));
     }
     return PSPEC_OK;
 }
@@ -123,5 +125,6 @@ void ps_quadrature_list_free(ps_quadrature_list *list) {
     ps_brdf_destroy(list->brdf);
     free(list->questions);
     free(list->requests);
+    ps_file_lists_free(list->files, list->num);
     *list = (ps_quadrature_list){0};
 }

@@ -3,15 +3,16 @@
 #define PS_ANSWERS_QUADRATURE_QUADRATURE_QUESTION_H
 
 #include "jobs/quadrature/quadrature_setup.h"
-#include "request/request.h"
+#include "request/file_list.h"
 
-/* One question for each sampler and number of points, or one for the files, as the request counts
- * them. The questions borrow from it, and from here. */
+/* One question for each sampler or set and number of points, or one for the files, as the request
+ * counts them. The questions borrow from it, and from here. */
 typedef struct ps_quadrature_list {
     ps_brdf *brdf;
     size_t num;
     ps_quadrature_question *questions; /* [num] */
     ps_sampler_request *requests;      /* [num] */
+    ps_file_list *files;               /* [num] */
 } ps_quadrature_list;
 
 /* Checks that the options fit together. *out is freed by ps_quadrature_list_free, also after an

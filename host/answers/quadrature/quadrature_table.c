@@ -49,13 +49,21 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
     return add_remark(table, "note", ps_brdf_note(list->brdf), error);
 }
 
-static pspec_status add_facts(ps_table *table, const char *sampler, const ps_point_options *options,
+/* As other commands say it. */
+static pspec_status add_files(ps_table *table, const ps_quadrature_question *question,
+                              const ps_quadrature_result *result, ps_error *error) {
+    PS_TRY(ps_header_add_files(table, question->num_paths, result->num_realizations, error));
+    return ps_header_add_reading(table, &question->point_options, error);
+}
+
+static pspec_status add_facts(ps_table *table, const ps_quadrature_question *question,
                               const ps_quadrature_result *result, bool with_range,
                               ps_error *error) {
     const ps_points_range range = {result->mean_points, result->smallest_points,
                                    result->largest_points};
-    PS_TRY(add_remark(table, "sampler", sampler, error));
-    PS_TRY(ps_header_add_reading(table, options, error));
+    if (question->sampler == NULL) {
+        PS_TRY(add_files(table, question, result, error));
+    }
     const ps_meta entries[] = {
         {"device", PS_TEXT(result->device)},
         {"engine", PS_TEXT(result->engine)},
@@ -180,9 +188,8 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
     PS_TRY(add_question(table, arguments, list, error));
     for (size_t i = 0; i < list->num; i++) {
         const ps_lead lead = ps_lead_make(arguments, i);
-        const char *const sampler = ps_request_sampler(arguments, i);
-        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i], with_range,
-                         error));
+        PS_TRY(ps_lead_add_source(table, arguments, i, error));
+        PS_TRY(add_facts(table, &list->questions[i], &results[i], with_range, error));
         PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
         PS_TRY(add_answer(table, &results[i], error));
         PS_TRY(add_condition(table, &results[i], error));

@@ -14,17 +14,9 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
 }
 
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
-    if (arguments->num_samplers == 0 && arguments->num_files == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "nothing to take a spectrum of: name point files (- for standard input) or "
-                       "a --sampler");
-    }
-    if (arguments->num_samplers > 0 && arguments->num_files > 0) {
-        return fail_conflict("--sampler", arguments->files[0], "points come from one of them",
-                             error);
-    }
+    PS_TRY(ps_sources_check(arguments, "nothing to take a spectrum of", error));
     PS_TRY(ps_point_options_check(arguments, error));
-    if (arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0) {
+    if (arguments->weights.kind == PS_WEIGHTS_COLUMN && ps_request_has_samplers(arguments)) {
         return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
     }
     return PSPEC_OK;
@@ -38,7 +30,7 @@ typedef struct option_pair {
 
 /* "several samplers" */
 static const char *name_several(const ps_request *arguments) {
-    return arguments->num_samplers > 1 ? "several samplers" : "several numbers of points";
+    return arguments->num_sources > 1 ? "several samplers or sets" : "several numbers of points";
 }
 
 /* What there is one of. */
@@ -60,13 +52,13 @@ static pspec_status check_several(const ps_request *arguments, ps_error *error) 
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "--plot: %zu samplers with %zu numbers of points are %zu curves, and a "
                          "picture has %d at most; pointspec run deals them out to panels",
-                         arguments->num_samplers, arguments->num_counts, num, PS_MAX_CURVES);
+                         arguments->num_sources, arguments->num_counts, num, PS_MAX_CURVES);
 }
 
 /* Of files nobody knows how many sets they have; then the header says it. */
 static pspec_status check_fit(const ps_request *arguments, ps_error *error) {
     const uint64_t num = ps_num_realizations_asked(arguments);
-    return !arguments->wants_fit || arguments->num_samplers == 0 ||
+    return !arguments->wants_fit || !ps_request_has_samplers(arguments) ||
                    num >= PS_FEWEST_FITTED_REALIZATIONS
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -118,8 +110,6 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
 
 static void fill_points(ps_power_question *question, const ps_request *arguments,
                         ps_domain domain) {
-    question->paths = arguments->files;
-    question->num_paths = arguments->num_files;
     question->weights = arguments->weights;
     question->point_options = ps_point_options_make(arguments);
     question->point_options.domain = domain;
@@ -220,9 +210,12 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_request *argument
     PS_TRY(PS_NEW(&out->questions, num, "questions", error));
     PS_TRY(PS_NEW(&out->requests, num, "questions", error));
     out->num = num;
+    PS_TRY(ps_file_lists_make(&out->files, arguments, error));
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, kind);
-        if (arguments->num_samplers == 0) {
+        if (out->files[i].num > 0) {
+            out->questions[i].paths = out->files[i].paths;
+            out->questions[i].num_paths = out->files[i].num;
             continue;
         }
         ps_sampler_request *request = &out->requests[i];
@@ -235,5 +228,6 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_request *argument
 void ps_questions_free(ps_question_list *list) {
     free(list->questions);
     free(list->requests);
+    ps_file_lists_free(list->files, list->num);
     *list = (ps_question_list){0};
 }

@@ -3,14 +3,15 @@
 #define PS_ANSWERS_SPECTRA_QUESTION_H
 
 #include "jobs/spectrum/power_job.h"
-#include "request/request.h"
+#include "request/file_list.h"
 
-/* One question for each sampler and number of points, or one for the files, as the request counts
- * them. The questions borrow from it. */
+/* One question for each sampler or set and number of points, or one for the files, as the request
+ * counts them. The questions borrow from it, and from here. */
 typedef struct ps_question_list {
     size_t num;
     ps_power_question *questions; /* [num] */
     ps_sampler_request *requests; /* [num] */
+    ps_file_list *files;          /* [num] */
 } ps_question_list;
 
 /* Whose question: power, on the torus, or angular or pairs, on the sphere. */

@@ -1,5 +1,6 @@
 #include "answers/spectra/spectrum_header.h"
 
+#include "answers/lead.h"
 #include "files/decimal.h"
 #include "samplers/morph_words.h"
 
@@ -53,6 +54,14 @@ static bool is_on_sphere(const ps_frequencies *set) {
     return set->kind == PS_FREQUENCIES_DEGREES;
 }
 
+pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num_realizations,
+                                 ps_error *error) {
+    char text[96];
+    snprintf(text, sizeof text, "%zu files, %llu realizations, one average", num_files,
+             (unsigned long long)num_realizations);
+    return num_files > 1 ? ps_table_add_meta(table, "input", PS_TEXT(text), error) : PSPEC_OK;
+}
+
 typedef struct header {
     ps_table *table;
     ps_error *error;
@@ -88,10 +97,11 @@ static void put_common(header *head, const ps_request *arguments, const ps_probl
     put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
     put(head, "command", PS_TEXT(arguments->command_line));
     put(head, "normalization", PS_TEXT(name_normalization(arguments, problem)));
-    if (arguments->num_samplers > 0 || arguments->frequencies.per_ring > 0) {
+    const bool has_samplers = ps_request_has_samplers(arguments);
+    if (has_samplers || arguments->frequencies.per_ring > 0) {
         put(head, "seed", PS_INTEGER(arguments->seed));
     }
-    if (arguments->num_samplers > 0) {
+    if (has_samplers) {
         put(head, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
     }
 }
@@ -227,24 +237,40 @@ static bool have_ranges(const ps_power_job *const *jobs, size_t num) {
     return i < num;
 }
 
+static void put_files(header *head, const ps_request *arguments, const ps_power_job *job) {
+    head->status =
+        head->status == PSPEC_OK
+            ? ps_header_add_files(head->table, ps_power_job_num_files(job),
+                                  ps_power_job_spectrum(job)->num_realizations, head->error)
+            : head->status;
+    put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
+    put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+    head->status = head->status == PSPEC_OK
+                       ? ps_header_add_reading(head->table, &arguments->reading, head->error)
+                       : head->status;
+}
+
+static void put_source(header *head, const ps_request *arguments, const ps_power_job *job,
+                       size_t index) {
+    const ps_sampler_request *const sampler = ps_power_job_sampler(job);
+    const char *const note = sampler != NULL ? ps_sampler_note(sampler) : NULL;
+    head->status = head->status == PSPEC_OK
+                       ? ps_lead_add_source(head->table, arguments, index, head->error)
+                       : head->status;
+    if (note != NULL) {
+        put(head, "sampler_note", PS_TEXT(note));
+    }
+    if (sampler == NULL) {
+        put_files(head, arguments, job);
+    }
+}
+
 static void put_job(header *head, const ps_request *arguments, const ps_power_job *job,
                     size_t index, bool with_range) {
     const ps_device_limits *limits = ps_power_job_limits(job);
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
     ps_text skipped = {0};
-    if (arguments->num_samplers > 0) {
-        const char *note = ps_sampler_note(ps_power_job_sampler(job));
-        put(head, "sampler", PS_TEXT(ps_request_sampler(arguments, index)));
-        if (note != NULL) {
-            put(head, "sampler_note", PS_TEXT(note));
-        }
-    } else {
-        put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
-        put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
-        head->status = head->status == PSPEC_OK
-                           ? ps_header_add_reading(head->table, &arguments->reading, head->error)
-                           : head->status;
-    }
+    put_source(head, arguments, job, index);
     put_points(head, with_range, ps_power_job_spectrum(job), ps_power_job_needs(job));
     if (ps_power_job_problem(job)->measure != PS_OF_PAIR_SUMS) {
         put_different_points(head, arguments, ps_power_job_spectrum(job));

@@ -91,10 +91,11 @@ static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t
 static void write_title(ps_text *title, const ps_request *arguments,
                         const ps_power_job *const *jobs, size_t num) {
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
-    if (arguments->num_samplers > 1) {
-        ps_text_append(title, "%zu samplers", arguments->num_samplers);
-    } else if (arguments->num_samplers == 1) {
-        ps_text_append(title, "%s", arguments->samplers[0]);
+    if (arguments->num_sources > 1) {
+        ps_text_append(title, "%zu %s", arguments->num_sources,
+                       ps_request_has_files(arguments) ? "sets of points" : "samplers");
+    } else if (arguments->num_sources == 1) {
+        ps_text_append(title, "%s", ps_request_source_name(arguments, 0));
     } else if (arguments->num_files == 1) {
         ps_text_append(title, "%s", arguments->files[0]);
     } else {
@@ -109,10 +110,10 @@ static void write_title(ps_text *title, const ps_request *arguments,
 static pspec_status write_label(ps_text *label, const ps_request *arguments, size_t question,
                                 ps_error *error) {
     const ps_lead lead = ps_lead_make(arguments, question);
-    const char *const sampler = ps_request_sampler(arguments, question);
+    const char *const name = ps_request_name(arguments, question);
     ps_lead_label(&lead, label);
     if (lead.num == 0) {
-        ps_text_append(label, "%s", sampler != NULL ? sampler : "mean");
+        ps_text_append(label, "%s", name != NULL ? name : "mean");
     }
     return ps_text_check(label, error);
 }

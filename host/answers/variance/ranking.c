@@ -23,7 +23,7 @@ static field make_field(const ps_request *request, ps_variance_job *const *jobs,
     return (field){.jobs = jobs,
                    .first = question % request->num_counts,
                    .step = request->num_counts,
-                   .num = request->num_samplers,
+                   .num = request->num_sources,
                    .integrand = integrand};
 }
 
@@ -104,12 +104,14 @@ void ps_rank_cells(ps_cell cells[PS_RANK_COLUMNS], const ps_request *request,
 
 pspec_status ps_rank_check(const ps_request *request, ps_error *error) {
     const ps_shown_option shown = ps_option_show(request, PS_OPTION_RANK);
-    if (request->num_samplers < 2) {
+    if (request->num_sources < 2) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s compares samplers, which takes several %s", shown.text,
-                       ps_option_show(request, PS_OPTION_SAMPLER).text);
+                       "%s compares samplers and sets, which takes several %s or %s", shown.text,
+                       ps_option_show(request, PS_OPTION_SAMPLER).text,
+                       ps_option_show(request, PS_OPTION_SET).text);
     }
-    return request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS
+    return request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS ||
+                   !ps_request_has_samplers(request)
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s has errors, which need %d realizations or more (--realizations), not "
@@ -123,6 +125,9 @@ pspec_status ps_rank_check(const ps_request *request, ps_error *error) {
 static void write_more(ps_text *out, const char *name, const comparison *found) {
     if (isnan(found->factor)) {
         ps_text_append(out, "; %s cannot be compared, since a variance is 0", name);
+    } else if (isnan(found->error)) {
+        ps_text_append(out, "; %s has %.4g times as much, from too few sets for an error", name,
+                       found->factor);
     } else if (found->error == 0) {
         ps_text_append(out, "; %s has %.4g times as much, exactly", name, found->factor);
     } else {
@@ -132,26 +137,47 @@ static void write_more(ps_text *out, const char *name, const comparison *found) 
     }
 }
 
+static ps_cell points_of(const ps_request *request, const field *rows, size_t sampler) {
+    const ps_power_job *const job = ps_variance_job_spectrum(job_of(rows, sampler));
+    return ps_power_job_sampler(job) != NULL ? PS_INTEGER(ps_request_points(request, rows->first))
+                                             : PS_NUMBER(ps_power_job_spectrum(job)->mean_points);
+}
+
+/* The N that was asked for, or that the sets of files have: of all rows, or from .. to. */
+static void write_points(ps_text *out, const ps_request *request, const field *rows) {
+    double least = (double)ps_request_points(request, rows->first);
+    double most = least;
+    for (size_t i = 0; ps_request_has_files(request) && i < rows->num; i++) {
+        const double own =
+            ps_power_job_spectrum(ps_variance_job_spectrum(job_of(rows, i)))->mean_points;
+        least = i == 0 ? own : fmin(least, own);
+        most = i == 0 ? own : fmax(most, own);
+    }
+    ps_text_append(out, "N = %.10g", least);
+    if (most > least) {
+        ps_text_append(out, " to %.10g", most);
+    }
+}
+
 static pspec_status add_sentence(ps_table *table, const ps_request *request, const field *rows,
                                  ps_text *text, ps_error *error) {
     const size_t best = find_sampler(rows, 0);
-    const uint64_t points = ps_request_points(request, rows->first);
     const comparison white = compare_white(rows, best);
-    ps_text_append(text, "%s, N = %llu: %s has the least variance",
-                   request->integrands[rows->integrand], (unsigned long long)points,
-                   request->samplers[best]);
+    ps_text_append(text, "%s, ", request->integrands[rows->integrand]);
+    write_points(text, request, rows);
+    ps_text_append(text, ": %s has the least variance", ps_request_source_name(request, best));
     for (size_t rank = 1; rank < rows->num; rank++) {
         const size_t sampler = find_sampler(rows, rank);
         const comparison found = compare(rows, sampler, best);
-        write_more(text, request->samplers[sampler], &found);
+        write_more(text, ps_request_source_name(request, sampler), &found);
     }
     write_more(text, "white noise", &white);
     PS_TRY(ps_text_check(text, error));
     const ps_meta entries[] = {
         {"ranking", PS_TEXT(ps_text_string(text))},
         {"ranking_integrand", PS_TEXT(request->integrands[rows->integrand])},
-        {"ranking_points", PS_INTEGER(points)},
-        {"ranking_first", PS_TEXT(request->samplers[best])},
+        {"ranking_points", points_of(request, rows, best)},
+        {"ranking_first", PS_TEXT(ps_request_source_name(request, best))},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }

@@ -40,7 +40,7 @@ void ps_rates_cells(ps_cell cells[PS_RATE_COLUMNS], const ps_request *request,
 
 pspec_status ps_rates_check(const ps_request *request, ps_error *error) {
     const char *const shown = ps_option_show(request, PS_OPTION_RATES).text;
-    if (request->num_samplers == 0 || request->num_counts < 2) {
+    if (request->num_sources == 0 || request->num_counts < 2) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s is how variances of a sampler fall as N grows, which takes several "
                        "numbers of points, as in %s 64..1024",
@@ -136,7 +136,7 @@ static pspec_status add_exponents(view *self, ps_table *table, size_t sampler, s
         }
     }
     ps_text_free(&self->text);
-    ps_text_append(&self->text, "%s, %s: ", request->samplers[sampler],
+    ps_text_append(&self->text, "%s, %s: ", ps_request_source_name(request, sampler),
                    request->integrands[integrand]);
     write_rate(&self->text, "predicted", &rates[0], &reasons[0]);
     if (reasons[0].status == PSPEC_OK) {
@@ -149,7 +149,7 @@ static pspec_status add_exponents(view *self, ps_table *table, size_t sampler, s
     const double white = (rates[0].rate.value - 1) / rates[0].rate.error;
     const ps_meta entries[] = {
         {"rates", PS_TEXT(ps_text_string(&self->text))},
-        {"rate_sampler", PS_TEXT(request->samplers[sampler])},
+        {"rate_sampler", PS_TEXT(ps_request_source_name(request, sampler))},
         {"rate_integrand", PS_TEXT(request->integrands[integrand])},
         {"rate", number_if(reasons[0].status, rates[0].rate.value)},
         {"rate_error", number_if(reasons[0].status, rates[0].rate.error)},
@@ -252,8 +252,8 @@ static pspec_status add_crossings(view *self, ps_table *table, const pair *two,
 static pspec_status add_pair(view *self, ps_table *table, size_t a, size_t b, size_t integrand,
                              ps_error *error) {
     const ps_request *const request = self->request;
-    pair two = {.a = request->samplers[a],
-                .b = request->samplers[b],
+    pair two = {.a = ps_request_source_name(request, a),
+                .b = ps_request_source_name(request, b),
                 .integrand = request->integrands[integrand]};
     ps_crossings found = {0};
     two.num = gather(self, self->logs[0], a, integrand, false);
@@ -272,7 +272,7 @@ static pspec_status add_pair(view *self, ps_table *table, size_t a, size_t b, si
 }
 
 static pspec_status add_integrand(view *self, ps_table *table, size_t integrand, ps_error *error) {
-    const size_t num = self->request->num_samplers;
+    const size_t num = self->request->num_sources;
     for (size_t a = 0; a < num; a++) {
         PS_TRY(add_exponents(self, table, a, integrand, error));
     }

@@ -130,12 +130,12 @@ static void describe(const judging *self, ps_text *out) {
     const ps_option_id id = on_torus ? PS_OPTION_MAX_FREQUENCY : PS_OPTION_MAX_DEGREE;
     const ps_prediction *const prediction =
         &ps_variance_job_rows(self->jobs[self->worst_job])[self->worst_integrand].prediction;
-    const char *const sampler = ps_request_sampler(request, self->worst_job);
+    const char *const name = ps_request_name(request, self->worst_job);
     ps_text_append(out,
                    "half of upper - lower of %s by %s at N = %.10g is %.3g of predicted, above %s "
                    "%g",
                    request->integrands[self->worst_integrand],
-                   sampler != NULL ? sampler : request->files[0], spectrum->mean_points,
+                   name != NULL ? name : request->files[0], spectrum->mean_points,
                    tail_of(prediction), ps_options[PS_OPTION_TAIL].name, request->tail);
     if (self->num_missed > 1) {
         ps_text_append(out, ", and %zu rows are above it", self->num_missed);

@@ -288,8 +288,8 @@ static void append_title(const ps_request *request, const ps_table *table, ps_te
     const double sets = ps_cell_number(ps_table_find_meta(table, "realizations"));
     const double shifts = ps_cell_number(ps_table_find_meta(table, "shifts"));
     ps_text_append(out, "%s", request->num_integrands == 1 ? request->integrands[0] : "variance");
-    if (request->num_samplers == 1) {
-        ps_text_append(out, ", %s", request->samplers[0]);
+    if (request->num_sources == 1) {
+        ps_text_append(out, ", %s", ps_request_source_name(request, 0));
     }
     if (sets > 0) {
         ps_text_append(out, ", M = %.0f", sets);
@@ -302,9 +302,10 @@ static void append_title(const ps_request *request, const ps_table *table, ps_te
 pspec_status ps_variance_plot(const ps_request *request, const ps_table *table, ps_error *error) {
     ps_text title = {0};
     append_title(request, table, &title);
-    const ps_chart_part part = {table, request->num_samplers == 0   ? "files"
-                                       : request->num_samplers == 1 ? request->samplers[0]
-                                                                    : ""};
+    const ps_chart_part part = {table, request->num_sources == 0 ? "files"
+                                       : request->num_sources == 1
+                                           ? ps_request_source_name(request, 0)
+                                           : ""};
     const ps_chart chart = {.title = ps_text_string(&title),
                             .axes = request->plot_axes,
                             .num_parts = 1,

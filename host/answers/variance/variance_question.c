@@ -43,24 +43,17 @@ static pspec_status check_bins(const ps_request *arguments, ps_error *error) {
 
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     const ps_shown_option sampler = ps_option_show(arguments, PS_OPTION_SAMPLER);
+    const bool has_samplers = ps_request_has_samplers(arguments);
     if (arguments->num_integrands == 0) {
         return fail_without_integrand(error);
     }
-    if (arguments->num_samplers == 0 && arguments->num_files == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "nothing to take a variance of: name a --sampler, or point files (- for "
-                       "standard input)");
-    }
-    if (arguments->num_samplers > 0 && arguments->num_files > 0) {
-        return fail_conflict(arguments, PS_OPTION_SAMPLER, arguments->files[0],
-                             "points come from one of them", error);
-    }
+    PS_TRY(ps_sources_check(arguments, "nothing to take a variance of", error));
     if (arguments->in_place && arguments->is_given[PS_OPTION_SHIFTS]) {
         return fail_conflict(arguments, PS_OPTION_SHIFTS,
                              ps_option_show(arguments, PS_OPTION_IN_PLACE).text,
                              "sets are moved, or they are not", error);
     }
-    if (arguments->bounds.is_wanted && !arguments->bounds.is_given && arguments->num_files == 0 &&
+    if (arguments->bounds.is_wanted && !arguments->bounds.is_given && has_samplers &&
         arguments->num_realizations < PS_FEWEST_FITTED_REALIZATIONS) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s auto finds profiles by standard errors, which need %d realizations or "
@@ -76,11 +69,11 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
         PS_TRY(ps_rank_check(arguments, error));
     }
     PS_TRY(ps_point_options_check(arguments, error));
-    if (arguments->num_samplers > 0 && arguments->is_given[PS_OPTION_WEIGHTS]) {
+    if (has_samplers && arguments->is_given[PS_OPTION_WEIGHTS]) {
         return fail_conflict(arguments, PS_OPTION_WEIGHTS, sampler.text,
                              "all of its points count the same", error);
     }
-    if (arguments->num_samplers > 0 && arguments->hemisphere) {
+    if (has_samplers && arguments->hemisphere) {
         return fail_conflict(arguments, PS_OPTION_HEMISPHERE, sampler.text,
                              "it says where its points are", error);
     }
@@ -89,9 +82,9 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
 
 /* ---- files --------------------------------------------------------------------------------- */
 
-static pspec_status check_files(const ps_request *arguments, ps_error *error) {
-    for (size_t i = 0; i < arguments->num_files; i++) {
-        PS_TRY(ps_saved_result_refuse(arguments->files[i],
+static pspec_status check_files(const ps_file_list *files, ps_error *error) {
+    for (size_t i = 0; i < files->num; i++) {
+        PS_TRY(ps_saved_result_refuse(files->paths[i],
                                       "and variances are formed from sums of each set, which it "
                                       "has not",
                                       "variance", error));
@@ -140,14 +133,14 @@ static pspec_status check_place(const ps_request *arguments, bool on_sphere, ps_
     return PSPEC_OK;
 }
 
-static pspec_status fill_files(ps_power_question *out, const ps_request *arguments,
-                               ps_error *error) {
+static pspec_status fill_files(ps_power_question *out, const ps_file_list *files,
+                               const ps_request *arguments, ps_error *error) {
     bool on_sphere = false;
-    PS_TRY(check_files(arguments, error));
+    PS_TRY(check_files(files, error));
     PS_TRY(find_place(&on_sphere, arguments, error));
     PS_TRY(check_place(arguments, on_sphere, error));
-    out->paths = arguments->files;
-    out->num_paths = arguments->num_files;
+    out->paths = files->paths;
+    out->num_paths = files->num;
     out->weights = arguments->weights;
     out->point_options = ps_point_options_make(arguments);
     out->point_options.domain = on_sphere ? PS_DOMAIN_SPHERE : PS_DOMAIN_TORUS;
@@ -215,11 +208,13 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
     PS_TRY(PS_NEW(&out->questions, num, "questions", error));
     PS_TRY(PS_NEW(&out->requests, num, "questions", error));
     out->num = num;
+    PS_TRY(ps_file_lists_make(&out->files, arguments, error));
     for (size_t i = 0; i < num; i++) {
         ps_variance_question *const question = &out->questions[i];
         *question = make_question(arguments);
-        PS_TRY(arguments->num_files > 0
-                   ? fill_files(&question->spectrum, arguments, error)
+        question->name = ps_request_name(arguments, i);
+        PS_TRY(out->files[i].num > 0
+                   ? fill_files(&question->spectrum, &out->files[i], arguments, error)
                    : fill_sampler(&question->spectrum, &out->requests[i], arguments, i, error));
         PS_TRY(ps_variance_question_check(question, error));
     }
@@ -229,5 +224,6 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
 void ps_variance_list_free(ps_variance_list *list) {
     free(list->questions);
     free(list->requests);
+    ps_file_lists_free(list->files, list->num);
     *list = (ps_variance_list){0};
 }

@@ -44,9 +44,9 @@ static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *re
 /* What a row is of, besides its number of points, which every row has. */
 static ps_lead make_lead(const ps_request *request, size_t question, size_t integrand) {
     ps_lead lead = {0};
-    if (request->num_samplers > 1) {
+    if (request->num_sources > 1) {
         lead.names[lead.num] = "sampler";
-        lead.cells[lead.num++] = PS_TEXT(ps_request_sampler(request, question));
+        lead.cells[lead.num++] = PS_TEXT(ps_request_name(request, question));
     }
     if (request->num_integrands > 1) {
         lead.names[lead.num] = "integrand";
@@ -112,7 +112,8 @@ static pspec_status begin(ps_table *table, const ps_request *request, const ps_v
         {"trials", PS_TEXT(request->num_shifts == 0 ? "none"
                            : request->in_place      ? "sets where they are"
                                                     : "sets moved at random, one for each trial")},
-        {"shifts", PS_INTEGER(request->num_samplers > 0 ? request->num_shifts : trials.num_shifts)},
+        {"shifts",
+         PS_INTEGER(ps_request_has_samplers(request) ? request->num_shifts : trials.num_shifts)},
         {"predicted_error_is",
          PS_TEXT("below, a bound on the numerical error of S; as a column, the "
                  "standard error of the prediction")},
@@ -133,13 +134,12 @@ static pspec_status add_integrand(ps_table *table, const ps_request *request,
 }
 
 /* Of files: how many sets are measured, beside those that predict, and what their weights cost. */
-static pspec_status add_files(ps_table *table, const ps_request *request,
-                              const ps_variance_job *job, ps_error *error) {
+static pspec_status add_files(ps_table *table, const ps_variance_job *job, ps_error *error) {
     const ps_meta entries[] = {
         {"measured_sets", PS_INTEGER(ps_variance_job_trials(job).num_sets)},
         {"white_power", PS_NUMBER(ps_variance_job_power_beyond(job)->white)},
     };
-    return request->num_samplers > 0
+    return ps_power_job_sampler(ps_variance_job_spectrum(job)) != NULL
                ? PSPEC_OK
                : ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
@@ -196,7 +196,7 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
     }
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_header_add_job(table, request, spectra, num, i, error));
-        PS_TRY(add_files(table, request, jobs[i], error));
+        PS_TRY(add_files(table, jobs[i], error));
         PS_TRY(add_most_power(table, jobs[i], error));
         if (request->bounds.is_wanted) {
             PS_TRY(ps_shape_add_profiles(table, ps_variance_job_shape(jobs[i]),

@@ -21,6 +21,10 @@ const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job) {
     return job->question->sampler;
 }
 
+size_t ps_power_job_num_files(const ps_power_job *job) {
+    return job->question->num_paths;
+}
+
 const char *ps_power_job_source_format(const ps_power_job *job) {
     return ps_source_format(job->sets.source);
 }

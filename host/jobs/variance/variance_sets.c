@@ -94,10 +94,10 @@ static pspec_status count_all(ps_variance_sets *sets, count *so_far, ps_error *e
                : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to measure");
 }
 
-static void finish(ps_variance_sets *sets, const count *so_far) {
+static void finish(ps_variance_sets *sets, const count *so_far, bool measures) {
     long double sum = 0;
     sets->num = so_far->num;
-    sets->num_predicting = (sets->num + 1) / 2;
+    sets->num_predicting = measures ? (sets->num + 1) / 2 : sets->num;
     for (uint64_t i = 0; i < sets->num_predicting; i++) {
         sum += so_far->shares[i];
     }
@@ -105,14 +105,14 @@ static void finish(ps_variance_sets *sets, const count *so_far) {
 }
 
 pspec_status ps_variance_sets_open(ps_variance_sets *sets, const ps_power_question *question,
-                                   ps_error *error) {
+                                   bool measures, ps_error *error) {
     const ps_source_options options = {.points = question->point_options, .keeps_streams = true};
     count so_far = {.question = question};
     *sets = (ps_variance_sets){0};
     PS_TRY(ps_source_files(&sets->source, question->paths, question->num_paths, &options, error));
     pspec_status status = count_all(sets, &so_far, error);
     if (status == PSPEC_OK) {
-        finish(sets, &so_far);
+        finish(sets, &so_far, measures);
         status = ps_source_rewind(sets->source, error);
     }
     ps_point_set_free(&so_far.set);

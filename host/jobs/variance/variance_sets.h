@@ -1,5 +1,6 @@
 /* The sets of point files whose variance is asked for: the first half of them predicts, the second
- * is measured. A single set is both: nothing of it is random but where it is moved to. */
+ * is measured; where nothing is to be measured all of them predict. A single set is both: nothing
+ * of it is random but where it is moved to. */
 #ifndef PS_JOBS_VARIANCE_VARIANCE_SETS_H
 #define PS_JOBS_VARIANCE_VARIANCE_SETS_H
 
@@ -19,7 +20,7 @@ typedef struct ps_variance_sets {
 /* Opens the files of a question, counts and checks all sets, and goes back to the first.
  * ps_variance_sets_close also after an error. */
 pspec_status ps_variance_sets_open(ps_variance_sets *sets, const ps_power_question *question,
-                                   ps_error *error) PS_MUST_CHECK;
+                                   bool measures, ps_error *error) PS_MUST_CHECK;
 void ps_variance_sets_close(ps_variance_sets *sets);
 
 /* Sets that are measured; those of a single one are moves of it. */

@@ -28,8 +28,8 @@ static ps_variance_trials choose_trials(const ps_variance_job *job) {
                : (ps_variance_trials){false, num, question->num_shifts};
 }
 
-/* Samplers and numbers of points have moves of their own, so that answers beside each other are
- * independent. */
+/* Samplers, sets of a request and numbers of points have moves of their own, so that answers beside
+ * each other are independent. */
 static pspec_status choose_seed(const ps_variance_job *job, uint64_t *seed, ps_error *error) {
     const ps_variance_question *const question = job->question;
     const ps_sampler_request *const sampler = question->spectrum.sampler;
@@ -40,6 +40,9 @@ static pspec_status choose_seed(const ps_variance_job *job, uint64_t *seed, ps_e
     } else {
         ps_text_append(&text, "files\npoints %zu\ndimension %u\n", job->files.most_points,
                        job->files.dimension);
+        if (question->name != NULL) {
+            ps_text_append(&text, "set %s\n", question->name);
+        }
     }
     const pspec_status status = ps_text_check(&text, error);
     *seed = ps_random_seed_of(sampler != NULL ? sampler->seed : question->seed, PS_STREAM_TRIALS,

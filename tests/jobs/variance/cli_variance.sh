@@ -146,7 +146,7 @@ refuses 'holds text, which NPY cannot' "${words[@]}" --sampler jittered -o texts
 
 refuses '--integrand NAME is needed; there are disk, box, half-plane, gaussian' --sampler white -n 8
 refuses 'unknown integrand "dsk"; there are disk' --sampler white -n 8 --integrand dsk
-refuses 'name a --sampler' --integrand disk -n 8
+refuses 'or a --sampler' --integrand disk -n 8
 refuses 'morphed points have the density of a lobe' --sampler white-hemisphere:morph=diffuse -n 8 --integrand cap
 refuses 'radius of integrand disk: 0.6 is not between 0 and 0.5' --sampler white -n 8 --integrand disk:radius=0.6
 refuses 'integrand disk: there is none on the sphere' --sampler white-sphere -n 8 --integrand disk

@@ -42,6 +42,9 @@ runs 0 "${few[@]}" --integrand disk sets.npy -s 2
 runs 0 "${few[@]}" --integrand disk sets.npy --shifts 0
 is trials none
 [[ $(row | cut -d, -f6-8) == ,, ]] || complain "no shifts: $(row)"
+# then all of them predict, not a half
+is realizations 20
+is measured_sets 0
 # an odd number: one more predicts
 runs 0 "${few[@]}" --integrand disk --select-sets 1..5 sets.npy
 is realizations 3

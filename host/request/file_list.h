@@ -1,0 +1,33 @@
+/* Names of files as an option has them, "a.dat,b*.dat": a list with commas, of names and patterns. */
+#ifndef PS_REQUEST_FILE_LIST_H
+#define PS_REQUEST_FILE_LIST_H
+
+#include "request/request.h"
+
+#include <glob.h>
+
+/* {0}: none. */
+typedef struct ps_file_list {
+    size_t num;
+    const char *const *paths;
+    glob_t found; /* what owns them; {0}: they are borrowed */
+} ps_file_list;
+
+/* A pattern with *, ? or [..] stands for the files that match it, in the order of their names; a
+ * name need not be that of a file. shown: of the option, for sentences. Freed by ps_file_list_free,
+ * also after an error. */
+pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
+                               ps_error *error) PS_MUST_CHECK;
+void ps_file_list_free(ps_file_list *list);
+
+/* The files that a question is about: those of its set, or those of the request. None: a sampler
+ * makes its points. */
+pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *request, size_t question,
+                                      ps_error *error) PS_MUST_CHECK;
+
+/* One list for each question. */
+pspec_status ps_file_lists_make(ps_file_list **out, const ps_request *request,
+                                ps_error *error) PS_MUST_CHECK;
+void ps_file_lists_free(ps_file_list *lists, size_t num);
+
+#endif

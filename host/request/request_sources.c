@@ -1,0 +1,43 @@
+/* What the points of a request come from, and how many questions that makes. */
+#include "request/request.h"
+
+size_t ps_request_num_questions(const ps_request *request) {
+    const size_t num_sources = request->num_sources > 0 ? request->num_sources : 1;
+    return num_sources * request->num_counts;
+}
+
+const char *ps_request_sampler(const ps_request *request, size_t question) {
+    return request->num_sources > 0 ? request->sources[question / request->num_counts].sampler
+                                    : NULL;
+}
+
+const char *ps_request_source_name(const ps_request *request, size_t source) {
+    const ps_source_words *const words = &request->sources[source];
+    return words->sampler != NULL ? words->sampler : words->name;
+}
+
+const char *ps_request_name(const ps_request *request, size_t question) {
+    return request->num_sources > 0
+               ? ps_request_source_name(request, question / request->num_counts)
+               : NULL;
+}
+
+bool ps_request_has_samplers(const ps_request *request) {
+    size_t i = 0;
+    while (i < request->num_sources && request->sources[i].sampler == NULL) {
+        i++;
+    }
+    return i < request->num_sources;
+}
+
+bool ps_request_has_files(const ps_request *request) {
+    size_t i = 0;
+    while (i < request->num_sources && request->sources[i].files == NULL) {
+        i++;
+    }
+    return i < request->num_sources || request->num_files > 0;
+}
+
+uint64_t ps_request_points(const ps_request *request, size_t question) {
+    return request->counts[question % request->num_counts];
+}
