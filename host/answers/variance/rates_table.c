@@ -168,7 +168,7 @@ ps_uncertain ps_rates_find(const ps_table *table, const char *sampler, const cha
         const char *key = NULL;
         const ps_cell value = ps_table_meta(table, i, &key);
         if (strcmp(key, "rate_sampler") == 0) {
-            is_sampler = strcmp(value.text, sampler) == 0;
+            is_sampler = sampler[0] == '\0' || strcmp(value.text, sampler) == 0;
         } else if (strcmp(key, "rate_integrand") == 0) {
             is_it = is_sampler && strcmp(value.text, integrand) == 0;
         } else if (is_it && strcmp(key, "rate") == 0) {

@@ -6,7 +6,8 @@
 #include "jobs/variance/log_variance.h"
 #include "tables/table.h"
 
-/* The exponent that the header of such a table has, and its error; nan: none. */
+/* The exponent that the header of such a table has, and its error; nan: none. sampler "": the only
+ * one. */
 ps_uncertain ps_rates_find(const ps_table *table, const char *sampler, const char *integrand);
 
 #endif
