@@ -123,7 +123,8 @@ typedef struct ps_kind {
     const ps_line_kind *convergence;
     /* A picture of the rows of many answers, against numbers of points or not; NULL: none */
     pspec_status (*chart)(const ps_chart *chart, ps_error *error);
-    bool has_few_rows; /* pages show all of them, before the summary */
+    const char *const *sentences; /* header entries that pages show; ended by NULL, NULL: none */
+    bool has_few_rows;            /* pages show all of them, before the summary */
     /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
      * infinite where one has what the other lacks. */
     double (*compare)(const ps_table *a, const ps_table *b);

@@ -109,13 +109,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "two columns more: the variance by profiles below and above P, "
                                   "G (nu/A)^B up to A, then G; auto: those of power --fit auto",
                           .set = ps_set_bounds},
-    [PS_OPTION_RATES] = {NAMED("rates", 0, "auto|A..B"), OF(0, BIT(variance)),
+    [PS_OPTION_RATES] = {NAMED("rates", 0, "auto|A..B"), OF(BIT(variance), 0),
                          .help = "exponents of N, from N = A to B, with errors, and where two "
                                  "samplers change places; two columns more: from N to N",
-                         .set = ps_set_rates},
-    [PS_OPTION_RANK] = {NAMED("rank", 0, NULL), OF(0, BIT(variance)),
+                         .set = ps_set_rates, .is_of_all = true},
+    [PS_OPTION_RANK] = {NAMED("rank", 0, NULL), OF(BIT(variance), 0),
                         .help = "which sampler has the least variance, factors of the others",
-                        FLAG(wants_ranking)},
+                        FLAG(wants_ranking), .is_of_all = true},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",

@@ -72,6 +72,8 @@ struct ps_option {
     /* NULL: no value of it names a file that is read. Else offset is of the field with the text or
      * of the array of texts */
     ps_option_input *input;
+    /* It compares samplers or numbers of points: a scene asks all of them in one question */
+    bool is_of_all;
     bool is_output; /* its value names a file that is written; offset is of that text */
 };
 

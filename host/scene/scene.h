@@ -38,6 +38,9 @@ typedef struct ps_scene_result {
     const ps_kind *kind;
     const char *name, *title; /* name: letters, digits, - and _; unique in the scene */
     int line;
+    /* It has a key that compares samplers and numbers of points, which are values of one question
+     * then, and not of several */
+    bool is_joined;
     size_t num_entries;
     ps_scene_entry
         *entries;    /* of the result, then those of the defaults that it takes and does not say */

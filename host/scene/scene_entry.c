@@ -1,9 +1,9 @@
 /* The values of one key of a scene. */
 #include "base/counts.h"
+#include "base/text.h"
 #include "request/option_text.h"
 #include "scene/scene_file.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* A key has at most so many values: lists are typed by people. */
@@ -135,9 +135,11 @@ static bool has_lists(const ps_scene_node *node) {
     return false;
 }
 
-/* One spectrum serves all integrands of a question, and several files are one set of points. */
-static bool is_one_value(int option, const ps_scene_node *node) {
-    return option == PS_OPTION_INTEGRAND || (option == PS_SCENE_FILES && !has_lists(node));
+/* One spectrum serves all integrands of a question, several files are one set of points, and
+ * samplers may be compared by a question. */
+static bool is_one_value(const ps_scene_result *result, int option, const ps_scene_node *node) {
+    return option == PS_OPTION_INTEGRAND || (option == PS_SCENE_FILES && !has_lists(node)) ||
+           (option == PS_OPTION_SAMPLER && result->is_joined);
 }
 
 static pspec_status refuse_list(const ps_scene_file *file, const char *key,
@@ -165,30 +167,46 @@ static pspec_status parse_points(const ps_scene_file *file, const char *key,
     return out->num > 0 ? PSPEC_OK : ps_scene_complain(file, node->line, key, "an empty list");
 }
 
+/* "64,256" of num numbers. */
+static pspec_status set_numbers(ps_scene *scene, const ps_scene_file *file, const uint64_t *numbers,
+                                size_t num, ps_scene_value *out, int line) {
+    ps_text text = {0};
+    const char *kept = NULL;
+    for (size_t i = 0; i < num; i++) {
+        ps_text_append(&text, "%s%llu", i > 0 ? "," : "", (unsigned long long)numbers[i]);
+    }
+    pspec_status status = ps_text_check(&text, file->error);
+    if (status == PSPEC_OK) {
+        status = ps_scene_copy(scene, "", ps_text_string(&text), &kept, file->error);
+    }
+    ps_text_free(&text);
+    PS_TRY(status);
+    PS_TRY(ps_scene_make_value(scene, 1, line, out, file->error));
+    set_text(out, 0, kept);
+    return PSPEC_OK;
+}
+
+/* A value for each number, or one of all of them. */
 static pspec_status take_points(ps_scene *scene, const ps_scene_file *file, const char *key,
-                                const ps_scene_node *node, ps_scene_entry *out) {
-    enum { NUMBER = 24 };
+                                const ps_scene_node *node, bool are_joined, ps_scene_entry *out) {
     uint64_t numbers[MOST_VALUES];
     ps_counts list = {.most = MOST_VALUES, .values = numbers};
     void *values = NULL;
     PS_TRY(parse_points(file, key, node, &list));
-    PS_TRY(ps_scene_allocate(scene, list.num, sizeof *out->values, &values, file->error));
+    const size_t num_each = are_joined ? list.num : 1;
+    out->num_values = list.num / num_each;
+    PS_TRY(ps_scene_allocate(scene, out->num_values, sizeof *out->values, &values, file->error));
     out->values = values;
-    out->num_values = list.num;
-    for (size_t i = 0; i < list.num; i++) {
-        char number[NUMBER];
-        const char *kept = NULL;
-        snprintf(number, sizeof number, "%llu", (unsigned long long)numbers[i]);
-        PS_TRY(ps_scene_copy(scene, "", number, &kept, file->error));
-        PS_TRY(ps_scene_make_value(scene, 1, out->line, &out->values[i], file->error));
-        set_text(&out->values[i], 0, kept);
+    for (size_t i = 0; i < out->num_values; i++) {
+        PS_TRY(set_numbers(scene, file, numbers + i, num_each, &out->values[i], out->line));
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, const char *key,
+static pspec_status take_values(ps_scene *scene, const ps_scene_file *file,
+                                const ps_scene_result *result, const char *key,
                                 const ps_scene_node *node, ps_scene_entry *out) {
-    const bool is_one = is_one_value(out->option, node);
+    const bool is_one = is_one_value(result, out->option, node);
     const size_t num = is_one ? 1 : ps_scene_num_items(node);
     void *values = NULL;
     if (num == 0 || num > MOST_VALUES) {
@@ -207,15 +225,15 @@ static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, cons
     return PSPEC_OK;
 }
 
-pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file, const ps_kind *kind,
-                                 int option, const char *key, const ps_scene_node *value,
-                                 ps_scene_entry *out) {
+pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
+                                 const ps_scene_result *result, int option, const char *key,
+                                 const ps_scene_node *value, ps_scene_entry *out) {
     *out = (ps_scene_entry){.option = option, .line = value->line};
-    PS_TRY(option == PS_OPTION_POINTS ? take_points(scene, file, key, value, out)
-                                      : take_values(scene, file, key, value, out));
+    PS_TRY(option == PS_OPTION_POINTS ? take_points(scene, file, key, value, result->is_joined, out)
+                                      : take_values(scene, file, result, key, value, out));
     for (size_t i = 0; i < out->num_values; i++) {
-        PS_TRY(resolve_paths(scene, file, kind, option, &out->values[i]));
-        PS_TRY(check_value(file, kind, option, key, &out->values[i]));
+        PS_TRY(resolve_paths(scene, file, result->kind, option, &out->values[i]));
+        PS_TRY(check_value(file, result->kind, option, key, &out->values[i]));
     }
     return PSPEC_OK;
 }

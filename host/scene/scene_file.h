@@ -66,10 +66,11 @@ pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text
 /* A value of num texts, which are set one by one. */
 pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
                                  ps_error *error) PS_MUST_CHECK;
-/* The values of an option, which word says: paths are made relative to the current folder. */
-pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file, const ps_kind *kind,
-                                 int option, const char *key, const ps_scene_node *value,
-                                 ps_scene_entry *out) PS_MUST_CHECK;
+/* The values of an option of a result, which word says: paths are made relative to the current
+ * folder. */
+pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
+                                 const ps_scene_result *result, int option, const char *key,
+                                 const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
 
 /* The kinds that a scene may have results of; ended by NULL. */
 extern const ps_kind *const ps_scene_kinds[];

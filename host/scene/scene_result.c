@@ -152,8 +152,43 @@ static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *ou
     if (option < 0) {
         return complain_of_key(reader, out->kind, line, key);
     }
-    return ps_scene_take_entry(reader->scene, reader->file, out->kind, option, key, value,
+    return ps_scene_take_entry(reader->scene, reader->file, out, option, key, value,
                                &out->entries[out->num_entries++]);
+}
+
+/* A flag that is said to be off, also in a record, where every value is a list. */
+static bool is_off(const ps_scene_node *value) {
+    const ps_scene_node *item = ps_scene_first_item(value);
+    const size_t num = ps_scene_num_items(value);
+    bool is = num > 0;
+    for (size_t i = 0; is && i < num; i++, item = item->next) {
+        is = item->kind == PS_NODE_TEXT && strcmp(item->text, "false") == 0;
+    }
+    return is;
+}
+
+static bool has_key(const ps_scene_node *mapping, const char *wanted) {
+    const ps_scene_node *key = mapping->first;
+    while (key != NULL && strcmp(key->text, wanted) != 0) {
+        key = key->next->next;
+    }
+    return key != NULL;
+}
+
+/* Does a key of the mapping, which is none of the result's own, make one question of all samplers
+ * and numbers of points? own NULL: the mapping is the result. */
+static pspec_status find_joining(const ps_scene_reader *reader, const ps_scene_node *mapping,
+                                 const ps_scene_node *own, ps_scene_result *out) {
+    for (size_t i = 0; mapping != NULL && i < ps_scene_num_pairs(mapping); i++) {
+        const char *key = NULL;
+        const ps_scene_node *value = NULL;
+        PS_TRY(ps_scene_pair(reader->file, mapping, i, &key, &value));
+        const int option = find_option(out->kind, key);
+        const bool joins = option >= 0 && option != PS_SCENE_FILES &&
+                           ps_options[option].is_of_all && !is_off(value);
+        out->is_joined = out->is_joined || (joins && (own == NULL || !has_key(own, key)));
+    }
+    return PSPEC_OK;
 }
 
 static bool has_entry(const ps_scene_result *result, int option) {
@@ -200,7 +235,7 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
         const int option = find_option(out->kind, key);
         own.num_entries = num_own;
         if (option >= 0 && !is_settled(&own, option)) {
-            PS_TRY(ps_scene_take_entry(reader->scene, reader->file, out->kind, option, key, value,
+            PS_TRY(ps_scene_take_entry(reader->scene, reader->file, out, option, key, value,
                                        &out->entries[out->num_entries++]));
         } else if (option < 0 && !is_any_option(key)) {
             return complain_of_key(reader, out->kind, value->line, key);
@@ -275,6 +310,8 @@ pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_
                                  "a result is a mapping of keys");
     }
     PS_TRY(find_kind(reader, node, out));
+    PS_TRY(find_joining(reader, node, NULL, out));
+    PS_TRY(find_joining(reader, reader->defaults, node, out));
     /* every option, files, and `sampler` beside `samplers`, `integrand` beside `integrands` */
     PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 3, sizeof *out->entries, &entries,
                              reader->file->error));

@@ -25,6 +25,19 @@ static inline void must_read(void **state, ps_scene *scene, const char *text,
     assert_ok(read_bytes(*state, scene, text, strlen(text), path, error));
 }
 
+static inline ps_scene_question make(const ps_scene *scene, size_t result, size_t number) {
+    ps_scene_question question;
+    assert_ok(ps_scene_question_make(&question, &scene->results[result], number, error));
+    return question;
+}
+
+static inline void assert_command(const ps_scene *scene, size_t result, size_t number,
+                                  const char *expected) {
+    ps_scene_question question = make(scene, result, number);
+    assert_string_equal(question.request.command_line, expected);
+    ps_scene_question_free(&question);
+}
+
 #define IN_FOLDER(test)                                                                            \
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
 

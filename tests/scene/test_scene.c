@@ -1,4 +1,4 @@
-/* Scenes that are read: defaults, combinations, paths, command lines, and records read again. */
+/* Scenes that are read: defaults, paths, command lines, and records read again. */
 #include "scene_text.h"
 
 #include "cli/command.h"
@@ -7,65 +7,6 @@
 #include <sys/stat.h>
 
 /* ---- what is read ------------------------------------------------------------------------ */
-
-static ps_scene_question make(const ps_scene *scene, size_t result, size_t number) {
-    ps_scene_question question;
-    assert_ok(ps_scene_question_make(&question, &scene->results[result], number, error));
-    return question;
-}
-
-static void assert_command(const ps_scene *scene, size_t result, size_t number,
-                           const char *expected) {
-    ps_scene_question question = make(scene, result, number);
-    assert_string_equal(question.request.command_line, expected);
-    ps_scene_question_free(&question);
-}
-
-static void combinations(void **state) {
-    static const char *const expected[] = {
-        "pointspec power --sampler white --points 16 --seed 5",
-        "pointspec power --sampler white --points 16 --seed 6",
-        "pointspec power --sampler white --points 32 --seed 5",
-        "pointspec power --sampler white --points 32 --seed 6",
-        "pointspec power --sampler halton --points 16 --seed 5",
-    };
-    char path[TEST_PATH_BYTES];
-    ps_scene scene;
-    must_read(state, &scene,
-              POWER "    samplers: [white, halton]\n    points: 16..32\n    seed: [5, 6]\n", path);
-    assert_int_equal(ps_scene_num_questions(&scene.results[0]), 8);
-    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
-        assert_command(&scene, 0, i, expected[i]);
-    }
-    assert_string_equal(ps_scene_value_of(&scene.results[0], 7, 1)->texts[0], "32");
-    ps_scene_free(&scene);
-}
-
-static void assert_points(void **state, const char *range, const char *first, const char *last,
-                          size_t num) {
-    char path[TEST_PATH_BYTES];
-    char text[SENTENCE_BYTES];
-    ps_scene scene;
-    snprintf(text, sizeof text, POWER "    points: %s\n", range);
-    must_read(state, &scene, text, path);
-    const ps_scene_entry *const entry = &scene.results[0].entries[0];
-    assert_int_equal(entry->num_values, num);
-    assert_string_equal(entry->values[0].texts[0], first);
-    assert_string_equal(entry->values[num - 1].texts[0], last);
-    ps_scene_free(&scene);
-}
-
-static void ranges_of_points(void **state) {
-    assert_points(state, "16..4096", "16", "4096", 9);
-    assert_points(state, "16..4095", "16", "2048", 8);
-    assert_points(state, "7..7", "7", "7", 1);
-    assert_points(state, "1e3..4e3", "1000", "4000", 3);
-    assert_points(state, "1..1e10", "1", "8589934592", 34);
-    assert_points(state, "[12, 1e3]", "12", "1000", 2);
-    assert_points(state, "64,128,1e3", "64", "1000", 3);
-    assert_points(state, "16..64,100", "16", "100", 4);
-    assert_points(state, "[16..64, \"100,200..400\"]", "16", "400", 6);
-}
 
 static void defaults(void **state) {
     char path[TEST_PATH_BYTES];
@@ -94,24 +35,6 @@ static void defaults(void **state) {
     assert_command(&scene, 0, 0, "pointspec power --columns xy --tol 0.1 /a");
     assert_command(&scene, 1, 0,
                    "pointspec power --sampler white --realizations 9 --seed 2 --tol 0.1");
-    ps_scene_free(&scene);
-}
-
-/* One spectrum serves all integrands: a list of them is one value, and asks one question. */
-static void lists_of_integrands(void **state) {
-    char path[TEST_PATH_BYTES];
-    ps_scene scene;
-    must_read(state, &scene,
-              "scene: 1\ndefaults: {integrand: cap}\nresults:\n"
-              "  - {result: variance, samplers: [white, jittered], integrands: [disk, "
-              "'gaussian:sigma=0.1'], seed: 3}\n"
-              "  - {result: variance, sampler: zphi}\n",
-              path);
-    assert_int_equal(ps_scene_num_questions(&scene.results[0]), 2);
-    assert_command(&scene, 0, 1,
-                   "pointspec variance --sampler jittered --integrand disk --integrand "
-                   "gaussian:sigma=0.1 --seed 3");
-    assert_command(&scene, 1, 0, "pointspec variance --sampler zphi --integrand cap");
     ps_scene_free(&scene);
 }
 
@@ -318,7 +241,9 @@ static void records_ask_the_same(void **state) {
                   "  - {result: quadrature, brdf: ['zonal:file=l', diffuse], weights: [w, equal]}\n"
                   "  - {result: check, against: s, samplers: white, plot: false, no-skip: true}\n"
                   "  - {result: angular, samplers: zphi, arrays: coefficients}\n"
-                  "  - {result: variance, samplers: zphi, integrands: [cap, square]}\n",
+                  "  - {result: variance, samplers: zphi, integrands: [cap, square]}\n"
+                  "  - {result: variance, samplers: [zphi, spiral], points: 8..32, rank: true}\n"
+                  "  - {result: variance, samplers: [zphi, spiral], points: 8, rank: false}\n",
                   2);
     /* characters that YAML refuses, or folds, unless they are escaped */
     assert_record(
@@ -367,10 +292,7 @@ static void shipped_scenes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(combinations),
-        IN_FOLDER(ranges_of_points),
         IN_FOLDER(defaults),
-        IN_FOLDER(lists_of_integrands),
         IN_FOLDER(names_and_switches),
         IN_FOLDER(paths),
         IN_FOLDER(command_lines_ask_the_same),

@@ -1,6 +1,7 @@
-#include "answers/variance/ranking.h"
-
+/* --rank: which sampler has the least variance, and how much more the others have, for each
+ * integrand and number of points. */
 #include "answers/spectra/spectrum_header.h"
+#include "answers/variance/parts.h"
 #include "base/text.h"
 #include "jobs/variance/rates.h"
 #include "request/options.h"
@@ -13,9 +14,6 @@ typedef struct field {
     size_t first, step, num; /* jobs of the samplers */
     size_t integrand;
 } field;
-
-const char *const ps_rank_columns[PS_RANK_COLUMNS] = {"rank", "factor", "factor_error",
-                                                      "factor_score", "white_score"};
 
 /* Questions are sampler by sampler, and of a sampler N by N. */
 static field make_field(const ps_request *request, ps_variance_job *const *jobs, size_t question,
@@ -89,8 +87,8 @@ static comparison compare_white(const field *self, size_t a) {
 
 /* ---- rows ---------------------------------------------------------------------------------- */
 
-void ps_rank_cells(ps_cell cells[PS_RANK_COLUMNS], const ps_request *request,
-                   ps_variance_job *const *jobs, size_t question, size_t integrand) {
+static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
+                 size_t question, size_t integrand) {
     const field rows = make_field(request, jobs, question, integrand);
     const size_t sampler = question / request->num_counts;
     const size_t best = find_sampler(&rows, 0);
@@ -102,22 +100,18 @@ void ps_rank_cells(ps_cell cells[PS_RANK_COLUMNS], const ps_request *request,
     cells[4] = ps_number_or_missing(compare_white(&rows, sampler).score);
 }
 
-pspec_status ps_rank_check(const ps_request *request, ps_error *error) {
-    const ps_shown_option shown = ps_option_show(request, PS_OPTION_RANK);
-    if (request->num_sources < 2) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s compares samplers and sets, which takes several %s or %s", shown.text,
-                       ps_option_show(request, PS_OPTION_SAMPLER).text,
-                       ps_option_show(request, PS_OPTION_SET).text);
-    }
-    return request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS ||
-                   !ps_request_has_samplers(request)
+static bool is_wanted(const ps_request *request) {
+    return request->wants_ranking;
+}
+
+static pspec_status check(const ps_request *request, ps_error *error) {
+    return request->num_sources > 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has errors, which need %d realizations or more (--realizations), not "
-                         "%llu",
-                         shown.text, PS_FEWEST_FITTED_REALIZATIONS,
-                         (unsigned long long)request->num_realizations);
+                         "%s compares samplers and sets, which takes several %s or %s",
+                         ps_option_show(request, PS_OPTION_RANK).text,
+                         ps_option_show(request, PS_OPTION_SAMPLER).text,
+                         ps_option_show(request, PS_OPTION_SET).text);
 }
 
 /* ---- sentences ----------------------------------------------------------------------------- */
@@ -182,8 +176,8 @@ static pspec_status add_sentence(ps_table *table, const ps_request *request, con
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
-pspec_status ps_rank_add_header(ps_table *table, const ps_request *request,
-                                ps_variance_job *const *jobs, ps_error *error) {
+static pspec_status add_all(ps_table *table, const ps_request *request,
+                            ps_variance_job *const *jobs, ps_error *error) {
     for (size_t i = 0; i < request->num_integrands; i++) {
         for (size_t k = 0; k < request->num_counts; k++) {
             const field rows = make_field(request, jobs, k, i);
@@ -195,3 +189,12 @@ pspec_status ps_rank_add_header(ps_table *table, const ps_request *request,
     }
     return PSPEC_OK;
 }
+
+const ps_variance_part ps_variance_part_rank = {
+    .columns = {"rank", "factor", "factor_error", "factor_score", "white_score"},
+    .is_wanted = is_wanted,
+    .with_errors = PS_OPTION_RANK,
+    .check = check,
+    .fill = fill,
+    .add_all = add_all,
+};

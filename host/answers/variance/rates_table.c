@@ -1,6 +1,7 @@
 #include "answers/variance/rates_table.h"
 
 #include "answers/spectra/spectrum_header.h"
+#include "answers/variance/parts.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "jobs/variance/rates.h"
@@ -22,10 +23,8 @@ typedef struct view {
 
 /* ---- rows ---------------------------------------------------------------------------------- */
 
-const char *const ps_rate_columns[PS_RATE_COLUMNS] = {"rate_here", "rate_here_error"};
-
-void ps_rates_cells(ps_cell cells[PS_RATE_COLUMNS], const ps_request *request,
-                    ps_variance_job *const *jobs, size_t question, size_t integrand) {
+static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
+                 size_t question, size_t integrand) {
     ps_log_variance logs[2];
     ps_uncertain rate = {NAN, NAN};
     if (question % request->num_counts > 0) {
@@ -38,21 +37,18 @@ void ps_rates_cells(ps_cell cells[PS_RATE_COLUMNS], const ps_request *request,
     cells[1] = ps_number_or_missing(rate.error);
 }
 
-pspec_status ps_rates_check(const ps_request *request, ps_error *error) {
-    const char *const shown = ps_option_show(request, PS_OPTION_RATES).text;
-    if (request->num_sources == 0 || request->num_counts < 2) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s is how variances of a sampler fall as N grows, which takes several "
-                       "numbers of points, as in %s 64..1024",
-                       shown, ps_option_show(request, PS_OPTION_POINTS).text);
-    }
-    return request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS
+static bool is_wanted(const ps_request *request) {
+    return request->wants_rates;
+}
+
+static pspec_status check(const ps_request *request, ps_error *error) {
+    return request->num_sources > 0 && request->num_counts > 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has errors, which need %d realizations or more (--realizations), not "
-                         "%llu",
-                         shown, PS_FEWEST_FITTED_REALIZATIONS,
-                         (unsigned long long)request->num_realizations);
+                         "%s is how variances of a sampler fall as N grows, which takes several "
+                         "numbers of points, as in %s 64..1024",
+                         ps_option_show(request, PS_OPTION_RATES).text,
+                         ps_option_show(request, PS_OPTION_POINTS).text);
 }
 
 /* ---- what is looked at ----------------------------------------------------------------------- */
@@ -172,7 +168,7 @@ ps_uncertain ps_rates_find(const ps_table *table, const char *sampler, const cha
         const char *key = NULL;
         const ps_cell value = ps_table_meta(table, i, &key);
         if (strcmp(key, "rate_sampler") == 0) {
-            is_sampler = strcmp(value.text, sampler) == 0;
+            is_sampler = sampler[0] == '\0' || strcmp(value.text, sampler) == 0;
         } else if (strcmp(key, "rate_integrand") == 0) {
             is_it = is_sampler && strcmp(value.text, integrand) == 0;
         } else if (is_it && strcmp(key, "rate") == 0) {
@@ -284,8 +280,8 @@ static pspec_status add_integrand(view *self, ps_table *table, size_t integrand,
     return PSPEC_OK;
 }
 
-pspec_status ps_rates_add_header(ps_table *table, const ps_request *request,
-                                 ps_variance_job *const *jobs, ps_error *error) {
+static pspec_status add_all(ps_table *table, const ps_request *request,
+                            ps_variance_job *const *jobs, ps_error *error) {
     view self;
     pspec_status status = open(&self, request, jobs, error);
     for (size_t i = 0; status == PSPEC_OK && i < request->num_integrands; i++) {
@@ -294,3 +290,12 @@ pspec_status ps_rates_add_header(ps_table *table, const ps_request *request,
     release(&self);
     return status;
 }
+
+const ps_variance_part ps_variance_part_rates = {
+    .columns = {"rate_here", "rate_here_error"},
+    .is_wanted = is_wanted,
+    .with_errors = PS_OPTION_RATES,
+    .check = check,
+    .fill = fill,
+    .add_all = add_all,
+};

@@ -132,6 +132,7 @@ static void discard(void *computed) {
 
 static const char *const summary[] = {"points", "points_smallest", "points_largest", "realizations",
                                       "shifts", "most_power",      "most_power_is",  NULL};
+static const char *const sentences[] = {"rates", "crossing", "ranking", NULL};
 static const ps_line_kind lines[] = {{.suffix = NULL}}; /* a question is a row for each integrand */
 
 const ps_kind ps_kind_variance = {
@@ -148,6 +149,7 @@ const ps_kind ps_kind_variance = {
     .summary = summary,
     .lines = lines,
     .chart = ps_variance_chart,
+    .sentences = sentences,
     .has_few_rows = true,
     .compare = ps_compare_variances,
 };

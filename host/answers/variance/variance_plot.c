@@ -120,8 +120,7 @@ static void take_part(picture *self, const ps_chart_part *part) {
         for (size_t k = 0; k < NUM_QUANTITIES; k++) {
             one->numbers[k] = find_number(table, i, names[k]);
         }
-        one->rate = ps_rates_find(table, one->sampler[0] != '\0' ? one->sampler : one->label,
-                                  one->integrand);
+        one->rate = ps_rates_find(table, one->sampler, one->integrand);
         one->curve = find_class(self->curves, &self->num_curves, one, are_of_one_curve);
         one->panel = find_class(self->panels, &self->num_panels, one, are_of_one_panel);
     }

@@ -1,7 +1,6 @@
 #include "answers/variance/variance_question.h"
 
-#include "answers/variance/ranking.h"
-#include "answers/variance/rates_table.h"
+#include "answers/variance/parts.h"
 #include "base/memory.h"
 #include "request/options.h"
 #include "request/point_source.h"
@@ -53,21 +52,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                              ps_option_show(arguments, PS_OPTION_IN_PLACE).text,
                              "sets are moved, or they are not", error);
     }
-    if (arguments->bounds.is_wanted && !arguments->bounds.is_given && has_samplers &&
-        arguments->num_realizations < PS_FEWEST_FITTED_REALIZATIONS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s auto finds profiles by standard errors, which need %d realizations or "
-                       "more (--realizations), not %llu",
-                       ps_option_show(arguments, PS_OPTION_BOUNDS).text,
-                       PS_FEWEST_FITTED_REALIZATIONS,
-                       (unsigned long long)arguments->num_realizations);
-    }
-    if (arguments->wants_rates) {
-        PS_TRY(ps_rates_check(arguments, error));
-    }
-    if (arguments->wants_ranking) {
-        PS_TRY(ps_rank_check(arguments, error));
-    }
+    PS_TRY(ps_variance_parts_check(arguments, error));
     PS_TRY(ps_point_options_check(arguments, error));
     if (has_samplers && arguments->is_given[PS_OPTION_WEIGHTS]) {
         return fail_conflict(arguments, PS_OPTION_WEIGHTS, sampler.text,

@@ -1,10 +1,8 @@
 #include "answers/variance/variance_table.h"
 
 #include "answers/lead.h"
-#include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
-#include "answers/variance/ranking.h"
-#include "answers/variance/rates_table.h"
+#include "answers/variance/parts.h"
 #include "answers/variance/tail_verdict.h"
 #include "base/memory.h"
 
@@ -12,33 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The last ones are there where they were asked for. */
+/* Those of parts follow. */
 static const char *const columns[] = {"points",         "predicted", "predicted_error",
                                       "lower",          "upper",     "measured",
                                       "measured_error", "z_score",   "white"};
-static const char *const bound_columns[] = {"best_bound", "worst_bound"};
-enum { NUM_COLUMNS = sizeof columns / sizeof columns[0], NUM_BOUNDS = 2 };
-enum { MOST_COLUMNS = NUM_COLUMNS + NUM_BOUNDS + PS_RATE_COLUMNS + PS_RANK_COLUMNS + 1 };
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+enum { MOST_COLUMNS = NUM_COLUMNS + PS_MOST_PARTS_COLUMNS };
 
 static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *request) {
-    size_t num = NUM_COLUMNS;
     memcpy(out, columns, sizeof columns);
-    if (request->bounds.is_wanted) {
-        memcpy(out + num, bound_columns, sizeof bound_columns);
-        num += NUM_BOUNDS;
-    }
-    if (request->wants_rates) {
-        memcpy(out + num, ps_rate_columns, sizeof ps_rate_columns);
-        num += PS_RATE_COLUMNS;
-    }
-    if (request->wants_ranking) {
-        memcpy(out + num, ps_rank_columns, sizeof ps_rank_columns);
-        num += PS_RANK_COLUMNS;
-    }
-    if (request->paper_formula) {
-        out[num++] = "paper";
-    }
-    return num;
+    return ps_variance_parts_columns(out, NUM_COLUMNS, request);
 }
 
 /* What a row is of, besides its number of points, which every row has. */
@@ -67,7 +48,6 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
                             ps_error *error) {
     const ps_variance_job *const job = jobs[question];
     const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
-    size_t num = NUM_COLUMNS;
     ps_cell cells[MOST_COLUMNS] = {
         points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
         PS_NUMBER(row->prediction.variance),
@@ -79,21 +59,8 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
         ps_number_or_missing(row->z_score),
         PS_NUMBER(row->prediction.white),
     };
-    if (request->bounds.is_wanted) {
-        cells[num++] = ps_number_or_missing(row->best_bound);
-        cells[num++] = ps_number_or_missing(row->worst_bound);
-    }
-    if (request->wants_rates) {
-        ps_rates_cells(cells + num, request, jobs, question, integrand);
-        num += PS_RATE_COLUMNS;
-    }
-    if (request->wants_ranking) {
-        ps_rank_cells(cells + num, request, jobs, question, integrand);
-        num += PS_RANK_COLUMNS;
-    }
-    if (request->paper_formula) {
-        cells[num++] = ps_number_or_missing(row->paper);
-    }
+    const size_t num =
+        ps_variance_parts_cells(cells, NUM_COLUMNS, request, jobs, question, integrand);
     return ps_lead_add_row(table, lead, cells, num, error);
 }
 
@@ -178,12 +145,7 @@ static pspec_status add_choices(ps_table *table, const ps_request *request,
         PS_TRY(
             ps_table_add_meta(table, "sum", PS_TEXT("over exact shells, |k|^2 <= K^2 + K"), error));
     }
-    if (request->paper_formula) {
-        PS_TRY(ps_table_add_meta(table, "paper",
-                                 PS_TEXT("the integral (E-13) over |k| of radial means, a formula "
-                                         "that neglects P(0+) f_0^2 / N, the last term of (V4)"),
-                                 error));
-    }
+    PS_TRY(ps_variance_parts_add_about(table, request, error));
     return request->tail > 0
                ? ps_table_add_metas(table, tails, sizeof tails / sizeof tails[0], error)
                : PSPEC_OK;
@@ -198,20 +160,14 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         PS_TRY(ps_header_add_job(table, request, spectra, num, i, error));
         PS_TRY(add_files(table, jobs[i], error));
         PS_TRY(add_most_power(table, jobs[i], error));
-        if (request->bounds.is_wanted) {
-            PS_TRY(ps_shape_add_profiles(table, ps_variance_job_shape(jobs[i]),
-                                         ps_power_job_spectrum(spectra[i]), error));
-        }
+        PS_TRY(ps_variance_parts_add_question(table, request, jobs[i], error));
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
             PS_TRY(add_pairwise(table, &ps_variance_job_rows(jobs[i])[k], error));
             PS_TRY(add_row(table, request, &lead, jobs, i, k, error));
         }
     }
-    if (request->wants_rates) {
-        PS_TRY(ps_rates_add_header(table, request, jobs, error));
-    }
-    return request->wants_ranking ? ps_rank_add_header(table, request, jobs, error) : PSPEC_OK;
+    return ps_variance_parts_add_all(table, request, jobs, error);
 }
 
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,

@@ -18,6 +18,13 @@ static void release(chart_memory *self) {
     free(self->labels);
 }
 
+/* Rows of a question of several samplers say which they are of. */
+static bool names_samplers(const ps_run_result *result, size_t question) {
+    size_t column = 0;
+    return ps_table_find_column(result->questions[question].answer.table,
+                                ps_options[PS_OPTION_SAMPLER].name, &column);
+}
+
 /* The questions of a curve differ in the number of points alone. */
 static pspec_status take_parts(const ps_artist *artist, const ps_picture *what, size_t num_counts,
                                chart_memory *self) {
@@ -26,7 +33,7 @@ static pspec_status take_parts(const ps_artist *artist, const ps_picture *what, 
     for (size_t i = 0; i < what->num_curves; i++) {
         ps_text *const label = &self->labels[i];
         ps_label_curve(asked, what, what->curves[i], label);
-        if (label->length == 0) {
+        if (label->length == 0 && !names_samplers(artist->result, what->curves[i])) {
             ps_run_label(artist->result, what->curves[i], label);
         }
         PS_TRY(ps_text_check(label, artist->error));

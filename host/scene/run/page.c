@@ -173,6 +173,25 @@ static void print_summary(const ps_run_result *result, ps_text *out) {
     ps_text_append(out, "</table></div>\n");
 }
 
+/* What a question found out, in words. */
+static void print_sentences(const ps_run_result *result, size_t number, ps_text *out) {
+    const ps_table *const table = result->questions[number].answer.table;
+    const char *const *const wanted = result->asked->kind->sentences;
+    for (size_t i = 0; wanted != NULL && i < ps_table_num_meta(table); i++) {
+        const char *key = NULL;
+        const ps_cell value = ps_table_meta(table, i, &key);
+        size_t k = 0;
+        while (wanted[k] != NULL && strcmp(wanted[k], key) != 0) {
+            k++;
+        }
+        if (wanted[k] != NULL) {
+            ps_text_append(out, "<p>");
+            print_cell(value, out);
+            ps_text_append(out, "</p>\n");
+        }
+    }
+}
+
 /* All of them. */
 static void print_rows(const ps_table *table, ps_text *out) {
     print_names(table, out);
@@ -237,6 +256,9 @@ static void print_result(const ps_run_result *result, ps_text *out) {
     }
     ps_text_append(out, "</p>\n");
     print_plots(result, out);
+    for (size_t q = 0; q < result->num; q++) {
+        print_sentences(result, q, out);
+    }
     if (asked->kind->has_few_rows) {
         print_rows(result->table, out);
     }

@@ -16,6 +16,29 @@ static const char *meta_text(const ps_table *table, const char *key) {
     return cell.kind == PS_CELL_TEXT ? cell.text : "";
 }
 
+/* "(torus_nufft" of "(torus_nufft precision=single ..)". */
+static bool begin_alike(const char *a, const char *b) {
+    const size_t length = strcspn(a, " )");
+    return length == strcspn(b, " )") && strncmp(a, b, length) == 0;
+}
+
+/* A question of several samplers and numbers of points has such an entry for each of them: nothing
+ * unless all name the same. */
+static void print_common(const ps_table *table, const char *wanted, ps_text *out) {
+    const char *const first = meta_text(table, wanted);
+    bool is_common = first[0] != '\0';
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        const char *key = NULL;
+        const ps_cell cell = ps_table_meta(table, i, &key);
+        is_common = is_common && (strcmp(key, wanted) != 0 || cell.kind != PS_CELL_TEXT ||
+                                  begin_alike(cell.text, first));
+    }
+    if (is_common) {
+        ps_text_append(out, ", \"%s\": ", wanted);
+        ps_scene_print_text(first, out);
+    }
+}
+
 /* The devices that results say they were made on; that of the first with one. */
 static const char *find_device(const ps_run *run) {
     for (size_t i = 0; i < run->num_results; i++) {
@@ -31,10 +54,8 @@ static void print_question(const ps_run_question *question, ps_text *out) {
     const ps_table *const table = question->answer.table;
     ps_text_append(out, "\n      {\"command\": ");
     ps_scene_print_text(question->asked.request.command_line, out);
-    ps_text_append(out, ", \"engine\": ");
-    ps_scene_print_text(meta_text(table, "engine"), out);
-    ps_text_append(out, ", \"precision\": ");
-    ps_scene_print_text(meta_text(table, "precision"), out);
+    print_common(table, "engine", out);
+    print_common(table, "precision", out);
     ps_text_append(out, ", \"skipped\": ");
     ps_scene_print_text(meta_text(table, "skipped"), out);
     ps_text_append(out, ", \"seed\": \"%llu\", \"seconds\": \"%.6f\", \"from_cache\": \"%s\"}",

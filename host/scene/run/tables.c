@@ -21,8 +21,11 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
     }
     for (size_t i = 0; i < asked->num_entries && is_first; i++) {
         const int option = asked->entries[i].option;
-        if (option == PS_OPTION_SAMPLER || option == PS_SCENE_FILES || option == PS_OPTION_BRDF) {
-            ps_text_append(out, "%s", asked->entries[i].values[0].originals[0]);
+        const ps_scene_value *const value = &asked->entries[i].values[0];
+        const bool is_one = option != PS_OPTION_SAMPLER || value->num_texts == 1;
+        if (is_one &&
+            (option == PS_OPTION_SAMPLER || option == PS_SCENE_FILES || option == PS_OPTION_BRDF)) {
+            ps_text_append(out, "%s", value->originals[0]);
             is_first = false;
         }
     }
@@ -174,6 +177,8 @@ out:
 
 /* ---- summaries --------------------------------------------------------------------------- */
 
+enum { MOST_KEYS = 16, MOST_SUMMARY_COLUMNS = PS_NUM_OPTIONS + 1 + MOST_KEYS };
+
 static bool has_entry(const ps_table *table, const char *wanted) {
     const char *key = NULL;
     bool is_there = false;
@@ -207,27 +212,71 @@ static size_t put_keys(const ps_run_result *result, const char **names, size_t n
     return num;
 }
 
+static bool are_same(ps_cell a, ps_cell b) {
+    return a.kind == b.kind && a.number == b.number && a.integer == b.integer &&
+           (a.kind != PS_CELL_TEXT || strcmp(a.text, b.text) == 0);
+}
+
+/* The entry of a header. A question of several samplers and N has one for each of them: where they
+ * differ, this is the least and the largest number, as after -n, and no text. */
+static ps_cell sum_up(const ps_table *answer, const char *wanted, ps_text *range) {
+    const ps_cell first = ps_table_find_meta(answer, wanted);
+    double least = INFINITY;
+    double most = -INFINITY;
+    bool is_one = true;
+    for (size_t i = 0; i < ps_table_num_meta(answer); i++) {
+        const char *key = NULL;
+        const ps_cell cell = ps_table_meta(answer, i, &key);
+        if (strcmp(key, wanted) == 0) {
+            is_one = is_one && are_same(cell, first);
+            least = fmin(least, ps_cell_number(cell));
+            most = fmax(most, ps_cell_number(cell));
+        }
+    }
+    if (is_one || !(least < most)) {
+        return is_one ? first : PS_MISSING;
+    }
+    ps_text_append(range, "%.10g..%.10g", least, most);
+    return PS_TEXT(ps_text_string(range));
+}
+
 /* Points that vary are what the answer says: the mean where they differ from set to set. */
+static pspec_status add_summary_row(const ps_run_result *result, size_t number, size_t num_values,
+                                    const char *const *names, size_t num, ps_cell *cells,
+                                    ps_error *error) {
+    const ps_table *const answer = result->questions[number].answer.table;
+    ps_text ranges[MOST_SUMMARY_COLUMNS] = {{0}};
+    (void)put_values(result, number, NULL, cells);
+    for (size_t i = 0; i < num; i++) {
+        const bool is_said =
+            i < num_values && strcmp(names[i], ps_options[PS_OPTION_POINTS].name) != 0;
+        cells[i] = is_said ? cells[i] : sum_up(answer, names[i], &ranges[i]);
+    }
+    pspec_status status = PSPEC_OK;
+    for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
+        status = ps_text_check(&ranges[i], error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_table_add_row(result->summary, cells, error);
+    }
+    for (size_t i = 0; i < num; i++) {
+        ps_text_free(&ranges[i]);
+    }
+    return status;
+}
+
 static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
                                  ps_cell *cells, ps_error *error) {
-    const char *const points = ps_options[PS_OPTION_POINTS].name;
     const size_t num_values = put_names(result, NULL, names);
     const size_t num = put_keys(result, names, num_values);
     PS_TRY(begin(&result->summary, run, result, names, num, error));
     for (size_t q = 0; q < result->num; q++) {
-        const ps_table *const answer = result->questions[q].answer.table;
-        (void)put_values(result, q, NULL, cells);
-        for (size_t i = 0; i < num; i++) {
-            const bool is_said = i < num_values && strcmp(names[i], points) != 0;
-            cells[i] = is_said ? cells[i] : ps_table_find_meta(answer, names[i]);
-        }
-        PS_TRY(ps_table_add_row(result->summary, cells, error));
+        PS_TRY(add_summary_row(result, q, num_values, names, num, cells, error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status make_summary(const ps_run *run, ps_run_result *result, ps_error *error) {
-    enum { MOST_KEYS = 16 };
     void *names = NULL;
     void *cells = NULL;
     pspec_status status = PSPEC_OK;

@@ -1,0 +1,43 @@
+/* --bounds: the variance by profiles below and above the power of each sampler. */
+#include "answers/spectra/shape_table.h"
+#include "answers/spectra/spectrum_header.h"
+#include "answers/variance/parts.h"
+#include "request/options.h"
+
+static bool is_wanted(const ps_request *request) {
+    return request->bounds.is_wanted;
+}
+
+static pspec_status check(const ps_request *request, ps_error *error) {
+    return request->bounds.is_given || !ps_request_has_samplers(request) ||
+                   request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s auto finds profiles by standard errors, which need %d realizations or "
+                         "more (--realizations), not %llu",
+                         ps_option_show(request, PS_OPTION_BOUNDS).text,
+                         PS_FEWEST_FITTED_REALIZATIONS,
+                         (unsigned long long)request->num_realizations);
+}
+
+static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
+                 size_t question, size_t integrand) {
+    const ps_variance_row *const row = &ps_variance_job_rows(jobs[question])[integrand];
+    (void)request;
+    cells[0] = ps_number_or_missing(row->best_bound);
+    cells[1] = ps_number_or_missing(row->worst_bound);
+}
+
+static pspec_status add_question(ps_table *table, const ps_variance_job *job, ps_error *error) {
+    return ps_shape_add_profiles(table, ps_variance_job_shape(job),
+                                 ps_power_job_spectrum(ps_variance_job_spectrum(job)), error);
+}
+
+const ps_variance_part ps_variance_part_bounds = {
+    .columns = {"best_bound", "worst_bound"},
+    .is_wanted = is_wanted,
+    .with_errors = PS_NUM_OPTIONS,
+    .check = check,
+    .fill = fill,
+    .add_question = add_question,
+};
