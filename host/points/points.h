@@ -14,6 +14,7 @@
 #include "base/status.h"
 #include "math/lift.h"
 #include "math/morph.h"
+#include "points/box.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -72,16 +73,14 @@ typedef struct ps_point_options {
     const char *select;       /* "type=1": rows of frames with this in the column of that name */
     bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
-    size_t points_per_set; /* of formats that do not say (rps), where 0 means that all is one set;
+    size_t points_per_set;  /* of formats that do not say (rps), where 0 means that all is one set;
                                sets of other formats must have so many, unless 0 */
-    ps_point_range sets;   /* others are passed over */
-    ps_domain domain;      /* what the caller can use */
-    bool weight_column;    /* the last column holds the weight */
-    bool ignore_weights;   /* weights of the file are read and dropped */
-    bool wrap;             /* torus coordinates outside [0,1) are reduced mod 1, not refused */
-    /* Coordinates of [low, high) become those of [0,1), (x - low) / (high - low); both 0: they are
-     * so already */
-    double box_low, box_high;
+    ps_point_range sets;    /* others are passed over */
+    ps_domain domain;       /* what the caller can use */
+    bool weight_column;     /* the last column holds the weight */
+    bool ignore_weights;    /* weights of the file are read and dropped */
+    bool wrap;              /* torus coordinates outside [0,1) are reduced mod 1, not refused */
+    ps_box box;             /* of coordinates that are not those of [0,1) already */
     bool normalize_vectors; /* vectors are divided by their length instead of refused when that
                                 differs from 1 by more than 1e-6 */
     bool above_horizon;     /* points of the sphere with z < 0 are refused */

@@ -249,9 +249,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         OF(BIT(power) | BIT(check) | BIT(variance), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(reading.wrap)},
-    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"), .source = PS_OF_FILES, OF(READERS, BIT(convert)),
-                       .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, and "
-                               "become those in [0,1)",
+    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1[,Y0,Y1,...]"), .source = PS_OF_FILES,
+                       OF(READERS, BIT(convert)),
+                       .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, or "
+                               "each axis in an interval of its own, as in 0,8,0,4, and become "
+                               "those in [0,1)",
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
                                      OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance),

@@ -62,7 +62,7 @@ typedef enum ps_option_id {
     PS_OPTION_TRANSPOSE,         /* --transpose */
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */
     PS_OPTION_WRAP,              /* --wrap */
-    PS_OPTION_BOX,               /* --box X0,X1 */
+    PS_OPTION_BOX,               /* --box X0,X1[,Y0,Y1,...] */
     PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
     PS_OPTION_LIFT,              /* --lift sphere|hemisphere */
     PS_OPTION_MORPH,             /* --morph none|diffuse|glossy:n=N|phong:n=N */

@@ -149,6 +149,15 @@ powers '9.38938 5.53389' angular -l 2 "$folder/vec_3x12.npy"
 refuses 'are its columns the points? --transpose' power "$folder/plane_2x20.npy"
 [[ $("$program" convert --transpose "$folder/plane_2x20.npy" | wc -l) == 20 ]] || complain 'plane_2x20.npy: not 20 points'
 
+# ---- a box whose axes have intervals of their own: its lattice has no power but at multiples of (8, 4)
+awk 'BEGIN { for (y = 0; y < 4; y++) for (x = -7; x < 8; x++) if (x * x / 64 + y * y / 16 < 1 && (x || y)) print x, y }' >below.txt
+powers "$(sed 's/.*/0/' below.txt)" power --frequencies below.txt --box 0,8,0,4 "$folder/box84.txt"
+powers '32 32 32 0' power --frequencies <(printf '8 0\n0 4\n8 4\n8 2\n') --box 0,8,0,4 "$folder/box84.txt"
+reads '0.0625 0.125|0.0625 0.375' --box 0,8,0,4 --select-points ..2 "$folder/box84.txt"
+[[ $("$program" power -k 2 --box 0,8,0,4 "$folder/box84.txt" --engine host_direct | sed -n 's/^# box: //p') == 0,8,0,4 ]] ||
+    complain 'the header does not have the box'
+refuses 'coordinate 4.5 is outside [0,4) of --box' power --box 0,8,0,4 <(printf '4.5 3\n3 4.5\n')
+
 # ---- UTK 1
 reads '0.1 0.2|0.6 0.7|#|0.3 0.4|0.8 0.9' "$folder/utk1.pts"
 reads '0.1 0.2|#|0.3 0.4' --input-format utk1 <(printf 'mpts2 2 n unit-tor\r\n.1 .2\r\n#patch-separator\r\n.3 .4\r\n')

@@ -88,7 +88,7 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     char chosen[32];
     char where[PS_PLACE_BYTES];
     show_place(where, reader);
-    if (frame->has_box && options->box_high > options->box_low) {
+    if (frame->has_box && options->box.num_axes > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: --box, and the file states the box itself", where);
     }
@@ -151,7 +151,7 @@ static void scale_row(const ps_text_state *state, unsigned columns, double *row)
     for (unsigned i = 0; i < columns; i++) {
         const int axis = state->axes[i];
         if (axis >= 0) {
-            row[i] = ps_text_scale(row[i], state->lower[axis], state->upper[axis]);
+            row[i] = ps_box_scale(row[i], state->lower[axis], state->upper[axis]);
         }
     }
 }

@@ -60,9 +60,6 @@ pspec_status ps_edat_detect(ps_point_reader *reader, bool is_named, ps_error *er
 /* Makes xyz the format where the lines at the cursor begin a frame of it. */
 pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
 
-/* (x - lower) / (upper - lower); what lies below the upper end stays below 1. */
-double ps_text_scale(double x, double lower, double upper);
-
 /* No header, and '#' between sets. */
 void ps_text_begin(ps_point_writer *writer);
 void ps_text_begin_set(ps_point_writer *writer);
