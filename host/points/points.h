@@ -56,7 +56,8 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
 #define PS_SPHERE_COLUMNS                                                                          \
     "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w|theta-phi:degrees|"    \
     "theta-phi-w:degrees|phi-theta:degrees|phi-theta-w:degrees"
-#define PS_POINT_COLUMNS "xy|xyw|" PS_SPHERE_COLUMNS
+#define PS_TORUS_COLUMNS "xy|xyw"
+#define PS_POINT_COLUMNS PS_TORUS_COLUMNS "|" PS_SPHERE_COLUMNS
 
 /* Numbers from first to last, counted from 1; {0} means all. What is asked for must be there, but
  * last may be UINT64_MAX: up to the end. */
