@@ -384,8 +384,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "time the scenes that are named instead, with and without skips, "
                                   "and compare the answers",
                           FLAG(scenes)},
-    [PS_OPTION_VERBOSE] = {NAMED("verbose", 0, NULL), OF(0, ENGINES),
-                           .help = "say on standard error what is being done", FLAG(verbose)},
+    [PS_OPTION_VERBOSE] =
+        {NAMED("verbose", 0, NULL), OF(0, ENGINES | BIT(truncation)),
+         .help = "{truncation:}{:say on standard error what is being done; }all lines "
+                 "of the header, of which a terminal shows four",
+         FLAG(verbose)},
     [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",
                         .set = ps_set_nothing},
 };

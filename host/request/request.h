@@ -12,6 +12,7 @@
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
 #include "spectra/shape/bound.h"
+#include "tables/table.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -136,6 +137,7 @@ typedef struct ps_request {
     double false_alarm_rate; /* 1e-3 unless given */
     const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
         *output, *format, *plot; /* NULL unless given */
+    ps_text_view view;           /* of a table on a terminal; {0} elsewhere */
     /* How point files are read. What is of samplers or engines, too (dimension, number of points,
      * memory), stands in it no sooner than ps_point_options_make hands it on. */
     ps_point_options reading;
