@@ -55,7 +55,7 @@ static void append_names(char text[TEXT_BYTES], const char *words, const char *m
     }
 }
 
-/* A command of the torus takes no columns of the sphere, which it refuses by a sentence of its own. */
+/* A command of the torus refuses columns of the sphere, by a sentence of its own. */
 static const char *find_words(const ps_command *command, ps_option_id id) {
     const bool is_of_torus = command->result != NULL && command->result->samples == PS_DOMAIN_TORUS;
     return id == PS_OPTION_COLUMNS && is_of_torus ? PS_TORUS_COLUMNS

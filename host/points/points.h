@@ -71,7 +71,7 @@ typedef struct ps_point_options {
     const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names;
                                  or "3,7", numbers of the columns of a text or an array */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
-    const char *select;       /* "type=1": rows of frames with this in the column of that name */
+    const char *select;       /* "type=1": only rows with this in the column of that name */
     bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
     size_t points_per_set;  /* of formats that do not say (rps), where 0 means that all is one set;

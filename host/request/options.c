@@ -233,8 +233,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
     [PS_OPTION_SELECT] = {NAMED("select", 0, "NAME=VALUE"), .source = PS_OF_FILES,
                           OF(READERS, BIT(convert)),
-                          .help = "of frames of simulations (lammps, xyz) only the rows with this "
-                                  "value in the column of this name, as in type=1 or element=Ar",
+                          .help = "only the rows with this value in the column of this name, as in "
+                                  "type=1 or element=Ar, of texts with a line of names, frames of "
+                                  "simulations (lammps, xyz) and vertices (ply)",
                           .set = ps_set_select, .offset = offsetof(ps_request, reading.select)},
     [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), .source = PS_OF_FILES,
                           OF(READERS, BIT(convert)),

@@ -22,8 +22,8 @@ size_t ps_places(const char *text, size_t num_bytes);
 /* Control characters would move the cursor. */
 void ps_places_print(const char *text, size_t num_bytes, FILE *stream);
 void ps_blanks_print(size_t num, FILE *stream);
-/* Prints a text from where the line is now, column `from`, in lines of `width` places that are broken
- * at blanks and, from the second on, begin with `indent` of them; after `most` lines it ends in
+/* Prints a text from where the line is now, column `from`, in lines of `width` places, broken at
+ * blanks, that from the second on begin with `indent` of them; after `most` lines it ends in
  * "..". Returns how many lines there are; stream NULL: only that. */
 size_t ps_places_wrap(const char *text, size_t from, size_t indent, size_t width, size_t most,
                       FILE *stream);

@@ -43,7 +43,7 @@ for width in 40 50 64 80 100 130; do
     [[ $numbers == 10 ]] || complain "at $width a row has $numbers numbers, not 10: $(<shown)"
 done
 COLUMNS=60 on_terminal plan power --sampler jittered -n 64 -k 5 >shown
-(($(wc -L <shown) <= 60)) && grep -q '^    cheapest within the tolerance$' shown || complain "reasons of a plan: $(<shown)"
+[[ $(wc -L <shown) -le 60 && $(grep -c '^    cheapest within the tolerance$' shown) == 1 ]] || complain "reasons of a plan: $(<shown)"
 on_terminal "${words[@]}" --format csv >shown
 cmp -s <(grep -v '^# command' shown) <(grep -v '^# command' piped.csv) || complain "--format csv does not win on a terminal"
 on_terminal "${words[@]}" -o file.csv >shown
