@@ -2,7 +2,7 @@
 # cli_terminal.sh PROGRAM: tables on a terminal are for people, and those in files and pipes for programs.
 # shellcheck source=tests/harness/harness.sh
 . "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" power "$1"
-words=(power --sampler jittered -n 64 -m 4 -k 5 --engine host_direct)
+words=(power --sampler jittered -n 64 -m 4 -k 5 --engine host_direct --quiet) # a progress line would be on the terminal, too
 
 # The same words on a terminal of its own, without its carriage returns.
 on_terminal() {
@@ -27,9 +27,9 @@ on_terminal "${words[@]}" >shown
 [[ $(sed '/^$/,$d' shown | cut -d: -f1 | tr '\n' ' ') == 'sampler points realizations self_check ' ]] || complain "other lines: $(<shown)"
 left=$(($(sed '/^$/,$d' piped.txt | wc -l) - 4))
 [[ $(tail -1 shown) == "$left more lines of the header: --verbose" ]] || complain "not $left more lines: $(tail -1 shown)"
-on_terminal power --sampler jittered -n 64,256 -m 1 -k 2 --engine host_direct >shown
+on_terminal power --sampler jittered -n 64,256 -m 1 -k 2 --engine host_direct --quiet >shown
 [[ $(head -4 shown) == $'standard_error: none: one realization\nsampler: jittered\npoints: 64; 256\nrealizations: 1' ]] || complain "two N: $(<shown)"
-on_terminal power --sampler jittered -n 1024 -m 8 -k 40 --fit auto >shown
+on_terminal power --sampler jittered -n 1024 -m 8 -k 40 --fit auto --quiet >shown
 [[ $(sed '/^$/,$d' shown | wc -l) == 4 && $(head -1 shown) == 'fit: '* ]] || complain "sentences are not cut to four lines: $(<shown)"
 on_terminal truncation --brdf glossy:n=30 -l 4 --verbose >shown
 [[ $(head -1 shown) == pointspec_version* && $(grep -c more shown) == 0 ]] || complain "truncation --verbose: $(<shown)"
