@@ -34,6 +34,7 @@ add_program_test(cli_fit)       # power laws, plateaus and profiles of spectra
 add_program_test(cli_program)   # streams, signals, formats, same bits
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
+add_program_test(cli_help)      # words of a command alone
 add_program_test(cli_field ${CMAKE_CURRENT_SOURCE_DIR}/field) # what is known of such files
 add_program_test(cli_angular)   # the sphere: formats, header, what is refused
 add_program_test(cli_healpy ${PROJECT_SOURCE_DIR}/build/peers) # against healpy and ducc0, where installed

@@ -40,6 +40,7 @@ static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void 
     }
     PS_TRY(kind->tabulate(out, computed, request, error));
     if (request->output != NULL) {
+        ps_table_set_view(out->table, &request->view);
         PS_TRY(ps_table_write(out->table, request->output, format, error));
     }
     return request->plot == NULL

@@ -1,5 +1,6 @@
 /* The public library: answers of every kind of answer. */
 #include "api/public_words.h"
+#include "request/option_help.h"
 #include "request/options.h"
 
 const char *pspec_answer_kind(size_t i) {
@@ -17,9 +18,10 @@ static pspec_status fill_options(ps_table *table, const ps_verb *verb, ps_error 
         const ps_option_id id = (ps_option_id)i;
         if (ps_public_takes(verb, id)) {
             const char *const words = ps_verb_words(verb, id);
+            char help[PS_OPTION_HELP_BYTES];
+            ps_option_help(help, ps_options[id].help, verb->name);
             const ps_cell cells[] = {PS_TEXT(ps_options[id].name),
-                                     words != NULL ? PS_TEXT(words) : PS_MISSING,
-                                     PS_TEXT(ps_options[id].help)};
+                                     words != NULL ? PS_TEXT(words) : PS_MISSING, PS_TEXT(help)};
             PS_TRY(ps_table_add_row(table, cells, error));
         }
     }

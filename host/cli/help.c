@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "integrands/brdf.h"
 #include "integrands/integrand.h"
+#include "request/option_help.h"
 #include "request/options.h"
 #include "samplers/sampler.h"
 
@@ -38,7 +39,7 @@ static void print_item(FILE *stream, const char *term, const char *text) {
     print_wrapped(stream, text, HELP_COLUMN, HELP_COLUMN);
 }
 
-enum { TEXT_BYTES = 512 }; /* the longest text of an option with its names has half of that */
+enum { TEXT_BYTES = PS_OPTION_HELP_BYTES };
 
 /* The values that NAME stands for, behind what is in text. */
 static void append_names(char text[TEXT_BYTES], const char *words, const char *metavar) {
@@ -54,6 +55,13 @@ static void append_names(char text[TEXT_BYTES], const char *words, const char *m
     }
 }
 
+/* A command of the torus refuses columns of the sphere, by a sentence of its own. */
+static const char *find_words(const ps_command *command, ps_option_id id) {
+    const bool is_of_torus = command->result != NULL && command->result->samples == PS_DOMAIN_TORUS;
+    return id == PS_OPTION_COLUMNS && is_of_torus ? PS_TORUS_COLUMNS
+                                                  : ps_command_words(command, id);
+}
+
 static void print_option(FILE *stream, const ps_command *command, ps_option_id id) {
     const ps_option *const option = &ps_options[id];
     const char *const metavar = ps_command_metavar(command, id);
@@ -62,8 +70,8 @@ static void print_option(FILE *stream, const ps_command *command, ps_option_id i
     snprintf(term, sizeof term, "%s--%s%s%s", option->letter != 0 ? letter : "    ", option->name,
              metavar != NULL ? " " : "", metavar != NULL ? metavar : "");
     char text[TEXT_BYTES];
-    snprintf(text, sizeof text, "%s", option->help);
-    append_names(text, ps_command_words(command, id), metavar);
+    ps_option_help(text, option->help, command->name);
+    append_names(text, find_words(command, id), metavar);
     print_item(stream, term, text);
 }
 

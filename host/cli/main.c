@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/shown.h"
+#include "cli/terminal.h"
 #include "request/options.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
@@ -125,7 +126,7 @@ static pspec_status complete(const ps_command *command, ps_request *arguments, p
     if (arguments->output == NULL && has_output(command, arguments)) {
         arguments->output = "-"; /* in the library NULL is no output */
     }
-    arguments->format = ps_shown_format(command, arguments);
+    ps_terminal_settle(command, arguments);
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->limits.device = getenv("POINTSPEC_DEVICE");
     }

@@ -72,20 +72,6 @@ static void print_profile(void *payload, const ps_profile_row *rows, size_t num_
     }
 }
 
-/* ---- format ---------------------------------------------------------------------------------- */
-
-const char *ps_shown_format(const ps_command *command, const ps_request *arguments) {
-    static const char text[] = "text";
-    const char *const words = ps_command_takes(command, PS_OPTION_FORMAT)
-                                  ? ps_command_words(command, PS_OPTION_FORMAT)
-                                  : "";
-    const bool goes_to_terminal =
-        arguments->output != NULL && strcmp(arguments->output, "-") == 0 && isatty(STDOUT_FILENO);
-    return arguments->format == NULL && goes_to_terminal && strstr(words, text) != NULL
-               ? text
-               : arguments->format;
-}
-
 /* ---- all of it ------------------------------------------------------------------------------- */
 
 ps_answer_hooks ps_shown_hooks(ps_shown *shown) {

@@ -24,7 +24,4 @@ pspec_status ps_shown_answer(const ps_kind *kind, const ps_request *arguments,
 /* The status of the verdict, which is then the error. */
 pspec_status ps_shown_verdict(const ps_answer *answer, ps_error *error) PS_MUST_CHECK;
 
-/* What --format says; text, for people, where it says nothing and a table goes to a terminal. */
-const char *ps_shown_format(const ps_command *command, const ps_request *arguments);
-
 #endif

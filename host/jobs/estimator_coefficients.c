@@ -1,7 +1,7 @@
 /* Coefficients of one pattern. */
 #include "base/memory.h"
 #include "jobs/estimator_private.h"
-#include "math/hemisphere.h"
+#include "math/hemisphere/hemisphere.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -268,6 +268,24 @@ static pspec_status resolve_lifted(ps_layout *out, const ps_columns_question *qu
     return PSPEC_OK;
 }
 
+/* A box is of the torus, and has an interval for all axes or one for each. */
+static pspec_status check_box(const ps_layout *layout, const ps_columns_question *question,
+                              ps_error *error) {
+    const unsigned num = question->options->box.num_axes;
+    if (layout->coordinates != PS_TORUS_COORDINATES) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: --box is for points of the torus, and these are of the sphere",
+                       question->where);
+    }
+    return num == 1 || num == layout->dimension
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: --box has %u intervals, and points of %u coordinate%s need one of "
+                         "all axes, or %u",
+                         question->where, num, layout->dimension, layout->dimension == 1 ? "" : "s",
+                         layout->dimension);
+}
+
 pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *question,
                                 ps_error *error) {
     if (question->options->lift != PS_NO_LIFT) {
@@ -292,11 +310,7 @@ pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *quest
         PS_TRY(set_torus(out, question, options->weight_column, error));
     }
     out->drops_weight = options->ignore_weights;
-    return out->coordinates == PS_TORUS_COORDINATES || !(options->box_high > options->box_low)
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: --box is for points of the torus, and these are of the sphere",
-                         question->where);
+    return options->box.num_axes > 0 ? check_box(out, question, error) : PSPEC_OK;
 }
 
 pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape, ps_error *error) {

@@ -5,7 +5,7 @@
 
 #include "points/points.h"
 
-enum { PS_MAX_DIMENSION = 6, PS_MAX_COLUMNS = PS_MAX_DIMENSION + 1 };
+enum { PS_MAX_COLUMNS = PS_MAX_DIMENSION + 1 };
 
 typedef enum ps_angle_order {
     PS_NO_ANGLES = 0,

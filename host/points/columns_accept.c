@@ -41,31 +41,20 @@ PS_WIDE_BODY(bool, are_inside, (const double *values, size_t count)) {
 }
 PS_WIDE(bool, are_inside, (const double *values, size_t count), (values, count))
 
-static bool has_box(const ps_point_options *options) {
-    return options->box_high > options->box_low;
-}
-
-/* The last double below 1, which what lies inside may round to. */
-static const double LAST_INSIDE = 1 - 0x1p-53;
-
-static double unbox(const ps_point_options *options, double coordinate) {
-    const double scaled = (coordinate - options->box_low) / (options->box_high - options->box_low);
-    return coordinate < options->box_high && scaled >= 1 ? LAST_INSIDE : scaled;
-}
-
 /* A row is looked at before any of it is changed: what is refused is shown as the file has it. */
 static size_t accept_box(unsigned dimension, const ps_point_options *options, double *values,
                          size_t num) {
+    const ps_box *const box = &options->box;
     for (size_t i = 0; i < num; i++) {
         double *const row = values + i * dimension;
         for (unsigned j = 0; j < dimension; j++) {
-            const bool is_inside = row[j] >= options->box_low && row[j] < options->box_high;
-            if (!is_inside && !(options->wrap && isfinite(row[j]))) {
+            if (!ps_box_holds(box, j, row[j]) && !(options->wrap && isfinite(row[j]))) {
                 return i;
             }
         }
         for (unsigned j = 0; j < dimension; j++) {
-            row[j] = unbox(options, row[j]);
+            const unsigned interval = ps_box_interval(box, j);
+            row[j] = ps_box_scale(row[j], box->low[interval], box->high[interval]);
             if (!(row[j] >= 0 && row[j] < 1)) {
                 wrap(&row[j]);
             }
@@ -79,7 +68,7 @@ static size_t accept_torus(unsigned dimension, const ps_point_options *options, 
                            size_t num) {
     const bool wraps = options->wrap;
     const size_t count = num * dimension;
-    if (has_box(options)) {
+    if (options->box.num_axes > 0) {
         return accept_box(dimension, options, values, num);
     }
     const bool are_good = are_inside(values, count);
@@ -233,6 +222,7 @@ static bool is_near(double coordinate) {
 
 static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options *options,
                                  const char *where, const double *row, ps_error *error) {
+    const bool has_box = options->box.num_axes > 0;
     char text[NUMBER_BYTES];
     for (unsigned j = 0; j < layout->dimension; j++) { /* first, for nothing else would help */
         if (!isfinite(row[j])) {
@@ -240,16 +230,18 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
                            where, show_number(text, row[j]));
         }
     }
-    for (unsigned j = 0; has_box(options) && j < layout->dimension; j++) {
-        if (!(row[j] >= options->box_low && row[j] < options->box_high) && !options->wrap) {
+    for (unsigned j = 0; has_box && j < layout->dimension; j++) {
+        if (!ps_box_holds(&options->box, j, row[j]) && !options->wrap) {
+            const unsigned interval = ps_box_interval(&options->box, j);
             char ends[2][NUMBER_BYTES];
             return ps_fail(error, PSPEC_ERROR_INPUT,
                            "%s: coordinate %s is outside [%s,%s) of --box; --wrap would reduce it",
-                           where, show_number(text, row[j]), show_number(ends[0], options->box_low),
-                           show_number(ends[1], options->box_high));
+                           where, show_number(text, row[j]),
+                           show_number(ends[0], options->box.low[interval]),
+                           show_number(ends[1], options->box.high[interval]));
         }
     }
-    for (unsigned j = 0; !has_box(options) && j < layout->dimension; j++) {
+    for (unsigned j = 0; !has_box && j < layout->dimension; j++) {
         const bool is_inside = row[j] >= 0 && row[j] < 1;
         if (!is_inside && !options->wrap) {
             const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);

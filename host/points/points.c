@@ -186,7 +186,6 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
     return PSPEC_OK;
 }
 
-/* Only text with one point per line may have names of columns. */
 /* Columns are chosen by names in texts, and by numbers in arrays, too. */
 static pspec_status check_chosen(const ps_point_reader *reader, bool may_have_names,
                                  ps_error *error) {
@@ -207,13 +206,13 @@ static pspec_status check_names(const ps_point_reader *reader, ps_error *error) 
     const ps_point_options *const options = &reader->options;
     const bool may_have_names =
         reader->format == &ps_format_utk_text || reader->format == &ps_format_csv;
-    const bool are_frames = reader->format == &ps_format_lammps || reader->format == &ps_format_xyz;
-    PS_TRY(check_chosen(reader, may_have_names || are_frames || reader->format == &ps_format_ply,
-                        error));
-    if (options->select != NULL && !are_frames) {
+    const bool has_names = may_have_names || reader->format == &ps_format_lammps ||
+                           reader->format == &ps_format_xyz || reader->format == &ps_format_ply;
+    PS_TRY(check_chosen(reader, has_names, error));
+    if (options->select != NULL && !has_names) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: --select is for lammps and xyz, and this is %s", reader->input.name,
-                       reader->format->name);
+                       "%s: --select %s is about a column with a name, and %s has no names",
+                       reader->input.name, options->select, reader->format->name);
     }
     if (options->transpose && reader->format != &ps_format_npy &&
         reader->format != &ps_format_openquad) {

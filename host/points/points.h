@@ -14,6 +14,7 @@
 #include "base/status.h"
 #include "math/lift.h"
 #include "math/morph.h"
+#include "points/box.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -55,7 +56,8 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
 #define PS_SPHERE_COLUMNS                                                                          \
     "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w|theta-phi:degrees|"    \
     "theta-phi-w:degrees|phi-theta:degrees|phi-theta-w:degrees"
-#define PS_POINT_COLUMNS "xy|xyw|" PS_SPHERE_COLUMNS
+#define PS_TORUS_COLUMNS "xy|xyw"
+#define PS_POINT_COLUMNS PS_TORUS_COLUMNS "|" PS_SPHERE_COLUMNS
 
 /* Numbers from first to last, counted from 1; {0} means all. What is asked for must be there, but
  * last may be UINT64_MAX: up to the end. */
@@ -69,20 +71,18 @@ typedef struct ps_point_options {
     const char *column_names; /* NULL, or "x,y", "ra,dec=lon-lat": of a text with a line of names;
                                  or "3,7", numbers of the columns of a text or an array */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
-    const char *select;       /* "type=1": rows of frames with this in the column of that name */
+    const char *select;       /* "type=1": only rows with this in the column of that name */
     bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
-    size_t points_per_set; /* of formats that do not say (rps), where 0 means that all is one set;
+    size_t points_per_set;  /* of formats that do not say (rps), where 0 means that all is one set;
                                sets of other formats must have so many, unless 0 */
-    bool points_vary;      /* they may have others: the number is that of samplers beside them */
-    ps_point_range sets;   /* others are passed over */
-    ps_domain domain;      /* what the caller can use */
-    bool weight_column;    /* the last column holds the weight */
-    bool ignore_weights;   /* weights of the file are read and dropped */
-    bool wrap;             /* torus coordinates outside [0,1) are reduced mod 1, not refused */
-    /* Coordinates of [low, high) become those of [0,1), (x - low) / (high - low); both 0: they are
-     * so already */
-    double box_low, box_high;
+    bool points_vary;       /* they may have others: the number is that of samplers beside them */
+    ps_point_range sets;    /* others are passed over */
+    ps_domain domain;       /* what the caller can use */
+    bool weight_column;     /* the last column holds the weight */
+    bool ignore_weights;    /* weights of the file are read and dropped */
+    bool wrap;              /* torus coordinates outside [0,1) are reduced mod 1, not refused */
+    ps_box box;             /* of coordinates that are not those of [0,1) already */
     bool normalize_vectors; /* vectors are divided by their length instead of refused when that
                                 differs from 1 by more than 1e-6 */
     bool above_horizon;     /* points of the sphere with z < 0 are refused */

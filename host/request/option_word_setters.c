@@ -182,26 +182,62 @@ pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
     return parse_bound(&bounds->above, said, second, strlen(second), error);
 }
 
-pspec_status ps_set_box(const ps_said *said, ps_error *error) {
+/* Numbers between commas; *num: how many there are, of which the first `most` are written. */
+static pspec_status parse_numbers(const ps_said *said, double *numbers, size_t most, size_t *num,
+                                  ps_error *error) {
     enum { NUMBER_BYTES = 64 };
-    char first[NUMBER_BYTES];
-    const char *const comma = strchr(said->text, ',');
-    ps_point_options *const reading = &said->request->reading;
-    if (comma == NULL || (size_t)(comma - said->text) >= sizeof first) {
-        return fail_word(said, error);
+    bool is_more = true;
+    *num = 0;
+    for (const char *at = said->text; is_more; ++*num) {
+        char own[NUMBER_BYTES];
+        const size_t length = strcspn(at, ",");
+        is_more = at[length] == ',';
+        if (length >= sizeof own) {
+            return fail_word(said, error);
+        }
+        snprintf(own, sizeof own, "%.*s", (int)length, at);
+        if (*num < most) {
+            PS_TRY(ps_parse_number(own, said->shown, -MOST_BOX, MOST_BOX, &numbers[*num], error));
+        }
+        at += length + is_more;
     }
-    snprintf(first, sizeof first, "%.*s", (int)(comma - said->text), said->text);
-    PS_TRY(ps_parse_number(first, said->shown, -MOST_BOX, MOST_BOX, &reading->box_low, error));
-    PS_TRY(ps_parse_number(comma + 1, said->shown, -MOST_BOX, MOST_BOX, &reading->box_high, error));
-    if (!(reading->box_low < reading->box_high)) {
+    return PSPEC_OK;
+}
+
+static pspec_status check_interval(const ps_said *said, unsigned axis, double low, double high,
+                                   ps_error *error) {
+    const char first = "XYZUVW"[axis];
+    if (!(low < high)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: %s is no interval: X0 must be below X1", said->shown, said->text);
+                       "%s: %s is no interval: %c0 must be below %c1", said->shown, said->text,
+                       first, first);
     }
-    return reading->box_high - reading->box_low >= LEAST_BOX
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is %.3g wide, and must be at least %g", said->shown, said->text,
-                         reading->box_high - reading->box_low, LEAST_BOX);
+    return high - low >= LEAST_BOX ? PSPEC_OK
+                                   : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                             "%s: %s is %.3g wide, and must be at least %g",
+                                             said->shown, said->text, high - low, LEAST_BOX);
+}
+
+/* "0,8", or "0,8,0,4": an interval for each axis. */
+pspec_status ps_set_box(const ps_said *said, ps_error *error) {
+    enum { MOST = 2 * PS_MAX_DIMENSION };
+    double ends[MOST];
+    size_t num = 0;
+    ps_box *const box = &said->request->reading.box;
+    PS_TRY(parse_numbers(said, ends, MOST, &num, error));
+    if (num % 2 != 0 || num > MOST) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: \"%s\" has %zu number%s; an interval of all axes has two, X0,X1, and "
+                       "the axes may have one each, X0,X1,Y0,Y1",
+                       said->shown, said->text, num, num == 1 ? "" : "s");
+    }
+    *box = (ps_box){.num_axes = (unsigned)num / 2};
+    for (unsigned i = 0; i < box->num_axes; i++) {
+        box->low[i] = ends[2 * i];
+        box->high[i] = ends[2 * i + 1];
+        PS_TRY(check_interval(said, i, box->low[i], box->high[i], error));
+    }
+    return PSPEC_OK;
 }
 
 /* "type=1" */

@@ -52,20 +52,21 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
         {NAMED("points", 'n', "N"), OF(ENGINES | BIT(sample), BIT(convert)),
          .help =
-             "points in each realization (default 1024; check: as saved); several as 64,128,256 "
+             "points in each realization (default {check:as saved}{:1024}); several as 64,128,256 "
              "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
              "formats that do not say (rps)",
          .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), .source = PS_OF_SAMPLERS,
                                 OF(ENGINES | BIT(sample), 0),
-                                .help = "realizations of each sampler (default 1; check: as saved, "
-                                        "or 128)",
+                                .help = "realizations of each sampler (default {check:as saved, or "
+                                        "128}{:1})",
                                 COUNT(num_realizations), .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_STANDARD_ERROR] =
         {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
-         .help = "no more realizations than make the relative standard error of every ring or "
-                 "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
+         .help = "no more realizations than make the relative standard error of every "
+                 "{power:ring}{:degree} X (above --floor; at least 16); -m is then the most "
+                 "(default 1e6)",
          SHARE(accuracy.standard_error)},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
                              OF(BIT(power) | BIT(check) | BIT(variance) | BIT(sample),
@@ -138,14 +139,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"),
                                  OF(BIT(power) | BIT(check) | BIT(variance), 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
-                                         "ceil(5 N^(1/d)) for d <= 3; check: 2 N^(1/d))",
+                                         "{check:2 N^(1/d)}{:ceil(5 N^(1/d)) for d <= 3})",
                                  .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
     [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"),
                               OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
                               .help =
-                                  "the largest degree (default ceil(4 sqrt N), for quadrature at "
-                                  "most; truncation: 20)",
+                                  "the largest degree (default {truncation:20}{quadrature:at most "
+                                  "ceil(4 sqrt N)}{:ceil(4 sqrt N)})",
                               .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
                           OF(ENGINES | BIT(sample), BIT(convert) | BIT(run)),
@@ -162,9 +163,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_COEFFICIENTS] = {NAMED("coefficients", 0, "FILE.npy"),
                                 OF(0, BIT(power) | BIT(angular)),
                                 .help =
-                                    "write the complex128 array too: S(k) = sum w exp(-2 pi i k.x) "
-                                    "of each set in the order of --full or of the list; c_lm = "
-                                    "sum w Y_lm of the only set, (l, m) at index m(2L+1-m)/2 + l",
+                                    "write the complex128 array too: {angular:c_lm = sum w Y_lm of "
+                                    "the only set, (l, m) at index m(2L+1-m)/2 + l}{:S(k) = sum w "
+                                    "exp(-2 pi i k.x) of each set in the order of --full or of the "
+                                    "list}",
                                 FILE_OUT(coefficients)},
     [PS_OPTION_HARMONICS] = {NAMED("harmonics", 0, "spherical|hemispherical"),
                              OF(BIT(truncation), BIT(angular)),
@@ -178,7 +180,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_BINS] = {NAMED("bins", 0, PS_BIN_RULES), OF(BIT(power) | BIT(variance), 0),
                         .help = "rings: of width 1 about whole |k| (round, the default), or by "
                                 "floor of |k|, of |k| Q/P or of |k| Q/P N^(-1/d); or exact shells "
-                                "of |k|^2; variance: shells, a sum over a ball instead of a box",
+                                "of |k|^2{variance:, a sum over a ball instead of a box}",
                         .set = ps_set_bins},
     [PS_OPTION_PER_RING] = {NAMED("per-ring", 0, "S"), OF(BIT(power), 0),
                             .help = "of every ring (or shell) with more than S frequencies of the "
@@ -201,8 +203,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          .set = ps_set_normalize},
     [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), .source = PS_OF_SAMPLERS,
                               OF(SETS | BIT(sample), 0),
-                              .help = "shift every realization by one random vector, mod 1; "
-                                      "points of the sphere are rotated",
+                              .help = "{power:shift every realization by one random vector, mod 1}"
+                                      "{angular,pairs,quadrature:rotate every realization by "
+                                      "one random rotation}{:shift every realization by one "
+                                      "random vector, mod 1; points of the sphere are rotated}",
                               FLAG(homogenize)},
     [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(READERS, BIT(convert)),
                            .help = "equal: all 1, weights of the files are dropped; column: the "
@@ -227,15 +231,17 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), .source = PS_OF_FILES,
                            OF(READERS, BIT(convert)),
                            .help = "what the columns of the point files are, w being the weight "
-                                   "(default: found out; angles are in radians but lon-lat and "
-                                   "those with :degrees); or names with commas, as in x,y, that "
-                                   "the first line of a text has, or numbers, as in 3,7, and "
-                                   "perhaps what they are, as in ra,dec=lon-lat",
+                                   "(default: found out{power:}{:; angles are in radians but "
+                                   "lon-lat and those with :degrees}); or names with commas, as "
+                                   "in x,y, that the first line of a text has, or numbers, as in "
+                                   "3,7, and perhaps what they are, as in "
+                                   "{power:x,y,mass=xyw}{:ra,dec=lon-lat}",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
     [PS_OPTION_SELECT] = {NAMED("select", 0, "NAME=VALUE"), .source = PS_OF_FILES,
                           OF(READERS, BIT(convert)),
-                          .help = "of frames of simulations (lammps, xyz) only the rows with this "
-                                  "value in the column of this name, as in type=1 or element=Ar",
+                          .help = "only the rows with this value in the column of this name, as in "
+                                  "type=1 or element=Ar, of texts with a line of names, frames of "
+                                  "simulations (lammps, xyz) and vertices (ply)",
                           .set = ps_set_select, .offset = offsetof(ps_request, reading.select)},
     [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), .source = PS_OF_FILES,
                           OF(READERS, BIT(convert)),
@@ -248,16 +254,18 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              FLAG(reading.transpose)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), .source = PS_OF_FILES,
                           OF(BIT(check) | BIT(variance), BIT(convert)),
-                          .help = "where the points lie (default: found out; check: on the torus; "
-                                  "variance: where there are the integrands)",
+                          .help = "where the points lie (default: {check:on the torus}"
+                                  "{variance:where there are the integrands}{:found out})",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES,
                         OF(BIT(power) | BIT(check) | BIT(variance), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(reading.wrap)},
-    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"), .source = PS_OF_FILES, OF(READERS, BIT(convert)),
-                       .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, and "
-                               "become those in [0,1)",
+    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1[,Y0,Y1,...]"), .source = PS_OF_FILES,
+                       OF(READERS, BIT(convert)),
+                       .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, or "
+                               "each axis in an interval of its own, as in 0,8,0,4, and become "
+                               "those in [0,1)",
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
                                      OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance),
@@ -273,8 +281,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_MORPH] = {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"),
                          .source = PS_OF_FILES,
                          OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
-                         .help = "points lifted to the hemisphere take the density of a lobe, as "
-                                 "by morph= of samplers (default none; quadrature: that of --brdf)",
+                         .help =
+                             "points lifted to the hemisphere take the density of a lobe, as "
+                             "by morph= of samplers (default {quadrature:that of --brdf}{:none})",
                          .set = ps_set_morph},
     [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
                               .help = "leave points below the horizon out where the lobe "
@@ -295,12 +304,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "columns of the output, for points of the sphere (default "
                                       "xyz, with w if there are weights)",
                               WORD(to_columns)},
-    [PS_OPTION_TOLERANCE] = {NAMED("tol", 0, "T"), OF(ENGINES, 0),
-                             .help =
-                                 "largest error, above 0 and at most 1: of S relative to white "
-                                 "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
-                                 "quadrature: of E^2 over c (sum |w|)^2 (1e-10)",
-                             SHARE(accuracy.tolerance)},
+    [PS_OPTION_TOLERANCE] =
+        {NAMED("tol", 0, "T"), OF(ENGINES, 0),
+         .help = "largest error, above 0 and at most 1, of {pairs:Q(l) over (sum "
+                 "|w|)^2 (default 1e-6)}{quadrature:E^2 over c (sum |w|)^2 (default "
+                 "1e-10)}{:S relative to white noise (default 1e-6)}",
+         SHARE(accuracy.tolerance)},
     [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
                          .help = "powers down to P are right to 10 %", POSITIVE(accuracy.floor)},
     [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"),
@@ -382,8 +391,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "time the scenes that are named instead, with and without skips, "
                                   "and compare the answers",
                           FLAG(scenes)},
-    [PS_OPTION_VERBOSE] = {NAMED("verbose", 0, NULL), OF(0, ENGINES),
-                           .help = "say on standard error what is being done", FLAG(verbose)},
+    [PS_OPTION_VERBOSE] =
+        {NAMED("verbose", 0, NULL), OF(0, ENGINES | BIT(truncation)),
+         .help = "{truncation:}{:say on standard error what is being done; }all lines "
+                 "of the header, of which a terminal shows four",
+         FLAG(verbose)},
     [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",
                         .set = ps_set_nothing},
 };

@@ -12,6 +12,7 @@
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
 #include "spectra/shape/bound.h"
+#include "tables/table.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -63,7 +64,7 @@ typedef enum ps_option_id {
     PS_OPTION_TRANSPOSE,         /* --transpose */
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */
     PS_OPTION_WRAP,              /* --wrap */
-    PS_OPTION_BOX,               /* --box X0,X1 */
+    PS_OPTION_BOX,               /* --box X0,X1[,Y0,Y1,...] */
     PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
     PS_OPTION_LIFT,              /* --lift sphere|hemisphere */
     PS_OPTION_MORPH,             /* --morph none|diffuse|glossy:n=N|phong:n=N */
@@ -145,6 +146,7 @@ typedef struct ps_request {
     double false_alarm_rate; /* 1e-3 unless given */
     const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
         *output, *format, *plot; /* NULL unless given */
+    ps_text_view view;           /* of a table on a terminal; {0} elsewhere */
     /* How point files are read. What is of samplers or engines, too (dimension, number of points,
      * memory), stands in it no sooner than ps_point_options_make hands it on. */
     ps_point_options reading;

@@ -1,7 +1,7 @@
 #include "rules/truncation.h"
 
 #include "base/memory.h"
-#include "math/half_range.h"
+#include "math/hemisphere/half_range.h"
 #include "math/sobolev.h"
 
 #include <float.h>

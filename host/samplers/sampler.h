@@ -16,6 +16,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "base/watch.h"
+#include "math/dimension.h"
 #include "math/lift.h"
 #include "math/morph.h"
 
@@ -23,7 +24,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { PS_MAX_DIMENSION = 6, PS_MAX_SAMPLER_PARAMETERS = 4, PS_MAX_SAMPLER_VALUE = 64 };
+enum { PS_MAX_SAMPLER_PARAMETERS = 4, PS_MAX_SAMPLER_VALUE = 64 };
 
 /* What costs of samplers are in. */
 #define PS_NANOSECOND 1e-9

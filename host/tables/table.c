@@ -157,6 +157,10 @@ void ps_table_set_blocks(ps_table *table) {
     table->has_blocks = true;
 }
 
+void ps_table_set_view(ps_table *table, const ps_text_view *view) {
+    table->view = *view;
+}
+
 size_t ps_table_num_rows(const ps_table *table) {
     return table->num_rows;
 }

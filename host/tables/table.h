@@ -67,6 +67,15 @@ pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t 
 pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) PS_MUST_CHECK;
 /* As text, a block of lines for each row: for many columns and few rows. */
 void ps_table_set_blocks(ps_table *table);
+/* As text, so that it fits a terminal. {0}: all header lines, and columns however wide. */
+typedef struct ps_text_view {
+    size_t width;      /* of a line; 0: any */
+    size_t most_lines; /* of the header; 0: any */
+    const char *const
+        *keys;        /* of the header, those first that are to be seen first; NULL ends it */
+    const char *rest; /* what shows the other lines, for a last line that counts them */
+} ps_text_view;
+void ps_table_set_view(ps_table *table, const ps_text_view *view);
 /* Format by its name (csv, json, jsonl, npy, text) or, with name NULL, by the ending of path (none:
  * CSV). Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,

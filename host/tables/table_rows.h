@@ -21,6 +21,7 @@ struct ps_table {
     ps_cell *cells; /* [num_rows][num_columns], texts belong to the table */
     size_t num_rows, cells_capacity;
     bool has_blocks; /* as text, a block of lines for each row */
+    ps_text_view view;
 };
 
 /* Both write to a stream, whose errors the caller checks. */
@@ -31,9 +32,14 @@ void ps_table_write_csv(const ps_table *table, FILE *stream);
 /* A line for the head, and one for each row. */
 pspec_status ps_table_write_jsonl(const ps_table *table, FILE *stream,
                                   ps_error *error) PS_MUST_CHECK;
-/* For people. */
+/* For people: all of it, and its parts: header lines, with how many entries they have, and columns
+ * side by side. */
 pspec_status ps_table_write_text(const ps_table *table, FILE *stream,
                                  ps_error *error) PS_MUST_CHECK;
+pspec_status ps_table_write_head(const ps_table *table, size_t *num_shown, FILE *stream,
+                                 ps_error *error) PS_MUST_CHECK;
+pspec_status ps_table_write_columns(const ps_table *table, FILE *stream,
+                                    ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
                                  ps_error *error) PS_MUST_CHECK;
 

@@ -260,7 +260,16 @@ reads '0.25 0.5|0.5 0' --wrap --box 1,2 <(printf '0.25 0.5\n1.5 2\n')
 refuses '--box: 1,1 is no interval: X0 must be below X1' --box 1,1 pixels.txt
 refuses '--box: 0,1e-309 is 1e-309 wide, and must be at least 1e-300' --box 0,1e-309 pixels.txt
 refuses '--box: -1e-308,1e-308 is 2e-308 wide, and must be at least 1e-300' --box -1e-308,1e-308 pixels.txt
-refuses '--box: "1" is not one of X0,X1' --box 1 pixels.txt
+refuses '--box: "1" has 1 number; an interval of all axes has two, X0,X1' --box 1 pixels.txt
+refuses '--box: "0,8,0" has 3 numbers;the axes may have one each, X0,X1,Y0,Y1' --box 0,8,0 pixels.txt
+refuses 'has 14 numbers' --box 0,8,0,8,0,8,0,8,0,8,0,8,0,8 pixels.txt
+refuses '--box: 0,8,4,0 is no interval: Y0 must be below Y1' --box 0,8,4,0 pixels.txt
+refuses '--box has 3 intervals, and points of 2 coordinates need one of all axes, or 2' --box 0,8,0,4,0,2 pixels.txt
+reads '0.25 0.5|0.75 0.125' --box 0,512,-256,768 <(printf '128 256\n384 -128\n')
+reads '0.25 0.5 3' --box 0,512,0,8 --columns xyw <(printf '128 4 3\n')
+reads '0.25 0.5' --wrap --box 0,512,0,8 <(printf -- '-384 12\n')
+refuses 'line 2: coordinate 9 is outside [0,8) of --box' --box 0,512,0,8 <(printf '128 4\n9 9\n') -o none
+reads '0.5 0.5 0.5|0.25 0.25 0.5|0.25 0.5 0.625' --domain torus --box -1,3,-2,2,-4,4 int32.bin
 refuses '"inf" is not a finite number' --box 0,inf pixels.txt
 refuses '--box is for points of the torus, and these are of the sphere' --box 0,2 --domain sphere <(printf '0 0 1\n')
 refuses 'in other units? --box X0,X1' pixels.txt

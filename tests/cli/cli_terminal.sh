@@ -2,7 +2,7 @@
 # cli_terminal.sh PROGRAM: tables on a terminal are for people, and those in files and pipes for programs.
 # shellcheck source=tests/harness/harness.sh
 . "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" power "$1"
-words=(power --sampler jittered -n 64 -m 4 -k 5 --engine host_direct)
+words=(power --sampler jittered -n 64 -m 4 -k 5 --engine host_direct --quiet) # a progress line would be on the terminal, too
 
 # The same words on a terminal of its own, without its carriage returns.
 on_terminal() {
@@ -18,8 +18,32 @@ fi
 "$program" "${words[@]}" >piped.csv
 "$program" "${words[@]}" --format text >piped.txt
 [[ $(grep -v '^#' piped.csv | head -1) == bin,frequency,* ]] || complain "a pipe has no CSV: $(<piped.csv)"
+COLUMNS=200 on_terminal "${words[@]}" --verbose >shown 2>&1
+cmp -s <(sed -n '/^pointspec_version/,$p' shown | grep -v '^command') <(grep -v '^command' piped.txt) ||
+    complain "a wide terminal shows other than --format text: $(diff shown piped.txt)"
+
+# four lines of the header, those that are seen first, and how many others there are
 on_terminal "${words[@]}" >shown
-cmp -s <(grep -v '^command' shown) <(grep -v '^command' piped.txt) || complain "a terminal shows other than --format text: $(diff shown piped.txt)"
+[[ $(sed '/^$/,$d' shown | cut -d: -f1 | tr '\n' ' ') == 'sampler points realizations self_check ' ]] || complain "other lines: $(<shown)"
+left=$(($(sed '/^$/,$d' piped.txt | wc -l) - 4))
+[[ $(tail -1 shown) == "$left more lines of the header: --verbose" ]] || complain "not $left more lines: $(tail -1 shown)"
+on_terminal power --sampler jittered -n 64,256 -m 1 -k 2 --engine host_direct --quiet >shown
+[[ $(head -4 shown) == $'standard_error: none: one realization\nsampler: jittered\npoints: 64; 256\nrealizations: 1' ]] || complain "two N: $(<shown)"
+on_terminal power --sampler jittered -n 1024 -m 8 -k 40 --fit auto --quiet >shown
+[[ $(sed '/^$/,$d' shown | wc -l) == 4 && $(head -1 shown) == 'fit: '* ]] || complain "sentences are not cut to four lines: $(<shown)"
+on_terminal truncation --brdf glossy:n=30 -l 4 --verbose >shown
+[[ $(head -1 shown) == pointspec_version* && $(grep -c more shown) == 0 ]] || complain "truncation --verbose: $(<shown)"
+
+# no line is wider than the terminal, and no column and no number is lost
+for width in 40 50 64 80 100 130; do
+    COLUMNS=$width on_terminal "${words[@]}" -m 8 --fit auto >shown
+    (($(wc -L <shown) <= width)) || complain "wider than $width: $(<shown)"
+    ! grep -q ' $' shown || complain "blanks at ends of lines: $(cat -A shown)"
+    numbers=$(awk '$1 == 3 { num += NF - (seen++ > 0) } END { print num }' shown)
+    [[ $numbers == 10 ]] || complain "at $width a row has $numbers numbers, not 10: $(<shown)"
+done
+COLUMNS=60 on_terminal plan power --sampler jittered -n 64 -k 5 >shown
+[[ $(wc -L <shown) -le 60 && $(grep -c '^    cheapest within the tolerance$' shown) == 1 ]] || complain "reasons of a plan: $(<shown)"
 on_terminal "${words[@]}" --format csv >shown
 cmp -s <(grep -v '^# command' shown) <(grep -v '^# command' piped.csv) || complain "--format csv does not win on a terminal"
 on_terminal "${words[@]}" -o file.csv >shown
@@ -36,7 +60,7 @@ for column in 2 5; do
 done
 
 # units, blocks, and what is missing
-on_terminal plan "${words[@]}" >shown
+COLUMNS=200 on_terminal plan "${words[@]}" --verbose >shown
 grep -qE '^host_direct:extended +chosen +[0-9.]+ (ms|s) +[0-9.]+ (B|kB) ' shown || complain "no units in a plan: $(<shown)"
 ! grep -qE '^phase: .*([0-9]e[+-]?[0-9]+ s;|[0-9] bytes)' shown || complain "phases have other units: $(grep ^phase shown)"
 grep -qE '^phase: .*; [0-9.]+ (ns|us|ms);' shown || complain "phases have no small units: $(grep ^phase shown)"

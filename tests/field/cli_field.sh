@@ -141,6 +141,25 @@ refuses 'line 1: commas in numbers; decimals are written with a point' power "$f
 printf 'weight\n1\n2\n' >w.csv && printf '.1 .2\n.3 .4\n' >points.txt
 "$program" power -k 2 points.txt --weights w.csv | grep -q '^[^#]' || complain 'a header in weights'
 
+# ---- rows of texts with names by what a column holds, as text or as a number
+printf 'type,x,y\n1,.1,.2\n2,.3,.4\n1,.5,.6\n' >types.csv
+reads '0.1 0.2|0.5 0.6' --select type=1 types.csv
+reads '0.3 0.4' --select type=2.0 types.csv
+reads '0.3' --select type=2 --columns x, types.csv
+reads '0.1 0.2 1|0.5 0.6 1' --select type=1 --columns x,y,type=xyw types.csv
+reads '0.5 0.6' --select x=.5 --columns x,y types.csv
+columns 'xy (columns x,y)' power -k 1 --select type=1 types.csv
+reads '0.2 0.1|#|0.8 0.7' --select kind=a <(printf '"","x","y","kind"\n0,.2,.1,"a"\n1,.4,.3,"b c"\n#\n0,.8,.7,a\n')
+reads '0.4 0.3' --select 'kind=b c' <(printf '"","x","y","kind"\n0,.2,.1,"a"\n1,.4,.3,"b c"\n')
+reads '0.1 0.2' --select s=u <(printf 'x y s\n.1 .2 u\n.3 .4 v\n')
+reads '0.1 0.2' --select s=u <(printf 'x y s\nrow .1 .2 u\nother .3 .4 v\n') # a name less than columns
+reads '0.3 0.4' --select s=v --select-points 1 <(printf 'x,y,s\n.1,.2,u\n\n.3,.4,v\n.5,.6,v\n')
+refuses 'set 2 has no row with kind=a' convert --select kind=a <(printf 'x,y,kind\n.1,.2,a\n#\n.3,.4,b\n')
+refuses 'set 1 has no row with kind=c' convert --select kind=c <(printf 'x,y,kind\n.1,.2,a\n#\n.3,.4,c\n')
+refuses '--select mass=1, and the columns are "type,x,y"' convert --select mass=1 types.csv
+refuses 'set 1, row 1: coordinate 3 is outside' convert --select type=2 <(printf 'type,x,y\n1,.1,.2\n2,3,.4\n')
+refuses 'is about a column with a name, and utk-binary has no names' convert --select type=1 --input-format utk-binary types.csv
+
 # ---- what is known of the other files
 [[ $("$program" convert "$folder/poisson_process.txt" | grep -c '#') == 149 ]] || complain 'poisson_process.txt: not 150 sets'
 powers 1 power -k 2 -d 2 "$folder/pts-a"
@@ -148,6 +167,15 @@ refuses '4 numbers and no other line;-d 2' power "$folder/pts-a"
 powers '9.38938 5.53389' angular -l 2 "$folder/vec_3x12.npy"
 refuses 'are its columns the points? --transpose' power "$folder/plane_2x20.npy"
 [[ $("$program" convert --transpose "$folder/plane_2x20.npy" | wc -l) == 20 ]] || complain 'plane_2x20.npy: not 20 points'
+
+# ---- a box whose axes have intervals of their own: its lattice has no power but at multiples of (8, 4)
+awk 'BEGIN { for (y = 0; y < 4; y++) for (x = -7; x < 8; x++) if (x * x / 64 + y * y / 16 < 1 && (x || y)) print x, y }' >below.txt
+powers "$(sed 's/.*/0/' below.txt)" power --frequencies below.txt --box 0,8,0,4 "$folder/box84.txt"
+powers '32 32 32 0' power --frequencies <(printf '8 0\n0 4\n8 4\n8 2\n') --box 0,8,0,4 "$folder/box84.txt"
+reads '0.0625 0.125|0.0625 0.375' --box 0,8,0,4 --select-points ..2 "$folder/box84.txt"
+[[ $("$program" power -k 2 --box 0,8,0,4 "$folder/box84.txt" --engine host_direct | sed -n 's/^# box: //p') == 0,8,0,4 ]] ||
+    complain 'the header does not have the box'
+refuses 'coordinate 4.5 is outside [0,4) of --box' power --box 0,8,0,4 <(printf '4.5 3\n3 4.5\n')
 
 # ---- UTK 1
 reads '0.1 0.2|0.6 0.7|#|0.3 0.4|0.8 0.9' "$folder/utk1.pts"
@@ -171,7 +199,7 @@ reads '0.1 0.2|0.6 0.2' -d 2 --select type=1 --select-sets 1 "$dump"
 refuses 'set 1 has no row with type=3' convert --select type=3 "$dump"
 refuses '--select mass=3, and the columns are "id type xs ys zs"' convert --select mass=3 "$dump"
 refuses '--select: "type" is not NAME=VALUE' convert --select type "$dump"
-refuses '--select is for lammps and xyz, and this is utk-text' convert --select type=1 "$folder/box84.txt"
+refuses 'box84.txt: --select type=1 is about a column with a name, and the first line has no names' convert --select type=1 "$folder/box84.txt"
 refuses 'line 11: 4 columns, where the header names 5' convert <(sed '11s/ 0.80$//' "$dump")
 refuses '5 names of columns, and the row after has 6' power <(sed '10s/$/ 9/' "$dump")
 refuses 'is truncated: it ends inside set 2' power <(head -n -1 "$dump")
@@ -226,7 +254,16 @@ reads '0 0 1|1 0 0' <(cat little.ply)
 reads '0.5 0.5 0.75|0.75 0.25 0.25' -d 3 --box -2,2 big.ply
 reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 ascii.ply
 reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 little.ply
-refuses '--select is for lammps and xyz, and this is ply' convert --select red=7 ascii.ply
+for mesh in ascii.ply little.ply big.ply; do
+    reads '0 0 1' --select red=7 --domain sphere "$mesh"
+    reads '1 0 0' --select red=8.0 --domain sphere <([[ $mesh == big.ply ]] && cat little.ply || cat "$mesh")
+    refuses 'set 1 has no row with red=9' convert --select red=9 --domain sphere "$mesh"
+    refuses '--select mass=3, and the columns are "x red y z"' convert --select mass=3 --domain sphere "$mesh"
+done
+reads '0.75 0.25 0.25' -d 3 --box -2,2 --select x=1 big.ply
+refuses 'set 1 has no row with red=seven' convert --select red=seven little.ply
+printf '%b' "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\nend_header\n\xcd\xcc\xcc\x3d\0\0\0\0\0\0\0\0\0\0\0\x3f" >tenths.ply
+reads '0' --select x=0.1 --columns y, --box 0,1 tenths.ply # as a float32, which a file of floats has
 refuses 'is not a unit vector' angular big.ply
 refuses 'is truncated: 1 vertices are not there' angular <(head -c -20 little.ply)
 refuses 'line 13: 3 columns, where the header names 4' angular <(sed 's/^1 8 0 0/1 8 0/' ascii.ply)

@@ -129,6 +129,13 @@ little=${vertices/ascii/binary_little_endian}
 { printf '%b' "${little}property float z\nend_header\n"; f32 0.5; printf a; f64 0.25; f32 0 .1; printf b; f64 .2; f32 .3; } | seed ply binary "$any"
 { printf '%b' "${little}property short z\nend_header\n"; f32 0.5; } | seed ply binary-short "$any"
 printf 'ply\nelement vertex 1\nproperty list uchar int x\nend_header\n' | seed ply list "$any"
+number=$(options 02 82 00 00 00 01)
+printf 'type,x,y\n1,.1,.2\n2,.3,.4\n#\n1.0,.5,.6\n' | seed csv of-type "$selected"
+printf 'x,y,type\n.1,.2,1\n#\n.3,.4,2\n' | seed csv lost "$selected"
+printf 'x y type\nrow .1 .2 1\n' | seed utk-text of-type "$selected"
+printf '%b' "${vertices}property float z\nend_header\n.5 1 .25 0\n.1 2 .2 .3\n" | seed ply ascii-selected "$number"
+{ printf '%b' "${little}property float z\nend_header\n"; f32 0.5; printf a; f64 0.25; f32 0 .1; printf b; f64 .2; f32 .3; } | seed ply selected "$number"
+printf '6 1\n2 3\n' | seed utk-text box "$(options 00 83 00 00 00 01)"
 printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
 printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
 printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"

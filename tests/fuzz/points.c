@@ -2,7 +2,7 @@
  *
  *   0  domain (2 bits), weight column, ignore weights, wrap, normalize, keep angles, whole read by pipe
  *   1  columns: 0 none, else one of PS_POINT_COLUMNS, or behind these numbers or names of columns,
- *      or behind these a selection
+ *      or behind these a selection, or a box
  *   2  dimension (3 bits), blocks by pipe, blocks are kept, the writer is told the counts,
  *      --header or --transpose (2 bits)
  *   3  points per set
@@ -35,6 +35,14 @@ static const char *choose_columns(unsigned index, char text[COLUMNS_BYTES], cons
     return text;
 }
 
+/* What is behind columns: a selection by a word or a number, or a box. */
+enum { SELECTIONS = 0x80, BOX = 0x83 };
+
+static const char *choose_selection(unsigned choice) {
+    static const char *const selections[BOX - SELECTIONS] = {"type=1", "element=Ar", "x=0.5"};
+    return choice >= SELECTIONS && choice < BOX ? selections[choice - SELECTIONS] : NULL;
+}
+
 static void take_choices(fuzz_choices *out, fuzz_bytes *input, const char *format,
                          char columns[COLUMNS_BYTES]) {
     static const ps_domain domains[] = {PS_DOMAIN_TORUS, PS_DOMAIN_SPHERE, PS_DOMAIN_ANY,
@@ -50,7 +58,8 @@ static void take_choices(fuzz_choices *out, fuzz_bytes *input, const char *forma
     out->options.keep_angles = (flags & 64) != 0;
     out->whole_from_pipe = (flags & 128) != 0;
     const unsigned choice = input->size > 0 ? input->data[0] : 0;
-    out->options.select = choice == 0x80 ? "type=1" : choice == 0x81 ? "element=Ar" : NULL;
+    out->options.select = choose_selection(choice);
+    out->options.box = choice == BOX ? (ps_box){2, {0, -1}, {8, 4}} : (ps_box){0};
     out->options.columns = choose_columns(fuzz_take(input), columns, &out->options.column_names);
     const uint8_t more_flags = fuzz_take(input);
     out->options.dimension = more_flags & 7;

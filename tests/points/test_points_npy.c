@@ -144,7 +144,9 @@ static void reads_every_type(void **state) {
         char dictionary[256];
         const bool is_little = i % 2 != 0;
         const size_t num_bytes = cases[i / 2].num_bytes;
-        const ps_point_options options = {.format = "npy", .box_high = cases[i / 2].high};
+        const ps_point_options options = {
+            .format = "npy",
+            .box = {.num_axes = cases[i / 2].high > 0, .high = {cases[i / 2].high}}};
         ps_error error = {0};
         ps_point_reader *reader = NULL;
         ps_point_set set = {0};

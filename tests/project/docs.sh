@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# docs.sh PROGRAM SOURCE_DIR: every ```sh block of the README, the tutorial, the conventions, the
+# docs.sh PROGRAM SOURCE_DIR: every ```sh block of the README, the tutorial, the recipes, the conventions, the
 # formats, samplers, quadrature, variance, reproduction, gate, needs and scenes runs, in the order of the page, in one empty folder for each page; ```python blocks too where there is numpy.
 # Lines that begin with ./dev are left out. Then relative links of all pages are looked up.
 set -euo pipefail
@@ -56,7 +56,7 @@ check_links() { # PAGE
     done < <(grep -o '](\([^) ]*\))' "$1" | sed 's/^](//; s/)$//')
 }
 
-for page in README.md docs/user/tutorial.md docs/user/conventions.md docs/user/formats.md docs/user/quadrature.md docs/user/variance.md docs/user/reproduction.md docs/user/gate.md docs/user/needs.md docs/user/scenes.md docs/user/samplers.md docs/samplers/poisson_disks.md docs/samplers/optimized.md docs/samplers/forces.md; do
+for page in README.md docs/user/tutorial.md docs/user/recipes.md docs/user/conventions.md docs/user/formats.md docs/user/quadrature.md docs/user/variance.md docs/user/reproduction.md docs/user/gate.md docs/user/needs.md docs/user/scenes.md docs/user/samplers.md docs/samplers/poisson_disks.md docs/samplers/optimized.md docs/samplers/forces.md; do
     run_page "$page"
 done
 # The scenes that pages run are shorter than some of those that lie there.

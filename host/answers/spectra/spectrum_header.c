@@ -14,14 +14,16 @@ ps_cell ps_number_or_missing(double value) {
 }
 
 static pspec_status add_box(ps_table *table, const ps_point_options *options, ps_error *error) {
-    char text[2 * PS_DECIMAL_BYTES];
-    if (!(options->box_high > options->box_low)) {
-        return PSPEC_OK;
+    char text[2 * PS_MAX_DIMENSION * PS_DECIMAL_BYTES];
+    const ps_box *const box = &options->box;
+    size_t length = 0;
+    for (unsigned i = 0; i < 2 * box->num_axes; i++) {
+        if (i > 0) {
+            text[length++] = ',';
+        }
+        length += ps_decimal_format(text + length, i % 2 == 0 ? box->low[i / 2] : box->high[i / 2]);
     }
-    const size_t length = ps_decimal_format(text, options->box_low);
-    text[length] = ',';
-    ps_decimal_format(text + length + 1, options->box_high);
-    return ps_table_add_meta(table, "box", PS_TEXT(text), error);
+    return length == 0 ? PSPEC_OK : ps_table_add_meta(table, "box", PS_TEXT(text), error);
 }
 
 pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,

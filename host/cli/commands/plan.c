@@ -51,6 +51,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     const bool is_of_points = verb->makes_points && arguments->is_given[PS_OPTION_FORMAT];
     PS_TRY(ps_table_choose_format(&format, is_of_points ? NULL : arguments->format, path, error));
     PS_TRY(ps_verb_plan(&table, verb, &inner, &hooks, error));
+    ps_table_set_view(table, &arguments->view);
     const pspec_status status = ps_table_write(table, path, format, error);
     ps_table_destroy(table);
     return status;

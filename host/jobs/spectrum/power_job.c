@@ -96,8 +96,7 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
         return PSPEC_OK;
     }
     PS_TRY(open_files(job, error));
-    job->sets.looks_at_axes = !question->on_sphere &&
-                              !(question->point_options.box_high > question->point_options.box_low);
+    job->sets.looks_at_axes = !question->on_sphere && question->point_options.box.num_axes == 0;
     PS_TRY(ps_power_sets_peek(&job->sets, &has_set, error));
     if (!has_set) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");

@@ -62,7 +62,7 @@ static bool are_whole(const edat_header *header) {
 
 /* Three numbers, each on a line: points in one dimension? */
 static bool may_be_points(const edat_header *header, const ps_point_options *options) {
-    const bool has_any_units = options->wrap || options->box_high > options->box_low;
+    const bool has_any_units = options->wrap || options->box.num_axes > 0;
     const bool is_unit = header->lower[0] == 0 && header->upper[0] == 1;
     const bool is_inside = header->lower[0] >= 0 && header->upper[0] < 1 && header->toricity == 0;
     return header->lower_columns == 1 && (has_any_units ? !is_unit : is_inside);
@@ -164,18 +164,12 @@ static pspec_status open_edat(ps_point_reader *reader, ps_error *error) {
                          state->columns_line, reader->columns, state->num_corners);
 }
 
-double ps_text_scale(double x, double lower, double upper) {
-    const double last_inside = 1 - 0x1p-53;
-    const double scaled = (x - lower) / (upper - lower);
-    return x < upper && scaled >= 1 ? last_inside : scaled;
-}
-
 static void scale_rows(const ps_point_reader *reader, double *rows, size_t num) {
     const ps_text_state *const state = reader->state;
     for (size_t i = 0; i < num; i++) {
         double *const row = rows + i * reader->columns;
         for (unsigned j = 0; j < state->num_corners; j++) {
-            row[j] = ps_text_scale(row[j], state->lower[j], state->upper[j]);
+            row[j] = ps_box_scale(row[j], state->lower[j], state->upper[j]);
         }
     }
 }

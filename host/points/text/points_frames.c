@@ -24,18 +24,6 @@ pspec_status ps_frame_line(ps_point_reader *reader, const char **line, ps_error 
 
 /* ---- which columns ----------------------------------------------------------------------- */
 
-/* Number of the field of this name, or -1. */
-static int find_field(const char *names, const char *name, size_t length) {
-    ps_field field;
-    bool is_more = true;
-    for (int i = 0; ps_field_next(&names, ' ', &is_more, &field); i++) {
-        if (field.length == length && strncmp(field.text, name, length) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 /* The first num of the names "x,y,z". */
 static void shorten(char text[32], const char *names, unsigned num) {
     size_t length = 0;
@@ -53,32 +41,12 @@ static void find_axes(ps_text_state *state, const ps_frame *frame) {
     }
     for (int i = 0; frame->has_box && *name != '\0'; i++) {
         const size_t length = strcspn(name, ",");
-        const int column = find_field(frame->names, name, length);
+        const int column = ps_field_find(frame->names, ' ', name, length);
         if (column >= 0 && state->header.places[column] >= 0) {
             state->axes[state->header.places[column]] = (short)(i % AXES);
         }
         name += length + (name[length] == ',');
     }
-}
-
-/* "type=1": rows that have this in the column of that name. */
-static pspec_status find_filter(ps_point_reader *reader, const ps_frame *frame, const char *where,
-                                ps_error *error) {
-    ps_text_state *const state = reader->state;
-    const char *const select = reader->options.select;
-    const size_t length = select != NULL ? strcspn(select, "=") : 0;
-    state->filter = select != NULL ? find_field(frame->names, select, length) : -1;
-    const bool means_filter = length > 0 && (strncmp(select, "type", length) == 0 ||
-                                             strncmp(select, "element", length) == 0);
-    if (state->filter < 0 && means_filter && frame->filter != NULL) {
-        state->filter = find_field(frame->names, frame->filter, strlen(frame->filter));
-    }
-    char shown[PS_TOKEN_BYTES];
-    return select == NULL || state->filter >= 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: --select %s, and the columns are \"%s\"",
-                         where, select,
-                         ps_token_show(shown, frame->names, strcspn(frame->names, "\r\n")));
 }
 
 pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_error *error) {
@@ -88,7 +56,7 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     char chosen[32];
     char where[PS_PLACE_BYTES];
     show_place(where, reader);
-    if (frame->has_box && options->box_high > options->box_low) {
+    if (frame->has_box && options->box.num_axes > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: --box, and the file states the box itself", where);
     }
@@ -97,15 +65,16 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
         shorten(chosen, frame->chosen, told > 0 && told < AXES ? told : AXES);
         wanted = told == 1 ? strcat(chosen, ",") : chosen;
     }
-    PS_TRY(
-        ps_text_header_read(&state->header, frame->names, frame->row, ' ', wanted, where, error));
+    PS_TRY(ps_text_header_read(&state->header, frame->names, frame->row, ' ', wanted, NULL, where,
+                               error));
     if (state->header.lacks_name) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: %u names of columns, and the row after has %u", where,
                        state->header.num_columns - 1, state->header.num_columns);
     }
     state->header.chooses = true;
-    PS_TRY(find_filter(reader, frame, where, error));
+    PS_TRY(ps_row_filter_find(&state->filter, options->select, frame->names, ' ', frame->filter,
+                              where, error));
     find_axes(state, frame);
     state->rows_left = frame->num_rows;
     state->num_corners = frame->has_box ? AXES : 0;
@@ -135,23 +104,11 @@ pspec_status ps_frame_open(ps_point_reader *reader, ps_frame_header *header, ps_
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-static bool is_selected(const ps_point_reader *reader, const char *line) {
-    const ps_text_state *const state = reader->state;
-    ps_field field = {NULL, 0, false};
-    bool is_more = true;
-    for (int i = 0; i <= state->filter; i++) {
-        ps_field_next(&line, ' ', &is_more, &field);
-    }
-    const char *const value = state->filter >= 0 ? strchr(reader->options.select, '=') + 1 : NULL;
-    return value == NULL ||
-           (field.length == strlen(value) && strncmp(field.text, value, field.length) == 0);
-}
-
 static void scale_row(const ps_text_state *state, unsigned columns, double *row) {
     for (unsigned i = 0; i < columns; i++) {
         const int axis = state->axes[i];
         if (axis >= 0) {
-            row[i] = ps_text_scale(row[i], state->lower[axis], state->upper[axis]);
+            row[i] = ps_box_scale(row[i], state->lower[axis], state->upper[axis]);
         }
     }
 }
@@ -166,7 +123,7 @@ static pspec_status read_row(ps_point_reader *reader, ps_rows_read *out, ps_erro
         show_place(where, reader);
         return ps_text_header_refuse(&state->header, line, ' ', where, error);
     }
-    if (is_selected(reader, line)) {
+    if (ps_row_filter_takes(&state->filter, line, ' ')) {
         scale_row(state, reader->columns, row);
         out->num++;
         state->num_kept++;
@@ -181,9 +138,7 @@ static pspec_status end_frame(ps_point_reader *reader, ps_rows_read *out, ps_err
     ps_text_state *const state = reader->state;
     ps_line_kind kind = PS_LINE_NONE;
     if (state->num_kept == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: set %llu has no row with %s",
-                       reader->input.name, (unsigned long long)reader->num_sets + 1,
-                       reader->options.select);
+        return ps_text_fail_selection(reader, error);
     }
     PS_TRY(ps_text_next_line(state, &kind, error));
     while (kind == PS_LINE_BLANK) {
@@ -200,7 +155,7 @@ pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out, ps_frame_
     if (state->rows_left == 0 && state->num_kept == 0) {
         PS_TRY(header(reader, error));
     }
-    reader->first_line = state->filter < 0 ? state->lines.line_number : 0;
+    reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
     while (state->rows_left > 0 && out->num < out->capacity) {
         const pspec_status status = read_row(reader, out, error);
         if (status != PSPEC_OK) { /* which the next call finds again */

@@ -91,6 +91,12 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
                        "by number are --columns 1,2",
                        reader->input.name, numbers);
     }
+    if (reader->options.select != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: --select %s is about a column with a name, and the first line has no "
+                       "names",
+                       reader->input.name, reader->options.select);
+    }
     if (numbers == NULL && !has_quotes(row)) {
         return PSPEC_OK;
     }
@@ -105,6 +111,7 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
     const char *const names = reader->options.column_names;
+    const char *const select = reader->options.select;
     const char *row = NULL;
     bool is_there = false;
     char where[PS_PLACE_BYTES];
@@ -115,15 +122,18 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
         return choose_columns(reader, error);
     }
     snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
-    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, where,
-                               error));
+    PS_TRY(ps_row_filter_find(&state->filter, select, lines->cursor, state->separator, NULL, where,
+                              error));
+    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, select,
+                               where, error));
+    state->filter.column += state->header.lacks_name; /* names begin with the second column */
     reader->own_columns = ps_columns_meaning(names);
     if (reader->own_columns == NULL && reader->options.columns == NULL) {
         reader->own_columns = ps_text_header_meaning(&state->header);
     }
     reader->chosen = state->header.chooses ? state->header.used : NULL;
     PS_TRY(check_similar(reader, where, error));
-    state->header.chooses = state->header.chooses || has_quotes(row);
+    state->header.chooses = state->header.chooses || has_quotes(row) || select != NULL;
     ps_lines_skip(lines);
     return PSPEC_OK;
 }

@@ -193,6 +193,28 @@ static double decode(const unsigned char *bytes, ps_element_type type, bool is_b
     return type.kind == PS_ELEMENT_SIGNED ? (double)(int64_t)((bits ^ sign) - sign) : (double)bits;
 }
 
+/* The numbers of a vertex that are read; false: --select does not take it. */
+static bool take_vertex(const ply_state *state, const unsigned char *bytes, double *row) {
+    const ps_row_filter *const filter = &state->text.filter;
+    for (unsigned j = 0; j < state->num_properties; j++) {
+        const short place = state->text.header.places[j];
+        const bool is_filter = filter->value != NULL && filter->column == j;
+        if (place < 0 && !is_filter) {
+            continue;
+        }
+        const ps_element_type type = state->types[j];
+        const double value = decode(bytes + state->offsets[j], type, state->is_big_endian);
+        const bool is_single = type.kind == PS_ELEMENT_FLOAT && type.num_bytes == sizeof(float);
+        if (is_filter && !ps_row_filter_takes_number(filter, value, is_single)) {
+            return false;
+        }
+        if (place >= 0) {
+            row[place] = value;
+        }
+    }
+    return true;
+}
+
 static pspec_status read_binary(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ply_state *const state = reader->state;
     const size_t row_bytes = state->offsets[state->num_properties];
@@ -201,21 +223,18 @@ static pspec_status read_binary(ps_point_reader *reader, ps_rows_read *out, ps_e
     size_t num_bytes = 0;
     num = num < state->text.rows_left ? num : (size_t)state->text.rows_left;
     PS_TRY(ps_input_read(&reader->input, state->block, num * row_bytes, &num_bytes, error));
-    out->num = num_bytes / row_bytes;
-    for (size_t i = 0; i < out->num; i++) {
-        for (unsigned j = 0; j < state->num_properties; j++) {
-            const short place = state->text.header.places[j];
-            if (place >= 0) {
-                out->rows[i * reader->columns + (size_t)place] =
-                    decode(state->block + i * row_bytes + state->offsets[j], state->types[j],
-                           state->is_big_endian);
-            }
-        }
+    num = num_bytes / row_bytes;
+    for (size_t i = 0; i < num; i++) {
+        out->num += take_vertex(state, state->block + i * row_bytes,
+                                out->rows + out->num * reader->columns);
     }
-    state->text.rows_left -= out->num;
-    if (out->num == 0 && state->text.rows_left > 0) {
+    state->text.rows_left -= num;
+    if (num == 0 && state->text.rows_left > 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: %llu vertices are not there",
                        reader->input.name, (unsigned long long)state->text.rows_left);
+    }
+    if (state->text.rows_left == 0 && reader->rows_in_set + out->num == 0) {
+        return ps_text_fail_selection(reader, error);
     }
     out->end = state->text.rows_left == 0 ? PS_END_OF_INPUT : PS_MORE_ROWS;
     return PSPEC_OK;

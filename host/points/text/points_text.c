@@ -199,9 +199,11 @@ static void read_chosen(const ps_point_reader *reader, ps_rows_read *out) {
         if (end == NULL) {
             return;
         }
+        const bool is_taken = ps_row_filter_takes(&state->filter, lines->cursor, state->separator);
         lines->cursor = end + 1;
         lines->line_number++;
-        out->num++;
+        out->num += is_taken;
+        state->has_dropped = state->has_dropped || !is_taken;
     }
 }
 
@@ -221,8 +223,22 @@ static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
     out->num += num_rows;
 }
 
+pspec_status ps_text_fail_selection(const ps_point_reader *reader, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: set %llu has no row with %s", reader->input.name,
+                   (unsigned long long)reader->num_sets + 1, reader->options.select);
+}
+
+/* Rows of a set were dropped, and none is left. */
+static bool has_lost_all(const ps_point_reader *reader, const ps_rows_read *out) {
+    const ps_text_state *const state = reader->state;
+    return state->has_dropped && reader->rows_in_set + out->num == 0;
+}
+
 pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
+    if (has_lost_all(reader, out)) {
+        return ps_text_fail_selection(reader, error);
+    }
     if (reader->rows_in_set + out->num == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, line %zu: set %llu has no points: two '#' lines in a row",
@@ -231,6 +247,7 @@ pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out, ps_erro
     }
     ps_lines_skip(&state->lines);
     state->header.index.may_restart = true;
+    state->has_dropped = false;
     out->end = PS_END_OF_SET;
     return PSPEC_OK;
 }
@@ -241,6 +258,9 @@ static pspec_status end_input(ps_point_reader *reader, ps_rows_read *out, bool i
     if (is_blank && out->num > 0) {
         return PSPEC_OK;
     }
+    if (has_lost_all(reader, out)) {
+        return ps_text_fail_selection(reader, error);
+    }
     out->end = PS_END_OF_INPUT;
     return is_blank ? read_blank_end(reader->state, error) : PSPEC_OK;
 }
@@ -248,7 +268,7 @@ static pspec_status end_input(ps_point_reader *reader, ps_rows_read *out, bool i
 pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_line_kind kind = PS_LINE_POINT;
-    reader->first_line = state->lines.line_number;
+    reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
     while (out->num < out->capacity) {
         PS_TRY(ps_text_next_line(state, &kind, error));
         if (kind == PS_LINE_MARK) {
@@ -256,15 +276,15 @@ pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *
         }
         if (kind == PS_LINE_BLANK && reader->format == &ps_format_csv && out->num == 0) {
             ps_lines_skip(&state->lines); /* which data frames pass over, too */
-            reader->first_line = state->lines.line_number;
+            reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
             continue;
         }
         if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {
             return end_input(reader, out, kind == PS_LINE_BLANK, error);
         }
-        const size_t before = out->num;
+        const char *const before = state->lines.cursor;
         read_rows(reader, out);
-        if (out->num == before) {
+        if (state->lines.cursor == before) {
             return out->num > 0 ? PSPEC_OK : refuse_line(reader, error);
         }
     }

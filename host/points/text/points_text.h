@@ -4,6 +4,7 @@
 
 #include "files/text_rows.h"
 #include "points/points_format.h"
+#include "points/text/row_filter.h"
 #include "points/text/text_header.h"
 
 typedef struct ps_text_state {
@@ -21,9 +22,10 @@ typedef struct ps_text_state {
     unsigned num_corners; /* coordinates of a corner */
     bool needs_header;    /* the next line is that of the next set */
     double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION]; /* of frames, too */
+    ps_row_filter filter;                                    /* of --select */
+    bool has_dropped;                                        /* it dropped rows of this set */
     /* frames: rows that are to come, and those of the set that are kept */
     uint64_t rows_left, num_kept;
-    int filter;                 /* the column that --select looks at; -1: none */
     short axes[PS_MAX_COLUMNS]; /* of the columns that are scaled; -1: as they are */
 } ps_text_state;
 
@@ -46,6 +48,8 @@ pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) PS_MU
 /* At the '#' line that ends a set. */
 pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out,
                              ps_error *error) PS_MUST_CHECK;
+/* The sentence for a set of which --select takes no row. */
+pspec_status ps_text_fail_selection(const ps_point_reader *reader, ps_error *error);
 pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out,
                           ps_error *error) PS_MUST_CHECK;
 void ps_text_close(ps_point_reader *reader);
@@ -59,9 +63,6 @@ pspec_status ps_edat_detect(ps_point_reader *reader, bool is_named, ps_error *er
 
 /* Makes xyz the format where the lines at the cursor begin a frame of it. */
 pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
-
-/* (x - lower) / (upper - lower); what lies below the upper end stays below 1. */
-double ps_text_scale(double x, double lower, double upper);
 
 /* No header, and '#' between sets. */
 void ps_text_begin(ps_point_writer *writer);

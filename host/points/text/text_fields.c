@@ -84,3 +84,14 @@ unsigned ps_fields_count(const char *line, char separator) {
     }
     return num;
 }
+
+int ps_field_find(const char *names, char separator, const char *name, size_t length) {
+    ps_field field;
+    bool is_more = true;
+    for (int i = 0; ps_field_next(&names, separator, &is_more, &field); i++) {
+        if (field.length == length && strncmp(field.text, name, length) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}

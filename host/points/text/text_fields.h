@@ -17,6 +17,8 @@ typedef struct ps_field {
  * a separator was there, so that another field follows, which may be empty. */
 bool ps_field_next(const char **text, char separator, bool *is_more, ps_field *out);
 unsigned ps_fields_count(const char *line, char separator);
+/* Number of the field of this name, from 0, or -1. */
+int ps_field_find(const char *names, char separator, const char *name, size_t length);
 
 bool ps_field_is_number(ps_field token);
 bool ps_field_is_not_finite(ps_field token);

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "files/decimal.h"
 #include "files/text_lines.h"
+#include "points/text/row_filter.h"
 #include "points/text/text_fields.h"
 
 #include <ctype.h>
@@ -265,8 +266,8 @@ static pspec_status check_chosen(ps_text_header *out, const char *where, ps_erro
 }
 
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const char *names, const char *where,
-                                 ps_error *error) {
+                                 char separator, const char *names, const char *select,
+                                 const char *where, ps_error *error) {
     ps_field found[PS_MOST_FILE_COLUMNS];
     unsigned num_numbers = 0;
     *out = (ps_text_header){.is_there = true};
@@ -282,7 +283,9 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
         PS_TRY(choose_named(out, found, names, where, error));
     }
     for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
-        if (i > 0 || out->num_columns == 1 || !is_index(found[i])) {
+        const bool is_selected =
+            select != NULL && is_same(found[i], select, ps_row_filter_name(select));
+        if (!is_selected && (i > 0 || out->num_columns == 1 || !is_index(found[i]))) {
             choose(out, i, found[i]);
         }
     }

@@ -44,10 +44,11 @@ bool ps_text_header_is_numbered(const char *line, char separator);
 bool ps_text_header_is_decimal(const char *line, char separator);
 
 /* Reads the names at line and looks at the row after it; where: "FILE, line 1". names: the chosen
- * ones, separated by commas, or NULL: all but an index. */
+ * ones, separated by commas, or NULL: all but an index and the column of select, "type=1" or
+ * NULL. */
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const char *names, const char *where,
-                                 ps_error *error) PS_MUST_CHECK;
+                                 char separator, const char *names, const char *select,
+                                 const char *where, ps_error *error) PS_MUST_CHECK;
 
 /* For a text without a line of names: columns by their numbers, "3,7", or all of them for NULL.
  * Counts those of the row. */

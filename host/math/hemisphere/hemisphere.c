@@ -1,4 +1,4 @@
-#include "math/hemisphere.h"
+#include "math/hemisphere/hemisphere.h"
 
 #include <math.h>
 

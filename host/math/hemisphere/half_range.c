@@ -1,4 +1,4 @@
-#include "math/half_range.h"
+#include "math/hemisphere/half_range.h"
 
 #include "base/memory.h"
 #include "math/gauss_legendre.h"

@@ -1,0 +1,57 @@
+#include "cli/terminal.h"
+
+#include "request/options.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+/* What people see of a header, the first of these that there are: what the answer is in a sentence,
+ * what makes it doubtful, what it is of, and how right it is. */
+static const char *const seen_first[] = {
+    "verdict", "different", "tail_verdict", "ranking", "rates", "crossing", "fit", "features",
+    "convergence", "worst_case_error",
+    /* doubts */
+    "empty", "different_points", "dropped_below_horizon", "duplicates", "vectors", "planned_twice",
+    "relative_standard_error", "standard_error",
+    /* of what */
+    "seconds", "sampler", "input_columns", "integrand", "brdf", "points", "realizations",
+    /* how right */
+    "self_check", "predicted_error", "device", NULL};
+
+enum { MOST_LINES = 4, USUAL_WIDTH = 80, LEAST_WIDTH = 40 };
+
+/* Columns of the terminal: COLUMNS, what the terminal says, or those that most have. */
+static size_t find_width(void) {
+    const char *const said = getenv("COLUMNS");
+    char *end = NULL;
+    const unsigned long columns = said != NULL ? strtoul(said, &end, 10) : 0;
+    struct winsize size = {0};
+    size_t width = USUAL_WIDTH;
+    if (columns > 0 && *end == '\0') {
+        width = columns;
+    } else if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+        width = size.ws_col;
+    }
+    return width > LEAST_WIDTH ? width : LEAST_WIDTH;
+}
+
+void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
+    static const char text[] = "text";
+    const bool is_terminal =
+        arguments->output != NULL && strcmp(arguments->output, "-") == 0 && isatty(STDOUT_FILENO);
+    const char *const words = ps_command_takes(command, PS_OPTION_FORMAT)
+                                  ? ps_command_words(command, PS_OPTION_FORMAT)
+                                  : "";
+    if (!is_terminal) {
+        return;
+    }
+    if (arguments->format == NULL && strstr(words, text) != NULL) {
+        arguments->format = text;
+    }
+    arguments->view = (ps_text_view){.width = find_width(),
+                                     .most_lines = arguments->verbose ? 0 : MOST_LINES,
+                                     .keys = seen_first,
+                                     .rest = "--verbose"};
+}
