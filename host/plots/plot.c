@@ -151,8 +151,8 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
     add_text(key, figure->title);
     add_text(key, figure->x_label);
     add_text(key, figure->y_label);
-    ps_text_append(key, "%d %d %d %d %a\n", (int)figure->form, figure->is_log_x, figure->is_log_y,
-                   figure->on_sphere, figure->noise_level_db);
+    ps_text_append(key, "%d %d %d %d\n", (int)figure->form, figure->is_log_x, figure->is_log_y,
+                   figure->on_sphere);
     add_axes(key, &figure->axes);
     for (size_t i = 0; i < figure->num_panels; i++) {
         const ps_panel *const panel = &figure->panels[i];
@@ -162,8 +162,8 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
             const ps_series *const series = &panel->series[j];
             add_text(key, series->formula);
             add_text(key, series->label);
-            ps_text_append(key, "%zu %d %d %zu\n", series->kind, series->is_front,
-                           (int)series->look, series->num);
+            ps_text_append(key, "%zu %d %d %zu %a %a\n", series->kind, series->is_front,
+                           (int)series->look, series->num, series->num_realizations, series->floor);
             add_numbers(key, series->x, series->num);
             add_numbers(key, series->y, series->num);
             add_numbers(key, series->error, series->num);

@@ -49,6 +49,8 @@ static void print_page(const char *title, const char *terminal, int width, int h
                 strcmp(terminal, "svg") == 0 ? "sans-serif,16" : "Sans,12");
     }
     fputs("set encoding utf8\n", stream);
+    /* marks of bars would blank out what is below them */
+    fputs("set pointintervalbox 0\n", stream);
     fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
     fputs("set multiplot\nset label 1 ", stream);
     ps_script_print_text(title, stream);
@@ -70,9 +72,11 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
                                     ps_error *error) {
     const ps_figure own = with_axes(asked);
     const ps_figure *const figure = &own;
-    enum { WIDTH_WITH_IMAGE = 1400 };
-    int width = figure->image != NULL ? WIDTH_WITH_IMAGE : PS_SCRIPT_WIDTH;
+    int width = PS_SCRIPT_WIDTH;
     int height = PS_SCRIPT_HEIGHT;
+    if (figure->form == PS_FIGURE_SPECTRA) {
+        ps_script_size_spectra(figure, &width, &height);
+    }
     if (figure->form == PS_FIGURE_PANELS || figure->form == PS_FIGURE_MARKS) {
         ps_script_size_panels(figure, &width, &height);
     }

@@ -16,6 +16,21 @@ static double power_unit(const ps_power_job *job) {
     return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS && isfinite(unit) ? unit : 1;
 }
 
+/* Of the powers as they are drawn: what the numerical error of S alone would make. */
+static double find_floor(const ps_power_job *job, double unit) {
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
+    const double error = ps_power_job_accuracy(job)->error;
+    const double sum = spectrum->mean_weight_sum;
+    return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS ? error * sum * sum * unit
+                                                                 : error * error;
+}
+
+/* A set that is the same every time has no noise. */
+static double count_noisy(const ps_power_job *job) {
+    const uint64_t num = ps_power_job_spectrum(job)->num_realizations;
+    return ps_power_job_needs(job)->one_realization ? 1 : (double)num;
+}
+
 /* The profiles and the fit of a curve, behind its other columns. */
 static pspec_status add_shape(ps_series *curve, double *columns, const ps_request *request,
                               const ps_spectrum *spectrum, ps_error *error) {
@@ -59,7 +74,9 @@ static pspec_status make_curve(ps_series *curve, size_t number, const char *labe
                          .x = columns,
                          .y = columns + num,
                          .error = columns + 2 * num,
-                         .anisotropy = columns + 3 * num};
+                         .anisotropy = columns + 3 * num,
+                         .num_realizations = count_noisy(job),
+                         .floor = find_floor(job, unit)};
     return request->wants_fit ? add_shape(curve, columns + COLUMNS * num, request, spectrum, error)
                               : PSPEC_OK;
 }
@@ -88,9 +105,24 @@ static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t
     }
 }
 
+/* Where a standard error was asked for, each has as many as that takes. */
+static void write_realizations(ps_text *title, const ps_power_job *const *jobs, size_t num) {
+    uint64_t least = ps_power_job_spectrum(jobs[0])->num_realizations;
+    uint64_t most = least;
+    for (size_t i = 1; i < num; i++) {
+        const uint64_t own = ps_power_job_spectrum(jobs[i])->num_realizations;
+        least = own < least ? own : least;
+        most = own > most ? own : most;
+    }
+    ps_text_append(title, ", %llu", (unsigned long long)least);
+    if (most > least) {
+        ps_text_append(title, " to %llu", (unsigned long long)most);
+    }
+    ps_text_append(title, " realization%s", most == 1 ? "" : "s");
+}
+
 static void write_title(ps_text *title, const ps_request *arguments,
                         const ps_power_job *const *jobs, size_t num) {
-    const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     if (arguments->num_samplers > 1) {
         ps_text_append(title, "%zu samplers", arguments->num_samplers);
     } else if (arguments->num_samplers == 1) {
@@ -101,8 +133,7 @@ static void write_title(ps_text *title, const ps_request *arguments,
         ps_text_append(title, "%zu files", arguments->num_files);
     }
     write_points(title, jobs, num);
-    ps_text_append(title, ", %llu realization%s", (unsigned long long)first->num_realizations,
-                   first->num_realizations == 1 ? "" : "s");
+    write_realizations(title, jobs, num);
 }
 
 /* What tells the curve from the others. */
@@ -140,14 +171,12 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     }
     write_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
-    const double realizations = (double)first->num_realizations;
     const ps_panel panel = {NULL, num, curves};
     const ps_figure figure = {.form = PS_FIGURE_SPECTRA,
                               .title = ps_text_string(&title),
                               .num_panels = 1,
                               .panels = &panel,
                               .image = has_image ? &image : NULL,
-                              .noise_level_db = realizations > 1 ? -10 * log10(realizations) : NAN,
                               .on_sphere = on_sphere,
                               .axes = arguments->plot_axes};
     PS_TRY_OUT(status, ps_figure_write(arguments->plot, &figure, error));
