@@ -177,7 +177,8 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
         add_frames(key, figure);
     }
     if (figure->image != NULL) {
-        ps_text_append(key, "%zu %a\n", figure->image->size, figure->image->unit);
+        ps_text_append(key, "%zu %a %a\n", figure->image->size, figure->image->unit,
+                       figure->image->maximum);
         add_numbers(key, figure->image->power, figure->image->size * figure->image->size);
     }
 }

@@ -69,8 +69,14 @@ typedef struct ps_point_frame {
 typedef struct ps_plot_image {
     size_t size;
     const double *power;
-    double unit; /* integer frequencies per unit of normalized frequency, N^(1/2) */
+    double unit;    /* integer frequencies per unit of normalized frequency, N^(1/2) */
+    double maximum; /* power at the bright end of the scale; 0: as ps_plot_find_maximum finds it */
 } ps_plot_image;
+
+/* Where the scale of an image ends that has its own: so that a few peaks do not make the rest dark.
+ * Images that are to be compared share the largest. */
+pspec_status ps_plot_find_maximum(double *out, const ps_plot_image *image,
+                                  ps_error *error) PS_MUST_CHECK;
 
 /* What somebody asked of the axes of a spectrum or a frame; {0}: nothing. */
 typedef struct ps_plot_axes {

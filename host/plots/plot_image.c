@@ -5,7 +5,8 @@
 #include <stdlib.h>
 
 /* Blue below white noise and orange above it, as dark at one end as at the other; white noise, 1,
- * is nearly white. Steps are even on the scale of the tone map, on both sides of it. */
+ * is nearly white. Steps are even on the scale of the tone map below it, and of the logarithm above
+ * it, so that noise is seen beside peaks. */
 static const char *const below[] = {"#0b2545", "#1f5f99", "#7fb2d6"};
 static const char neutral[] = "#f4f2ee";
 static const char *const above[] = {"#f0b27a", "#c8601e", "#5c1f0a"};
@@ -29,14 +30,14 @@ static void print_raster(const ps_plot_raster *raster, FILE *stream) {
 
 static void print_palette(double maximum, FILE *stream) {
     const double white = tone(1);
-    const double step = (tone(maximum) - white) / NUM_STEPS;
+    const double step = pow(maximum, 1.0 / NUM_STEPS);
     fputs("set palette defined (", stream);
     for (size_t i = 0; i < NUM_STEPS; i++) {
         fprintf(stream, "%.6g '%s', ", white * (double)i / NUM_STEPS, below[i]);
     }
     fprintf(stream, "%.6g '%s'", white, neutral);
     for (size_t i = 0; i < NUM_STEPS; i++) {
-        fprintf(stream, ", %.6g '%s'", white + step * (double)(i + 1), above[i]);
+        fprintf(stream, ", %.6g '%s'", tone(pow(step, (double)(i + 1))), above[i]);
     }
     fprintf(stream, ")\nset cbrange [0:%.6g]\n", tone(maximum));
 }

@@ -45,7 +45,7 @@ static void make_example(example *out, size_t num_curves, bool has_image, bool h
                                      .anisotropy = out->anisotropy,
                                      .num_realizations = has_errors ? 10 : 1};
     }
-    out->picture = (ps_plot_image){IMAGE_SIZE, out->image, 8};
+    out->picture = (ps_plot_image){.size = IMAGE_SIZE, .power = out->image, .unit = 8};
     out->panel = (ps_panel){NULL, num_curves, out->curves};
     out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
                             .title = "it's \"a_b\"\nexit 1; `false` {",

@@ -187,7 +187,9 @@ static void lines_that_coincide(void **state) {
 static void white_noise_is_neutral(void **state) {
     (void)state;
     double image[IMAGE_SIZE * IMAGE_SIZE] = {[3] = 100};
-    const ps_plot_image picture = {.size = IMAGE_SIZE, .power = image, .unit = 2};
+    ps_plot_image picture = {.size = IMAGE_SIZE, .power = image, .unit = 2};
+    double own = 0;
+    ps_error error = {0};
     example data;
     make_example(&data, 1);
     data.plot.image = &picture;
@@ -198,6 +200,10 @@ static void white_noise_is_neutral(void **state) {
     assert_int_equal(count(&data.plot, "0.321928 '#f4f2ee', "), 1);
     assert_int_equal(count(&data.plot, "set cbrange [0:0.436"), 1); /* 2 */
     assert_int_equal(count(&data.plot, "'1' 0.321928"), 1);
+    picture.maximum = 100; /* that of another image */
+    assert_int_equal(count(&data.plot, "set cbrange [0:1.80735]"), 1);
+    assert_int_equal(ps_plot_find_maximum(&own, &picture, &error), PSPEC_OK);
+    assert_true(own == 2);
 }
 
 int main(void) {

@@ -85,8 +85,9 @@ static pspec_status make_image(ps_plot_image *image, double **array, const ps_sp
                                ps_error *error) {
     size_t num_entries = 0;
     PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, array, &num_entries, error));
-    *image = (ps_plot_image){2 * (size_t)spectrum->frequencies.max_frequency + 1, *array,
-                             sqrt(spectrum->mean_points)};
+    *image = (ps_plot_image){.size = 2 * (size_t)spectrum->frequencies.max_frequency + 1,
+                             .power = *array,
+                             .unit = sqrt(spectrum->mean_points)};
     return PSPEC_OK;
 }
 
