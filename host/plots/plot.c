@@ -137,13 +137,33 @@ static void add_axes(ps_text *key, const ps_plot_axes *axes) {
 }
 
 static void add_frames(ps_text *key, const ps_figure *figure) {
+    const size_t num = figure->points != NULL ? 1 : figure->num_panels;
     ps_text_append(key, "%zu\n", figure->num_columns);
-    for (size_t i = 0; i < figure->num_panels; i++) {
+    for (size_t i = 0; i < num; i++) {
         const ps_point_frame *const frame = &figure->frames[i];
         add_text(key, frame->x_label);
         add_text(key, frame->y_label);
         ps_text_append(key, "%d %d %a %a\n", (int)frame->form, frame->is_mirrored, frame->first,
                        frame->last);
+    }
+}
+
+static void add_panel(ps_text *key, const ps_panel *panel) {
+    add_text(key, panel->title);
+    ps_text_append(key, "%zu\n", panel->num_series);
+    for (size_t j = 0; j < panel->num_series; j++) {
+        const ps_series *const series = &panel->series[j];
+        add_text(key, series->formula);
+        add_text(key, series->label);
+        ps_text_append(key, "%zu %d %d %zu %a %a\n", series->kind, series->is_front,
+                       (int)series->look, series->num, series->num_realizations, series->floor);
+        add_numbers(key, series->x, series->num);
+        add_numbers(key, series->y, series->num);
+        add_numbers(key, series->error, series->num);
+        add_numbers(key, series->anisotropy, series->num);
+        add_numbers(key, series->low, series->num);
+        add_numbers(key, series->high, series->num);
+        add_numbers(key, series->fit, series->num);
     }
 }
 
@@ -155,23 +175,10 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
                    figure->on_sphere);
     add_axes(key, &figure->axes);
     for (size_t i = 0; i < figure->num_panels; i++) {
-        const ps_panel *const panel = &figure->panels[i];
-        add_text(key, panel->title);
-        ps_text_append(key, "%zu\n", panel->num_series);
-        for (size_t j = 0; j < panel->num_series; j++) {
-            const ps_series *const series = &panel->series[j];
-            add_text(key, series->formula);
-            add_text(key, series->label);
-            ps_text_append(key, "%zu %d %d %zu %a %a\n", series->kind, series->is_front,
-                           (int)series->look, series->num, series->num_realizations, series->floor);
-            add_numbers(key, series->x, series->num);
-            add_numbers(key, series->y, series->num);
-            add_numbers(key, series->error, series->num);
-            add_numbers(key, series->anisotropy, series->num);
-            add_numbers(key, series->low, series->num);
-            add_numbers(key, series->high, series->num);
-            add_numbers(key, series->fit, series->num);
-        }
+        add_panel(key, &figure->panels[i]);
+    }
+    if (figure->points != NULL) {
+        add_panel(key, figure->points);
     }
     if (figure->frames != NULL) {
         add_frames(key, figure);

@@ -108,7 +108,8 @@ typedef struct ps_figure {
     const ps_panel *panels;
     /* of spectra */
     const ps_plot_image *image; /* NULL: none */
-    bool on_sphere; /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
+    bool on_sphere;         /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
+    const ps_panel *points; /* in frames[0], beside the spectrum; NULL: none */
     /* of points */
     const ps_point_frame *frames; /* one for each panel */
     size_t num_columns;           /* of panels, 1 to PS_MOST_POINT_COLUMNS */

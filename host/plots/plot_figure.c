@@ -25,14 +25,27 @@ static void print_series(const ps_figure *figure, const ps_series *series, FILE 
     }
 }
 
+/* Block name_1 is series 1 of the panel. */
+static void print_blocks(const ps_figure *figure, const ps_panel *panel, const char *name,
+                         FILE *stream) {
+    for (size_t j = 0; j < panel->num_series; j++) {
+        fprintf(stream, "%s_%zu << EOD\n", name, j);
+        print_series(figure, &panel->series[j], stream);
+        fputs("EOD\n", stream);
+    }
+}
+
 /* $data0_1 is series 1 of panel 0. */
 static void print_data(const ps_figure *figure, FILE *stream) {
+    enum { NAME_BYTES = 32 };
+    const ps_figure linear = {0}; /* points may be at 0 */
     for (size_t i = 0; i < figure->num_panels; i++) {
-        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
-            fprintf(stream, "$data%zu_%zu << EOD\n", i, j);
-            print_series(figure, &figure->panels[i].series[j], stream);
-            fputs("EOD\n", stream);
-        }
+        char name[NAME_BYTES];
+        snprintf(name, sizeof name, "$data%zu", i);
+        print_blocks(figure, &figure->panels[i], name, stream);
+    }
+    if (figure->points != NULL) {
+        print_blocks(&linear, figure->points, "$points", stream);
     }
 }
 
@@ -90,7 +103,7 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
     print_data(figure, stream);
     switch (figure->form) {
     case PS_FIGURE_SPECTRA:
-        PS_TRY(ps_script_print_spectra(figure, stream, error));
+        PS_TRY(ps_script_print_spectra(figure, terminal, stream, error));
         break;
     case PS_FIGURE_FRAME:
         ps_script_print_frames(figure, stream);

@@ -13,7 +13,7 @@ pspec_status ps_figure_write_script(const ps_figure *figure, const char *termina
 /* ---- what stands between the page and its end ------------------------------------------------ */
 
 /* Spectra, frames, panels of lines or marks, points; the data are there. */
-pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream,
+pspec_status ps_script_print_spectra(const ps_figure *figure, const char *terminal, FILE *stream,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_script_print_frames(const ps_figure *figure, FILE *stream);
 void ps_script_print_panels(const ps_figure *figure, FILE *stream);
@@ -50,6 +50,17 @@ typedef struct ps_script_box {
 } ps_script_box;
 
 void ps_script_print_margins(const ps_script_box *where, FILE *stream);
+/* A panel of points, whose series are $NAME_0, .. */
+typedef struct ps_script_points {
+    const ps_panel *panel;
+    const ps_point_frame *frame;
+    ps_script_box where;
+    const char *data;
+    const char *terminal;
+} ps_script_points;
+
+/* Beside panels of other things, and before them: it takes the page's own title away. */
+void ps_script_print_beside(const ps_script_points *what, FILE *stream);
 /* Of a curve of a panel: larger where others that come later lie on it. */
 double ps_script_line_width(const ps_figure *figure, const ps_panel *panel, size_t index);
 

@@ -8,7 +8,15 @@ enum { MAX_BARS = 200 };
 /* ---- where things are ------------------------------------------------------------------------ */
 
 /* Pixels: of the image, with its numbers and colours; of the curves. */
-enum { IMAGE_WIDTH = 770, CURVES_WIDTH = 630, TOP = 56, BOTTOM = 630, LEFT = 84, RIGHT = 18 };
+enum {
+    POINTS_WIDTH = 650,
+    IMAGE_WIDTH = 770,
+    CURVES_WIDTH = 630,
+    TOP = 56,
+    BOTTOM = 630,
+    LEFT = 84,
+    RIGHT = 18
+};
 enum { BETWEEN = 20, BETWEEN_ON_SPHERE = 70 }; /* panels with the same axis, and with their own */
 
 typedef struct layout {
@@ -16,11 +24,12 @@ typedef struct layout {
     const ps_panel *curves;
     bool has_lower; /* a panel below the powers */
     const char *x_label, *y_label;
-    ps_script_box upper, lower, image;
+    ps_script_box upper, lower, image, points;
 } layout;
 
 void ps_script_size_spectra(const ps_figure *figure, int *width, int *height) {
-    *width = figure->image != NULL ? IMAGE_WIDTH + CURVES_WIDTH : PS_SCRIPT_WIDTH;
+    *width = (figure->points != NULL ? POINTS_WIDTH : 0) +
+             (figure->image != NULL ? IMAGE_WIDTH + CURVES_WIDTH : PS_SCRIPT_WIDTH);
     *height = PS_SCRIPT_HEIGHT;
 }
 
@@ -32,12 +41,15 @@ static void place(layout *out) {
     int width = 0;
     int height = 0;
     ps_script_size_spectra(figure, &width, &height);
-    const double left = (figure->image != NULL ? IMAGE_WIDTH : 0) + LEFT;
+    const double image_left = (figure->points != NULL ? POINTS_WIDTH : 0) + LEFT;
+    const double left = (figure->image != NULL ? IMAGE_WIDTH : 0) + image_left;
+    const double side = BOTTOM - TOP;
     const double middle = TOP + share * (BOTTOM - TOP - between);
     out->upper =
         (ps_script_box){left, TOP, width - RIGHT, out->has_lower ? middle : BOTTOM, width, height};
     out->lower = (ps_script_box){left, middle + between, width - RIGHT, BOTTOM, width, height};
-    out->image = (ps_script_box){LEFT, TOP, LEFT + BOTTOM - TOP, BOTTOM, width, height};
+    out->image = (ps_script_box){image_left, TOP, image_left + side, BOTTOM, width, height};
+    out->points = (ps_script_box){LEFT / 2, TOP, LEFT / 2 + side, BOTTOM, width, height};
 }
 
 /* ---- numbers --------------------------------------------------------------------------------- */
@@ -354,7 +366,8 @@ static void print_logarithmic_panel(const layout *where, FILE *stream) {
     print_profiles(where->curves, stream);
 }
 
-pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream, ps_error *error) {
+pspec_status ps_script_print_spectra(const ps_figure *figure, const char *terminal, FILE *stream,
+                                     ps_error *error) {
     const bool on_sphere = figure->on_sphere;
     layout where = {.figure = figure,
                     .curves = figure->panels,
@@ -364,6 +377,11 @@ pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream, ps_e
                                          : "normalized frequency |k| N^{-1/d}",
                     .y_label = on_sphere ? "power" : "radial mean power"};
     place(&where);
+    if (figure->points != NULL) {
+        ps_script_print_beside(&(ps_script_points){figure->points, &figure->frames[0], where.points,
+                                                   "$points", terminal},
+                               stream);
+    }
     if (figure->image != NULL) {
         PS_TRY(ps_script_print_image(figure->image, &where.image, stream, error));
     }

@@ -206,6 +206,33 @@ static void white_noise_is_neutral(void **state) {
     assert_true(own == 2);
 }
 
+/* Points stand to the left of all else, and leave nothing of their axes behind. */
+static void points_beside_spectra(void **state) {
+    (void)state;
+    static const double x[] = {0, 0.25, 0.5};
+    static const ps_frame_form forms[] = {PS_FRAME_SQUARE, PS_FRAME_LINE, PS_FRAME_DISC};
+    const ps_series series = {.num = 3, .x = x, .y = x};
+    const ps_panel points = {"the first set", 1, &series};
+    example data;
+    ps_text first = {0};
+    ps_text second = {0};
+    make_example(&data, 1);
+    ps_figure_add_key(&first, &data.plot);
+    data.plot.points = &points;
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        const ps_point_frame frame = {forms[i], 0, 1, "x", "y", false};
+        data.plot.frames = &frame;
+        assert_int_equal(count(&data.plot, "$points_0 << EOD\n 0 0\n"), 1); /* 0 is no gap */
+        assert_int_equal(count(&data.plot, "plot $points_0 using "), 1);
+        assert_int_equal(count(&data.plot, "set terminal svg enhanced size 1650,700 "), 1);
+        assert_int_equal(count(&data.plot, "\nunset object\nset border 31 "), 1);
+        ps_figure_add_key(&second, &data.plot);
+        assert_true(second.length > first.length);
+    }
+    ps_text_free(&first);
+    ps_text_free(&second);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(logarithmic_axes_keep_all_data),
@@ -215,6 +242,7 @@ int main(void) {
         cmocka_unit_test(levels_of_noise),
         cmocka_unit_test(lines_that_coincide),
         cmocka_unit_test(white_noise_is_neutral),
+        cmocka_unit_test(points_beside_spectra),
     };
     return cmocka_run_group_tests_name("plot_spectra", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 #include "answers/spectra/spectra.h"
 
 #include "answers/lead.h"
+#include "answers/points/points_picture.h"
 #include "answers/spectra/shape_table.h"
 #include "base/memory.h"
 #include "plots/plot.h"
@@ -91,6 +92,26 @@ static pspec_status make_image(ps_plot_image *image, double **array, const ps_sp
     return PSPEC_OK;
 }
 
+/* One view of the first set: of more dimensions the first two coordinates, of the sphere the half
+ * above. */
+static pspec_status make_points(ps_points_picture *picture, const ps_power_job *job,
+                                ps_figure *figure, ps_error *error) {
+    const ps_point_set *const set = ps_power_job_first_set(job);
+    ps_figure own;
+    if (set == NULL) {
+        return PSPEC_OK;
+    }
+    const ps_drawn_set drawn = {"the first set",
+                                set->coordinates == PS_UNIT_VECTORS ? PS_SAMPLES_HEMISPHERE
+                                                                    : PS_SAMPLES_TORUS,
+                                set->dimension, set->num_points, set->points};
+    PS_TRY(ps_points_picture_add(picture, &drawn, &(ps_watch){0}, error));
+    PS_TRY(ps_points_picture_figure(picture, "", &own, error));
+    figure->points = own.panels;
+    figure->frames = own.frames;
+    return PSPEC_OK;
+}
+
 /* Samplers choose N themselves where nside or the like says it. */
 static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t num) {
     double least = ps_power_job_spectrum(jobs[0])->mean_points;
@@ -157,6 +178,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     ps_plot_image image;
     double *array = NULL;
     ps_text title = {0};
+    ps_points_picture points = {.num_sets = 2}; /* of several: the panel says what it is */
     pspec_status status = PSPEC_OK;
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     const bool on_sphere = first->frequencies.kind == PS_FREQUENCIES_DEGREES;
@@ -173,13 +195,14 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     write_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
     const ps_panel panel = {NULL, num, curves};
-    const ps_figure figure = {.form = PS_FIGURE_SPECTRA,
-                              .title = ps_text_string(&title),
-                              .num_panels = 1,
-                              .panels = &panel,
-                              .image = has_image ? &image : NULL,
-                              .on_sphere = on_sphere,
-                              .axes = arguments->plot_axes};
+    ps_figure figure = {.form = PS_FIGURE_SPECTRA,
+                        .title = ps_text_string(&title),
+                        .num_panels = 1,
+                        .panels = &panel,
+                        .image = has_image ? &image : NULL,
+                        .on_sphere = on_sphere,
+                        .axes = arguments->plot_axes};
+    PS_TRY_OUT(status, make_points(&points, jobs[0], &figure, error));
     PS_TRY_OUT(status, ps_figure_write(arguments->plot, &figure, error));
 out:
     for (size_t i = 0; i < num; i++) {
@@ -187,6 +210,7 @@ out:
         ps_text_free(&labels[i]);
     }
     free(array);
+    ps_points_picture_free(&points);
     ps_text_free(&title);
     return status;
 }
