@@ -45,9 +45,12 @@ pspec_status ps_picture_check(const ps_request *request, bool is_all, const ps_a
     ps_text path = {0};
     ps_error reason = {0};
     const ps_plot_axes *const axes = &request->plot_axes;
-    if (request->plot == NULL && (axes->has_log || axes->has_x || axes->has_y)) {
+    const bool has_words =
+        axes->has_log || axes->has_x || axes->has_y || request->plot_points != NULL;
+    if (request->plot == NULL && has_words) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--plot-log and --plot-range are about --plot, which was not given");
+                       "--plot-log, --plot-range and --plot-points are about --plot, which was not "
+                       "given");
     }
     if (request->plot == NULL) {
         return PSPEC_OK;

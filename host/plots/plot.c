@@ -137,8 +137,9 @@ static void add_axes(ps_text *key, const ps_plot_axes *axes) {
 }
 
 static void add_frames(ps_text *key, const ps_figure *figure) {
+    const size_t num = figure->points != NULL ? 1 : figure->num_panels;
     ps_text_append(key, "%zu\n", figure->num_columns);
-    for (size_t i = 0; i < figure->num_panels; i++) {
+    for (size_t i = 0; i < num; i++) {
         const ps_point_frame *const frame = &figure->frames[i];
         add_text(key, frame->x_label);
         add_text(key, frame->y_label);
@@ -147,37 +148,44 @@ static void add_frames(ps_text *key, const ps_figure *figure) {
     }
 }
 
+static void add_panel(ps_text *key, const ps_panel *panel) {
+    add_text(key, panel->title);
+    ps_text_append(key, "%zu\n", panel->num_series);
+    for (size_t j = 0; j < panel->num_series; j++) {
+        const ps_series *const series = &panel->series[j];
+        add_text(key, series->formula);
+        add_text(key, series->label);
+        ps_text_append(key, "%zu %d %d %zu %a %a\n", series->kind, series->is_front,
+                       (int)series->look, series->num, series->num_realizations, series->floor);
+        add_numbers(key, series->x, series->num);
+        add_numbers(key, series->y, series->num);
+        add_numbers(key, series->error, series->num);
+        add_numbers(key, series->anisotropy, series->num);
+        add_numbers(key, series->low, series->num);
+        add_numbers(key, series->high, series->num);
+        add_numbers(key, series->fit, series->num);
+    }
+}
+
 void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
     add_text(key, figure->title);
     add_text(key, figure->x_label);
     add_text(key, figure->y_label);
-    ps_text_append(key, "%d %d %d %d %a\n", (int)figure->form, figure->is_log_x, figure->is_log_y,
-                   figure->on_sphere, figure->noise_level_db);
+    ps_text_append(key, "%d %d %d %d\n", (int)figure->form, figure->is_log_x, figure->is_log_y,
+                   figure->on_sphere);
     add_axes(key, &figure->axes);
     for (size_t i = 0; i < figure->num_panels; i++) {
-        const ps_panel *const panel = &figure->panels[i];
-        add_text(key, panel->title);
-        ps_text_append(key, "%zu\n", panel->num_series);
-        for (size_t j = 0; j < panel->num_series; j++) {
-            const ps_series *const series = &panel->series[j];
-            add_text(key, series->formula);
-            add_text(key, series->label);
-            ps_text_append(key, "%zu %d %d %zu\n", series->kind, series->is_front,
-                           (int)series->look, series->num);
-            add_numbers(key, series->x, series->num);
-            add_numbers(key, series->y, series->num);
-            add_numbers(key, series->error, series->num);
-            add_numbers(key, series->anisotropy, series->num);
-            add_numbers(key, series->low, series->num);
-            add_numbers(key, series->high, series->num);
-            add_numbers(key, series->fit, series->num);
-        }
+        add_panel(key, &figure->panels[i]);
+    }
+    if (figure->points != NULL) {
+        add_panel(key, figure->points);
     }
     if (figure->frames != NULL) {
         add_frames(key, figure);
     }
     if (figure->image != NULL) {
-        ps_text_append(key, "%zu %a\n", figure->image->size, figure->image->unit);
+        ps_text_append(key, "%zu %a %a\n", figure->image->size, figure->image->unit,
+                       figure->image->maximum);
         add_numbers(key, figure->image->power, figure->image->size * figure->image->size);
     }
 }

@@ -20,7 +20,8 @@ typedef enum ps_look {
 /* Places of one thing in a panel; nan is a gap. Where axes are logarithmic what is not above 0 is a
  * gap, too. */
 typedef struct ps_series {
-    const char *formula; /* in gnuplot's enhanced text, "d@_l^2", before the label; NULL: none */
+    const char *formula; /* in gnuplot's enhanced text, "d_l^2", before the label; NULL: none.
+                            Not "d@_l^2": SVG would have a 2 of full size on the l */
     const char *label;   /* NULL: none; in a frame, the key does not have it */
     /* From 0; series of a kind look the same, and have the same label, in every panel */
     size_t kind;
@@ -29,6 +30,11 @@ typedef struct ps_series {
     const double *x, *y;
     const double *error;      /* standard errors, of spectra and of marks; else NULL */
     const double *anisotropy; /* of spectra, in dB; else NULL */
+    double num_realizations;  /* of spectra, that are averaged: 10 log10 of it is how far the
+                                 anisotropy of pure noise is below 0 dB; below 2: nothing is said */
+    /* Positive y from here down are rounding, to which no logarithmic axis is stretched; what is
+     * below 1e-16 of the largest is so, too */
+    double floor;
     const double *low, *high; /* the band of a curve, lines about a spectrum; NULL: none */
     const double *fit;        /* of spectra, what goes through them; NULL: none */
     ps_look look;
@@ -63,8 +69,14 @@ typedef struct ps_point_frame {
 typedef struct ps_plot_image {
     size_t size;
     const double *power;
-    double unit; /* integer frequencies per unit of normalized frequency, N^(1/2) */
+    double unit;    /* integer frequencies per unit of normalized frequency, N^(1/2) */
+    double maximum; /* power at the bright end of the scale; 0: as ps_plot_find_maximum finds it */
 } ps_plot_image;
+
+/* Where the scale of an image ends that has its own: so that a few peaks do not make the rest dark.
+ * Images that are to be compared share the largest. */
+pspec_status ps_plot_find_maximum(double *out, const ps_plot_image *image,
+                                  ps_error *error) PS_MUST_CHECK;
 
 /* What somebody asked of the axes of a spectrum or a frame; {0}: nothing. */
 typedef struct ps_plot_axes {
@@ -75,8 +87,8 @@ typedef struct ps_plot_axes {
 
 typedef enum ps_figure_form {
     /* One panel of powers with bars against normalized frequencies, their anisotropy below it, the
-     * image beside it; on the sphere the powers once more with logarithmic axes instead. It labels
-     * its axes itself. */
+     * image beside it; on the sphere the powers once more with logarithmic axes instead, unless
+     * these were asked for. It labels its axes itself. */
     PS_FIGURE_SPECTRA,
     /* Panels side by side, each with axes and a key of its own, which stands below it. One panel
      * has the page for itself. */
@@ -96,8 +108,8 @@ typedef struct ps_figure {
     const ps_panel *panels;
     /* of spectra */
     const ps_plot_image *image; /* NULL: none */
-    double noise_level_db;      /* level of pure noise in the anisotropy panel, nan: no line */
-    bool on_sphere; /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
+    bool on_sphere;         /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
+    const ps_panel *points; /* in frames[0], beside the spectrum; NULL: none */
     /* of points */
     const ps_point_frame *frames; /* one for each panel */
     size_t num_columns;           /* of panels, 1 to PS_MOST_POINT_COLUMNS */

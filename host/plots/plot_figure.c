@@ -25,14 +25,27 @@ static void print_series(const ps_figure *figure, const ps_series *series, FILE 
     }
 }
 
+/* Block name_1 is series 1 of the panel. */
+static void print_blocks(const ps_figure *figure, const ps_panel *panel, const char *name,
+                         FILE *stream) {
+    for (size_t j = 0; j < panel->num_series; j++) {
+        fprintf(stream, "%s_%zu << EOD\n", name, j);
+        print_series(figure, &panel->series[j], stream);
+        fputs("EOD\n", stream);
+    }
+}
+
 /* $data0_1 is series 1 of panel 0. */
 static void print_data(const ps_figure *figure, FILE *stream) {
+    enum { NAME_BYTES = 32 };
+    const ps_figure linear = {0}; /* points may be at 0 */
     for (size_t i = 0; i < figure->num_panels; i++) {
-        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
-            fprintf(stream, "$data%zu_%zu << EOD\n", i, j);
-            print_series(figure, &figure->panels[i].series[j], stream);
-            fputs("EOD\n", stream);
-        }
+        char name[NAME_BYTES];
+        snprintf(name, sizeof name, "$data%zu", i);
+        print_blocks(figure, &figure->panels[i], name, stream);
+    }
+    if (figure->points != NULL) {
+        print_blocks(&linear, figure->points, "$points", stream);
     }
 }
 
@@ -49,6 +62,8 @@ static void print_page(const char *title, const char *terminal, int width, int h
                 strcmp(terminal, "svg") == 0 ? "sans-serif,16" : "Sans,12");
     }
     fputs("set encoding utf8\n", stream);
+    /* marks of bars would blank out what is below them */
+    fputs("set pointintervalbox 0\n", stream);
     fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
     fputs("set multiplot\nset label 1 ", stream);
     ps_script_print_text(title, stream);
@@ -70,9 +85,11 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
                                     ps_error *error) {
     const ps_figure own = with_axes(asked);
     const ps_figure *const figure = &own;
-    enum { WIDTH_WITH_IMAGE = 1400 };
-    int width = figure->image != NULL ? WIDTH_WITH_IMAGE : PS_SCRIPT_WIDTH;
+    int width = PS_SCRIPT_WIDTH;
     int height = PS_SCRIPT_HEIGHT;
+    if (figure->form == PS_FIGURE_SPECTRA) {
+        ps_script_size_spectra(figure, &width, &height);
+    }
     if (figure->form == PS_FIGURE_PANELS || figure->form == PS_FIGURE_MARKS) {
         ps_script_size_panels(figure, &width, &height);
     }
@@ -86,7 +103,7 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
     print_data(figure, stream);
     switch (figure->form) {
     case PS_FIGURE_SPECTRA:
-        PS_TRY(ps_script_print_spectra(figure, stream, error));
+        PS_TRY(ps_script_print_spectra(figure, terminal, stream, error));
         break;
     case PS_FIGURE_FRAME:
         ps_script_print_frames(figure, stream);

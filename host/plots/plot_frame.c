@@ -17,7 +17,7 @@ enum {
     ABOVE_AMONG_OTHERS = 30,
     BELOW = 77 /* numbers and label of the axis */
 };
-static const double KEY_ROW = 23.1;
+static const double KEY_ROW = 23.1, FORMULA_ROW = 29;
 
 /* ---- where things are ------------------------------------------------------------------------ */
 
@@ -61,37 +61,12 @@ static cell find_cell(const ps_figure *figure, size_t index) {
 
 /* ---- ranges ---------------------------------------------------------------------------------- */
 
-/* The smallest number above a limit, infinite where there is none, and the largest. */
-static double find_least(const ps_panel *panel, double limit) {
-    double least = INFINITY;
-    for (size_t i = 0; i < panel->num_series; i++) {
-        for (size_t k = 0; k < panel->series[i].num; k++) {
-            const double y = panel->series[i].y[k];
-            least = y > limit ? fmin(least, y) : least;
-        }
-    }
-    return least;
-}
-
-static double find_most(const ps_panel *panel) {
-    double most = 0;
-    for (size_t i = 0; i < panel->num_series; i++) {
-        for (size_t k = 0; k < panel->series[i].num; k++) {
-            const double y = panel->series[i].y[k];
-            most = isfinite(y) ? fmax(most, y) : most;
-        }
-    }
-    return most;
-}
-
-/* Where a logarithmic axis ends at the latest; 0 where nothing is above 0. Rounding leaves
- * numbers far below all that matter, and bands may go down to nothing; an axis that has them shows
- * nothing else. */
+/* Where a logarithmic axis ends at the latest; 0 where nothing is above the floors of the numbers.
+ * Bands may go down to nothing; an axis that has them shows nothing else. */
 static double find_bottom(const ps_panel *panel) {
-    const double digits = 1e-16;
     const double below = 1e-2; /* of the least number: so much of bands is worth seeing */
-    const double most = find_most(panel);
-    return most > 0 ? fmax(find_least(panel, digits * most) * below, most * digits) : 0;
+    const double least = ps_plot_span_above(panel).least;
+    return isfinite(least) ? fmax(least * below, ps_plot_least_floor(panel)) : 0;
 }
 
 /* Does a number, or the band around it, go further down? */
@@ -111,17 +86,10 @@ static bool goes_below(const ps_panel *panel, double bottom) {
 /* gnuplot would go on to whole powers of ten, where few points are. */
 static void print_log_range(const ps_panel *panel, FILE *stream) {
     const double margin = 1.15;
-    double least = INFINITY;
-    double most = 0;
-    for (size_t i = 0; i < panel->num_series; i++) {
-        for (size_t k = 0; k < panel->series[i].num; k++) {
-            const double x = panel->series[i].x[k];
-            least = x > 0 ? fmin(least, x) : least;
-            most = isfinite(x) ? fmax(most, x) : most;
-        }
-    }
-    if (most > least) {
-        fprintf(stream, "set xrange [%.9g:%.9g]\n", least / margin, most * margin);
+    const ps_plot_span places = ps_plot_span_places(panel);
+    if (places.most > places.least) {
+        ps_script_print_span("x", (ps_plot_span){places.least / margin, places.most * margin},
+                             stream);
     }
 }
 
@@ -154,6 +122,15 @@ static size_t count_key_columns(const ps_panel *panel, const cell *where) {
     return (double)find_longest(panel) * letter > where->width ? 1 : 2;
 }
 
+/* In pixels. */
+static double find_row_height(const ps_panel *panel) {
+    size_t i = 0;
+    while (i < panel->num_series && panel->series[i].formula == NULL) {
+        i++;
+    }
+    return i < panel->num_series ? FORMULA_ROW : KEY_ROW;
+}
+
 static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
     const double middle = (where->x + (LEFT + where->width - RIGHT) / 2) / where->page_width;
     const double bottom = 1 - (where->y + where->height) / where->page_height;
@@ -163,9 +140,9 @@ static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
     const bool is_narrow = where->width < PS_SCRIPT_WIDTH && find_longest(panel) > long_label;
     fprintf(stream,
             "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
-            "samplen 2 width %d\n",
+            "samplen 2 spacing %g width %d\n",
             middle, bottom + 7 / where->page_height, count_key_columns(panel, where),
-            is_narrow ? -4 : 0);
+            1.05 * find_row_height(panel) / KEY_ROW, is_narrow ? -4 : 0);
 }
 
 /* ---- series ---------------------------------------------------------------------------------- */
@@ -207,11 +184,12 @@ static void print_bars(const char *data, const ps_series *series, double bottom,
     fputs(" notitle, ", stream);
 }
 
-static void print_series(const char *data, const ps_series *series, double bottom, FILE *stream) {
+static void print_series(const char *data, const ps_series *series, double width, double bottom,
+                         FILE *stream) {
     switch (series->look) {
     case PS_LOOK_LINE:
-        fprintf(stream, "%s using 1:2 with linespoints pointtype 7 pointsize 0.4 linewidth 1.6 ",
-                data);
+        fprintf(stream, "%s using 1:2 with linespoints pointtype 7 pointsize 0.4 linewidth %g ",
+                data, width);
         ps_script_print_style(series->kind, stream);
         break;
     case PS_LOOK_CURVE:
@@ -219,8 +197,8 @@ static void print_series(const char *data, const ps_series *series, double botto
             print_band(data, series, bottom, stream);
         }
         /* No line goes through a single place; the ring leaves room for a mark in it. */
-        fprintf(stream, "%s using 1:2 with %s linewidth 1.6 ", data,
-                series->num > 1 ? "lines" : "points pointtype 6 pointsize 1.4");
+        fprintf(stream, "%s using 1:2 with %s linewidth %g ", data,
+                series->num > 1 ? "lines" : "points pointtype 6 pointsize 1.4", width);
         ps_script_print_style(series->kind, stream);
         break;
     case PS_LOOK_MARKS:
@@ -278,13 +256,15 @@ static void print_ranges(const ps_figure *figure, const ps_panel *panel, double 
     ps_script_print_asked(figure, stream);
 }
 
-static void print_all_series(const ps_panel *panel, size_t index, double bottom, FILE *stream) {
+static void print_all_series(const ps_figure *figure, size_t index, double bottom, FILE *stream) {
     enum { DATA_BYTES = 64 };
+    const ps_panel *const panel = &figure->panels[index];
     fputs("plot ", stream);
     for (size_t i = 0; i < panel->num_series; i++) {
         char data[DATA_BYTES];
         snprintf(data, sizeof data, "$data%zu_%zu", index, i);
-        print_series(data, &panel->series[i], bottom, stream);
+        print_series(data, &panel->series[i], ps_script_line_width(figure, panel, i), bottom,
+                     stream);
         fputs(i + 1 < panel->num_series ? ", " : "\n", stream);
     }
 }
@@ -296,7 +276,7 @@ static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     const bool has_key = panel->num_series > 1;
     const size_t num_rows = has_key ? (count_named(panel) + columns - 1) / columns : 0;
     const double bottom = figure->is_log_y ? find_bottom(panel) : 0;
-    print_margins(&where, KEY_ROW * (double)num_rows, stream);
+    print_margins(&where, find_row_height(panel) * (double)num_rows, stream);
     if (figure->num_panels > 1) {
         fputs(index > 0 ? "unset label 1\nset autoscale\nset title " : "set title ", stream);
         ps_script_print_text(panel->title, stream);
@@ -312,7 +292,7 @@ static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     } else {
         fputs("unset key\n", stream);
     }
-    print_all_series(panel, index, bottom, stream);
+    print_all_series(figure, index, bottom, stream);
 }
 
 void ps_script_print_frames(const ps_figure *figure, FILE *stream) {

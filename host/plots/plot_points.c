@@ -59,16 +59,18 @@ static size_t num_points(const ps_panel *panel) {
 
 /* A third of the distance that so many points have on a grid, as in the figures of the papers; a
  * hundredth of the side where they are few, and never less than is seen. */
-double ps_script_mark_size(const ps_figure *figure, size_t panel) {
+static double find_mark_size(const ps_panel *panel, const ps_point_frame *frame, double side) {
     const double share = 1.0 / 3;
     const double least = 1.1;
-    const double side = side_of(figure);
     const double most = side / 100;
-    const double num = fmax(1, (double)num_points(&figure->panels[panel]));
-    const double distance = figure->frames[panel].form == PS_FRAME_DISC
-                                ? side / 2 / disc_reach * sqrt(PS_PI / num)
-                                : side / sqrt(num);
+    const double num = fmax(1, (double)num_points(panel));
+    const double distance =
+        frame->form == PS_FRAME_DISC ? side / 2 / disc_reach * sqrt(PS_PI / num) : side / sqrt(num);
     return fmin(most, fmax(least, share * distance));
+}
+
+double ps_script_mark_size(const ps_figure *figure, size_t panel) {
+    return find_mark_size(&figure->panels[panel], &figure->frames[panel], side_of(figure));
 }
 
 /* What gnuplot 5.4 draws for "pointtype 7 pointsize 1 linewidth 0.5", looked up in its output: a
@@ -85,45 +87,40 @@ static double point_size(const char *terminal, double pixels) {
     return fmax(0, length - (is_page ? line / 2 : line)) / unit;
 }
 
+static double width_of(const ps_script_box *where) {
+    return where->right - where->left;
+}
+
+static double height_of(const ps_script_box *where) {
+    return where->bottom - where->top;
+}
+
 /* Circles, on a line bars. */
-static void print_look(const ps_figure *figure, size_t i, const char *terminal, FILE *stream) {
-    if (figure->frames[i].form == PS_FRAME_LINE) {
+static void print_look(const ps_script_points *what, FILE *stream) {
+    if (what->frame->form == PS_FRAME_LINE) {
         fputs("using 1:(-0.6):(0):(1.2) with vectors nohead linewidth 1.2 ", stream);
         return;
     }
+    const double pixels = find_mark_size(what->panel, what->frame, width_of(&what->where));
     fprintf(stream, "using 1:2 with points pointtype 7 pointsize %.4f linewidth 0.5 ",
-            point_size(terminal, ps_script_mark_size(figure, i)));
+            point_size(what->terminal, pixels));
 }
 
-static void print_marks(const ps_figure *figure, size_t i, const char *terminal, FILE *stream) {
-    const ps_panel *const panel = &figure->panels[i];
-    if (num_points(panel) == 0) {
+static void print_marks(const ps_script_points *what, FILE *stream) {
+    if (num_points(what->panel) == 0) {
         fputs("plot NaN notitle\n", stream); /* gnuplot makes no axes for nothing */
         return;
     }
     fputs("plot ", stream);
-    for (size_t j = 0; j < panel->num_series; j++) {
-        fprintf(stream, "%s$data%zu_%zu ", j > 0 ? ", " : "", i, j);
-        print_look(figure, i, terminal, stream);
+    for (size_t j = 0; j < what->panel->num_series; j++) {
+        fprintf(stream, "%s%s_%zu ", j > 0 ? ", " : "", what->data, j);
+        print_look(what, stream);
         fputs("linecolor rgb '#101010' notitle", stream);
     }
     putc('\n', stream);
 }
 
 /* ---- frames ---------------------------------------------------------------------------------- */
-
-static void print_margins(const ps_figure *figure, size_t cell, FILE *stream) {
-    int width = 0;
-    int height = 0;
-    ps_script_size_points(figure, &width, &height);
-    const int side = side_of(figure);
-    const double x = (double)(cell % figure->num_columns) * (LEFT + side + RIGHT) + LEFT;
-    const double y = HEAD + (double)(cell / figure->num_columns) * row_height(figure) + ABOVE;
-    fprintf(stream,
-            "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
-            "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
-            x / width, (x + side) / width, 1 - y / height, 1 - (y + frame_height(figure)) / height);
-}
 
 static void print_x_range(const ps_point_frame *frame, double first, double last, FILE *stream) {
     fprintf(stream, "set xrange [%.9g:%.9g]\n", frame->is_mirrored ? last : first,
@@ -139,7 +136,7 @@ static void print_name(int number, const char *name, double x, double y, const c
 }
 
 /* A square or a line: the ends of its axes are all the numbers there are. */
-static void print_square(const ps_figure *figure, const ps_point_frame *frame, FILE *stream) {
+static void print_square(const ps_script_box *where, const ps_point_frame *frame, FILE *stream) {
     const double first = frame->first;
     const double last = frame->last;
     const bool is_line = frame->form == PS_FRAME_LINE;
@@ -148,19 +145,19 @@ static void print_square(const ps_figure *figure, const ps_point_frame *frame, F
             "set xtics (%.9g, %.9g) out nomirror scale 0.6\n"
             "set border %d linewidth 0.8 linecolor '#404040'\n",
             first, last, is_line ? 1 : 15);
-    print_name(2, frame->x_label, 0.5, -(double)LABEL / frame_height(figure), "", stream);
+    print_name(2, frame->x_label, 0.5, -(double)LABEL / height_of(where), "", stream);
     if (is_line) {
         fputs("set yrange [-1:1]\nunset ytics\n", stream);
         return;
     }
     fprintf(stream, "set yrange [%.9g:%.9g]\nset ytics (%.9g, %.9g) out nomirror scale 0.6\n",
             first, last, first, last);
-    print_name(3, frame->y_label, -(double)LABEL / side_of(figure), 0.5, "rotate by 90", stream);
+    print_name(3, frame->y_label, -(double)LABEL / width_of(where), 0.5, "rotate by 90", stream);
 }
 
-static void print_disc(const ps_figure *figure, const ps_point_frame *frame, FILE *stream) {
+static void print_disc(const ps_script_box *where, const ps_point_frame *frame, FILE *stream) {
     const double pixels = 15; /* from the circle to the middle of a name */
-    const double beside = 1 + pixels * 2 * disc_reach / side_of(figure);
+    const double beside = 1 + pixels * 2 * disc_reach / width_of(where);
     print_x_range(frame, -disc_reach, disc_reach, stream);
     fprintf(stream,
             "unset border\nunset xtics\nunset ytics\n"
@@ -174,25 +171,54 @@ static void print_disc(const ps_figure *figure, const ps_point_frame *frame, FIL
     fprintf(stream, " at first 0,%g center\n", beside);
 }
 
-static void print_panel(const ps_figure *figure, size_t i, const char *terminal, FILE *stream) {
-    print_margins(figure, i, stream);
-    if (i > 0) {
-        fputs("unset label\nunset object\n", stream); /* the page has its title */
-    }
+static void print_panel(const ps_script_points *what, FILE *stream) {
+    ps_script_print_margins(&what->where, stream);
     fputs("set title ", stream);
-    ps_script_print_text(figure->panels[i].title, stream);
+    ps_script_print_text(what->panel->title, stream);
     fputs(" noenhanced offset 0,-0.5\n", stream);
-    if (figure->frames[i].form == PS_FRAME_DISC) {
-        print_disc(figure, &figure->frames[i], stream);
+    if (what->frame->form == PS_FRAME_DISC) {
+        print_disc(&what->where, what->frame, stream);
     } else {
-        print_square(figure, &figure->frames[i], stream);
+        print_square(&what->where, what->frame, stream);
     }
-    print_marks(figure, i, terminal, stream);
+    print_marks(what, stream);
+}
+
+/* The line is in the middle. */
+void ps_script_print_beside(const ps_script_points *what, FILE *stream) {
+    ps_script_points own = *what;
+    if (what->frame->form == PS_FRAME_LINE) {
+        own.where.top = (what->where.top + what->where.bottom - LINE_HEIGHT) / 2;
+        own.where.bottom = own.where.top + LINE_HEIGHT;
+    }
+    fputs("unset key\n", stream);
+    print_panel(&own, stream);
+    fputs("unset title\nunset label\nunset object\nset border 31 linewidth 0.8 linecolor "
+          "'#404040'\nset xtics scale default autofreq\nset ytics scale default autofreq\n",
+          stream);
+}
+
+static ps_script_box find_cell(const ps_figure *figure, size_t cell) {
+    int width = 0;
+    int height = 0;
+    ps_script_size_points(figure, &width, &height);
+    const int side = side_of(figure);
+    const double x = (double)(cell % figure->num_columns) * (LEFT + side + RIGHT) + LEFT;
+    const double y = HEAD + (double)(cell / figure->num_columns) * row_height(figure) + ABOVE;
+    return (ps_script_box){x, y, x + side, y + frame_height(figure), width, height};
 }
 
 void ps_script_print_points(const ps_figure *figure, const char *terminal, FILE *stream) {
+    enum { NAME_BYTES = 32 };
     fputs("unset key\n", stream);
     for (size_t i = 0; i < figure->num_panels; i++) {
-        print_panel(figure, i, terminal, stream);
+        char name[NAME_BYTES];
+        snprintf(name, sizeof name, "$data%zu", i);
+        if (i > 0) {
+            fputs("unset label\nunset object\n", stream); /* the page has its title */
+        }
+        print_panel(&(ps_script_points){&figure->panels[i], &figure->frames[i],
+                                        find_cell(figure, i), name, terminal},
+                    stream);
     }
 }

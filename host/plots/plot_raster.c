@@ -74,10 +74,21 @@ pspec_status ps_plot_raster_make(ps_plot_raster *out, const ps_plot_image *image
             out->power[row * out->size + column] = average_block(image, k_1, k_2, block);
         }
     }
-    const pspec_status status = choose_maximum(out, error);
+    out->maximum = image->maximum;
+    const pspec_status status = image->maximum > 0 ? PSPEC_OK : choose_maximum(out, error);
     if (status != PSPEC_OK) {
         free(out->power);
         out->power = NULL;
     }
     return status;
+}
+
+pspec_status ps_plot_find_maximum(double *out, const ps_plot_image *image, ps_error *error) {
+    ps_plot_raster raster = {0};
+    ps_plot_image own = *image;
+    own.maximum = 0;
+    PS_TRY(ps_plot_raster_make(&raster, &own, error));
+    *out = raster.maximum;
+    free(raster.power);
+    return PSPEC_OK;
 }

@@ -51,7 +51,11 @@ void ps_script_print_text(const char *text, FILE *stream) {
 
 void ps_script_print_formula(const char *formula, const char *label, FILE *stream) {
     putc('"', stream);
-    print_letters(formula, false, stream);
+    if (formula != NULL) { /* larger, so that what is raised can be read in small pictures, too */
+        print_letters("{/*1.35 ", false, stream);
+        print_letters(formula, false, stream);
+        print_letters("}", false, stream);
+    }
     print_letters(formula != NULL && label != NULL ? ", " : NULL, false, stream);
     print_letters(label, true, stream);
     putc('"', stream);
@@ -94,6 +98,14 @@ void ps_script_print_asked(const ps_figure *figure, FILE *stream) {
     if (axes->has_y) {
         fprintf(stream, "set yrange [%.9g:%.9g]\n", axes->y[0], axes->y[1]);
     }
+}
+
+void ps_script_print_margins(const ps_script_box *where, FILE *stream) {
+    fprintf(stream,
+            "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
+            "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
+            where->left / where->page_width, where->right / where->page_width,
+            1 - where->top / where->page_height, 1 - where->bottom / where->page_height);
 }
 
 /* ---- places --------------------------------------------------------------------------------- */

@@ -13,13 +13,14 @@ pspec_status ps_figure_write_script(const ps_figure *figure, const char *termina
 /* ---- what stands between the page and its end ------------------------------------------------ */
 
 /* Spectra, frames, panels of lines or marks, points; the data are there. */
-pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream,
+pspec_status ps_script_print_spectra(const ps_figure *figure, const char *terminal, FILE *stream,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_script_print_frames(const ps_figure *figure, FILE *stream);
 void ps_script_print_panels(const ps_figure *figure, FILE *stream);
 void ps_script_print_points(const ps_figure *figure, const char *terminal, FILE *stream);
 /* Sizes of the page, in pixels. */
 enum { PS_SCRIPT_WIDTH = 1000, PS_SCRIPT_HEIGHT = 700 };
+void ps_script_size_spectra(const ps_figure *figure, int *width, int *height);
 void ps_script_size_frames(const ps_figure *figure, int *width, int *height);
 void ps_script_size_panels(const ps_figure *figure, int *width, int *height);
 void ps_script_size_points(const ps_figure *figure, int *width, int *height);
@@ -42,6 +43,51 @@ void ps_script_print_label(const char *axis, const char *label, const char *offs
 void ps_script_print_scale(const char *axis, bool is_log, FILE *stream);
 /* The range that was asked for, or nothing. */
 void ps_script_print_asked(const ps_figure *figure, FILE *stream);
+/* Where a panel is, without its numbers and labels: pixels from the upper left corner of a page. */
+typedef struct ps_script_box {
+    double left, top, right, bottom;
+    double page_width, page_height;
+} ps_script_box;
+
+void ps_script_print_margins(const ps_script_box *where, FILE *stream);
+/* A panel of points, whose series are $NAME_0, .. */
+typedef struct ps_script_points {
+    const ps_panel *panel;
+    const ps_point_frame *frame;
+    ps_script_box where;
+    const char *data;
+    const char *terminal;
+} ps_script_points;
+
+/* Beside panels of other things, and before them: it takes the page's own title away. */
+void ps_script_print_beside(const ps_script_points *what, FILE *stream);
+/* Of a curve of a panel: larger where others that come later lie on it. */
+double ps_script_line_width(const ps_figure *figure, const ps_panel *panel, size_t index);
+
+/* ---- what axes cover ------------------------------------------------------------------------- */
+
+/* least above most: nothing. */
+typedef struct ps_plot_span {
+    double least, most;
+} ps_plot_span;
+
+/* That of nothing, and one that has this number, too; what is not finite changes nothing. */
+ps_plot_span ps_plot_span_none(void);
+void ps_plot_span_widen(ps_plot_span *span, double value);
+bool ps_plot_span_is_empty(ps_plot_span span);
+/* Where series are, on a logarithmic axis: places above 0. */
+ps_plot_span ps_plot_span_places(const ps_panel *panel);
+/* Numbers of series that are more than rounding: above the floor of their series. */
+ps_plot_span ps_plot_span_above(const ps_panel *panel);
+/* The least of these floors; 0 where nothing is above 0. */
+double ps_plot_least_floor(const ps_panel *panel);
+void ps_script_print_span(const char *axis, ps_plot_span shown, FILE *stream);
+/* Six ticks at most: a step of 1, 2 or 5 times a power of ten. */
+double ps_script_tick_step(ps_plot_span shown);
+/* Where a logarithmic axis has more than two decades, ticks at powers of ten; else plain numbers,
+ * at 1, 2 and 5 of each decade, or at even steps where these would be too few. */
+void ps_script_print_log_ticks(const char *axis, ps_plot_span shown, FILE *stream);
+
 /* Ticks and lines of panels. */
 extern const char ps_script_ticks[];
 /* Can this place of a series be shown with these axes? */
@@ -56,6 +102,8 @@ typedef struct ps_plot_raster {
     double *power;  /* [size][size], second index along x_1 */
 } ps_plot_raster;
 
+pspec_status ps_script_print_image(const ps_plot_image *image, const ps_script_box *where,
+                                   FILE *stream, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_plot_raster_make(ps_plot_raster *out, const ps_plot_image *image,
                                  ps_error *error) PS_MUST_CHECK;
 

@@ -2,59 +2,59 @@
 #include "plots/plot_script.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { MAX_BARS = 200 };
 
-/* Viridis at steps of 1/8 (Smith and van der Walt, CC0): even steps look even. */
-static const char viridis[] = "0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
-                              "5 '#28ae80', 6 '#5ec962', 7 '#addc30', 8 '#fde725'";
+/* ---- where things are ------------------------------------------------------------------------ */
 
-/* Tone map as in PSA: small powers stay visible beside peaks. */
-static double tone(double power) {
-    return log2(1 + 0.25 * sqrt(fmax(power, 0)));
-}
+/* Pixels: of the image, with its numbers and colours; of the curves. */
+enum {
+    POINTS_WIDTH = 650,
+    IMAGE_WIDTH = 770,
+    CURVES_WIDTH = 630,
+    TOP = 56,
+    BOTTOM = 630,
+    LEFT = 84,
+    RIGHT = 18
+};
+enum { BETWEEN = 20, BETWEEN_ON_SPHERE = 70 }; /* panels with the same axis, and with their own */
 
-/* ---- data ---- */
-
-static void print_raster(const ps_plot_raster *raster, FILE *stream) {
-    fputs("$image << EOD\n", stream);
-    for (size_t row = 0; row < raster->size; row++) {
-        for (size_t column = 0; column < raster->size; column++) {
-            fprintf(stream, "%.4g ", tone(raster->power[row * raster->size + column]));
-        }
-        putc('\n', stream);
-    }
-    fputs("EOD\n", stream);
-}
-
-/* ---- panels ---- */
-
-/* Where things are: fractions of the page. */
 typedef struct layout {
+    const ps_figure *figure;
     const ps_panel *curves;
     bool has_lower; /* a panel below the powers */
     const char *x_label, *y_label;
-    double left, right, middle; /* of the curves; middle: between power and anisotropy */
+    ps_script_box upper, lower, image, points;
 } layout;
 
-/* What the numbers of all curves lie in, those that are finite; most is not above least where there
- * are none. */
-typedef struct range {
-    double least, most;
-} range;
-
-static void widen(range *covered, double value) {
-    if (isfinite(value)) {
-        *covered = (range){fmin(covered->least, value), fmax(covered->most, value)};
-    }
+void ps_script_size_spectra(const ps_figure *figure, int *width, int *height) {
+    *width = (figure->points != NULL ? POINTS_WIDTH : 0) +
+             (figure->image != NULL ? IMAGE_WIDTH + CURVES_WIDTH : PS_SCRIPT_WIDTH);
+    *height = PS_SCRIPT_HEIGHT;
 }
+
+/* The image is square; the lower panel has a third, on the sphere a half. */
+static void place(layout *out) {
+    const ps_figure *const figure = out->figure;
+    const double share = figure->on_sphere ? 0.5 : 0.64;
+    const double between = figure->on_sphere ? BETWEEN_ON_SPHERE : BETWEEN;
+    int width = 0;
+    int height = 0;
+    ps_script_size_spectra(figure, &width, &height);
+    const double image_left = (figure->points != NULL ? POINTS_WIDTH : 0) + LEFT;
+    const double left = (figure->image != NULL ? IMAGE_WIDTH : 0) + image_left;
+    const double side = BOTTOM - TOP;
+    const double middle = TOP + share * (BOTTOM - TOP - between);
+    out->upper =
+        (ps_script_box){left, TOP, width - RIGHT, out->has_lower ? middle : BOTTOM, width, height};
+    out->lower = (ps_script_box){left, middle + between, width - RIGHT, BOTTOM, width, height};
+    out->image = (ps_script_box){image_left, TOP, image_left + side, BOTTOM, width, height};
+    out->points = (ps_script_box){LEFT / 2, TOP, LEFT / 2 + side, BOTTOM, width, height};
+}
+
+/* ---- numbers --------------------------------------------------------------------------------- */
 
 typedef double take_number(const ps_series *series, size_t bin);
-
-static double take_frequency(const ps_series *series, size_t bin) {
-    return series->x[bin];
-}
 
 /* With its bar. */
 static double take_top(const ps_series *series, size_t bin) {
@@ -69,18 +69,24 @@ static double take_anisotropy(const ps_series *series, size_t bin) {
     return series->anisotropy[bin];
 }
 
-static range find_range(const ps_panel *curves, take_number *take) {
-    range all = {HUGE_VAL, -HUGE_VAL};
+/* In dB, of pure noise beside which the anisotropy of the curve stands; nan: there is none. */
+static double take_level(const ps_series *curve, size_t bin) {
+    (void)bin;
+    return curve->num_realizations >= 2 ? -10 * log10(curve->num_realizations) : (double)NAN;
+}
+
+static ps_plot_span find_span(const ps_panel *curves, take_number *take) {
+    ps_plot_span all = ps_plot_span_none();
     for (size_t i = 0; i < curves->num_series; i++) {
         for (size_t bin = 0; bin < curves->series[i].num; bin++) {
-            widen(&all, take(&curves->series[i], bin));
+            ps_plot_span_widen(&all, take(&curves->series[i], bin));
         }
     }
     return all;
 }
 
-static bool has_any(range all) {
-    return all.most >= all.least;
+static bool has_any(const ps_panel *curves, take_number *take) {
+    return !ps_plot_span_is_empty(find_span(curves, take));
 }
 
 /* In parts of the height of the panel: a line of the key, which must not lie on the curves, and the
@@ -116,50 +122,41 @@ static double find_most(const ps_panel *curves) {
     return most;
 }
 
-/* With room for the key. */
-static double find_height(const ps_panel *curves) {
+/* The part of the height that the key has. */
+static double find_key(const ps_panel *curves) {
     const double num = (double)curves->num_series;
-    return 1.05 * find_most(curves) / (1 - (num > 1 ? fmin(KEY_LINE * num, MOST_KEY) : 0));
+    return num > 1 ? fmin(KEY_LINE * num, MOST_KEY) : 0;
 }
 
-/* Powers at the ticks of the colour box, thinned to what the scale holds. */
-static void print_colour_ticks(double maximum, FILE *stream) {
-    static const double ticks[] = {0,  0.01, 0.1, 0.3, 1,   2,   4,   8,
-                                   20, 50,   100, 300, 1e3, 1e4, 1e5, 1e6};
-    const double closest = tone(maximum) / 14;
-    double last = -1;
-    fputs("set cbtics (", stream);
-    for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
-        const double at = tone(ticks[i]);
-        if (at <= tone(maximum) && (last < 0 || at - last >= closest)) {
-            fprintf(stream, "%s'%g' %.6g", last >= 0 ? ", " : "", ticks[i], at);
-            last = at;
-        }
+/* What the axis of powers shows unless something else was asked for, with room for the key. */
+static ps_plot_span find_powers(const ps_figure *figure, const ps_panel *curves, double key_part) {
+    const double margin = figure->is_log_y ? 1.4 : 1.05;
+    const double room = 1 - key_part;
+    if (!figure->is_log_y) {
+        return (ps_plot_span){0, margin * find_most(curves) / room};
     }
-    fputs(")\n", stream);
+    ps_plot_span all = ps_plot_span_above(curves);
+    ps_plot_span_widen(&all, find_span(curves, take_top).most);
+    ps_plot_span_widen(&all, 1); /* white noise */
+    const double least = all.least / margin;
+    return (ps_plot_span){least, least * pow(all.most * margin / least, 1 / room)};
 }
 
-static void print_image_panel(const ps_plot_raster *raster, FILE *stream) {
-    const double extent = raster->pixel * (double)raster->size / 2;
-    const double first = -raster->pixel * (double)(raster->size / 2);
-    fputs("set lmargin at screen 0.055\nset rmargin at screen 0.465\n"
-          "set bmargin at screen 0.10\nset tmargin at screen 0.92\nset size ratio 1\n",
-          stream);
-    fprintf(stream, "set palette defined (%s)\nset cbrange [0:%.6g]\n", viridis,
-            tone(raster->maximum));
-    fputs("set colorbox user origin screen 0.475, screen 0.10 size screen 0.014, screen 0.82\n",
-          stream);
-    print_colour_ticks(raster->maximum, stream);
-    fputs("set cblabel 'power' offset -0.6,0\nset xtics out nomirror\nset ytics out nomirror\n"
-          "set xlabel 'normalized frequency k₁ N^{-1/2}'\n"
-          "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1,0\n",
-          stream);
-    fprintf(stream, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent, -extent,
-            extent);
-    fprintf(stream, "plot $image matrix using (%.9g+$1*%.9g):(%.9g+$2*%.9g):3 with image notitle\n",
-            first, raster->pixel, first, raster->pixel);
-    fputs("unset label 1\nunset colorbox\nset size noratio\n", stream);
+static ps_plot_span find_frequencies(const ps_figure *figure, const ps_panel *curves) {
+    const double margin = 1.1;
+    const ps_plot_span places = ps_plot_span_places(curves);
+    if (ps_plot_span_is_empty(places)) {
+        return (ps_plot_span){figure->is_log_x ? 1 / margin : 0, margin};
+    }
+    return figure->is_log_x ? (ps_plot_span){places.least / margin, places.most * margin}
+                            : (ps_plot_span){0, places.most};
 }
+
+static ps_plot_span or_asked(ps_plot_span own, bool is_asked, const double *asked) {
+    return is_asked ? (ps_plot_span){asked[0], asked[1]} : own;
+}
+
+/* ---- curves ---------------------------------------------------------------------------------- */
 
 /* No line goes through a single point. */
 static const char *curve_style(const ps_series *curve) {
@@ -180,10 +177,12 @@ static void print_errors(const ps_series *curve, size_t number, FILE *stream) {
 /* All curves once more: of these columns, and in this style unless each has its own. */
 static void print_curves(const layout *where, const char *columns, const char *style,
                          FILE *stream) {
+    const double thinner = 0.75;
     for (size_t i = 0; i < where->curves->num_series; i++) {
         const ps_series *const curve = &where->curves->series[i];
-        fprintf(stream, "%s$data0_%zu using %s with %s linewidth 1.2 ", i > 0 ? ", " : "", i,
-                columns, style != NULL ? style : curve_style(curve));
+        fprintf(stream, "%s$data0_%zu using %s with %s linewidth %g ", i > 0 ? ", " : "", i,
+                columns, style != NULL ? style : curve_style(curve),
+                thinner * ps_script_line_width(where->figure, where->curves, i));
         ps_script_print_style(curve->kind, stream);
         fputs(" notitle", stream);
     }
@@ -212,132 +211,185 @@ static void print_profiles(const ps_panel *curves, FILE *stream) {
 static const char key[] = "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' "
                           "samplen 2 noenhanced\n";
 
+/* Scale, ticks and range of an axis. */
+static void print_axis(const char *axis, bool is_log, ps_plot_span shown, FILE *stream) {
+    fprintf(stream, "%sset logscale %s\n", is_log ? "" : "un", axis);
+    if (is_log && shown.least > 0) {
+        ps_script_print_log_ticks(axis, shown, stream);
+    } else {
+        fprintf(stream, "set format %s '%%g'\nset %stics in mirror autofreq\n", axis, axis);
+    }
+    ps_script_print_span(axis, shown, stream);
+}
+
 /* Panels with the same axis say what it is once, at the bottom. */
-static void print_x_label(const layout *where, bool is_bottom, FILE *stream) {
+static void print_frequencies(const layout *where, bool is_bottom, FILE *stream) {
+    const ps_figure *const figure = where->figure;
+    const ps_plot_span own = find_frequencies(figure, where->curves);
+    print_axis("x", figure->is_log_x, or_asked(own, figure->axes.has_x, figure->axes.x), stream);
     if (is_bottom) {
-        fprintf(stream, "set format x '%%g'\nset xlabel '%s'\n", where->x_label);
+        fprintf(stream, "set xlabel '%s' offset 0,0.4\n", where->x_label);
     } else {
         fputs("set format x ''\nunset xlabel\n", stream);
     }
 }
+
+/* A line at white noise, where it is in sight. */
+static void print_white(ps_plot_span shown, FILE *stream) {
+    if (shown.least < 1 && shown.most > 1) {
+        fputs("set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead back linecolor "
+              "'#707070' linewidth 1\n",
+              stream);
+    }
+}
+
+/* ---- panels ---------------------------------------------------------------------------------- */
 
 /* Does a curve go beyond what is shown, though nobody asked for that? */
 static bool is_cut(const ps_figure *figure, const ps_series *curve) {
     return !figure->is_log_y && !figure->axes.has_y && find_top(curve) > find_most(figure->panels);
 }
 
-static void print_power_panel(const ps_figure *figure, const layout *where, FILE *stream) {
+static void print_powers(const layout *where, FILE *stream) {
     const ps_panel *const curves = where->curves;
-    const double most = find_range(curves, take_frequency).most;
-    fprintf(stream,
-            "set lmargin at screen %g\nset rmargin at screen %g\n"
-            "set bmargin at screen %g\nset tmargin at screen 0.92\n",
-            where->left, where->right, where->has_lower ? where->middle + 0.015 : 0.10);
-    fputs(ps_script_ticks, stream);
-    if (!figure->is_log_x) {
-        fprintf(stream, "set xrange [0:%.9g]\n", most > 0 ? most : 1);
+    for (size_t i = 0; i < curves->num_series; i++) {
+        print_errors(&curves->series[i], i, stream);
     }
-    if (!figure->is_log_y) {
-        fprintf(stream, "set yrange [0:%.9g]\n", find_height(curves));
-    }
-    ps_script_print_scale("x", figure->is_log_x, stream);
-    ps_script_print_scale("y", figure->is_log_y, stream);
-    ps_script_print_asked(figure, stream);
-    print_x_label(where, !where->has_lower || figure->on_sphere, stream);
-    fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
-            has_any(find_range(curves, take_error)) ? " ± standard error" : "");
-    fputs(curves->num_series > 1 ? key : "unset key\n", stream);
-    fputs("set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead back linecolor '#707070' "
-          "linewidth 1\nplot ",
-          stream);
     for (size_t i = 0; i < curves->num_series; i++) {
         const ps_series *const curve = &curves->series[i];
-        print_errors(curve, i, stream);
-        fprintf(stream, "$data0_%zu using 1:2 with %s linewidth 1.6 ", i, curve_style(curve));
+        fprintf(stream, "$data0_%zu using 1:2 with %s linewidth %g ", i, curve_style(curve),
+                ps_script_line_width(where->figure, curves, i));
         ps_script_print_style(curve->kind, stream);
         fputs(" title ", stream);
         ps_script_print_text(curve->label, stream);
-        if (is_cut(figure, curve)) {
+        if (is_cut(where->figure, curve)) {
             fprintf(stream, ".\" (to %.3g)\"", find_top(curve));
         }
         fputs(i + 1 < curves->num_series ? ", " : "", stream);
     }
     print_profiles(curves, stream);
+}
+
+static void print_power_panel(const layout *where, FILE *stream) {
+    const ps_figure *const figure = where->figure;
+    const ps_panel *const curves = where->curves;
+    const ps_plot_span powers =
+        or_asked(find_powers(figure, curves, find_key(curves)), figure->axes.has_y, figure->axes.y);
+    ps_script_print_margins(&where->upper, stream);
+    fputs(ps_script_ticks, stream);
+    print_axis("y", figure->is_log_y, powers, stream);
+    print_frequencies(where, !where->has_lower || figure->on_sphere, stream);
+    fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
+            has_any(curves, take_error) ? " ± standard error" : "");
+    fputs(curves->num_series > 1 ? key : "unset key\n", stream);
+    print_white(powers, stream);
+    fputs("plot ", stream);
+    print_powers(where, stream);
     fputs("unset arrow 1\nunset label 1\n", stream);
-    if (figure->is_log_y) {
-        fputs("unset logscale y\nset format y '%g'\n", stream);
+}
+
+/* ---- the lower panel ------------------------------------------------------------------------- */
+
+/* Is it the first curve with its level? */
+static bool is_first(const ps_panel *curves, size_t index) {
+    const double realizations = curves->series[index].num_realizations;
+    size_t i = 0;
+    while (i < index && curves->series[i].num_realizations != realizations) {
+        i++;
+    }
+    return i == index && realizations >= 2;
+}
+
+static size_t count_levels(const ps_panel *curves) {
+    size_t num = 0;
+    for (size_t i = 0; i < curves->num_series; i++) {
+        num += is_first(curves, i);
+    }
+    return num;
+}
+
+/* One is grey, as it is of all curves; several have the colours of theirs. */
+static void print_levels(const ps_panel *curves, FILE *stream) {
+    const size_t num_levels = count_levels(curves);
+    for (size_t i = 0; i < curves->num_series; i++) {
+        if (!is_first(curves, i)) {
+            continue;
+        }
+        const ps_series *const curve = &curves->series[i];
+        fprintf(stream, "%.9g with lines dashtype 2 linewidth 1.2 ", take_level(curve, 0));
+        if (num_levels == 1) {
+            fprintf(stream, "linecolor rgb '#707070' title 'pure noise, %.1f dB', ",
+                    take_level(curve, 0));
+        } else {
+            ps_script_print_colour(curve->kind, stream);
+            fprintf(stream, " title 'pure noise of M = %.0f, %.1f dB', ", curve->num_realizations,
+                    take_level(curve, 0));
+        }
     }
 }
 
-/* Few enough ticks for a low panel: a step of 1, 2 or 5 times a power of ten. */
-static double find_tick_step(const ps_figure *figure) {
-    const double most_ticks = 6;
-    range all = find_range(figure->panels, take_anisotropy);
-    widen(&all, figure->noise_level_db);
-    const double least = all.most > all.least ? (all.most - all.least) / most_ticks : 1;
-    const double unit = pow(10, floor(log10(least)));
-    return unit * (least <= unit ? 1 : least <= 2 * unit ? 2 : least <= 5 * unit ? 5 : 10);
+/* Few enough ticks for a low panel. */
+static double find_tick_step(const ps_panel *curves) {
+    ps_plot_span all = find_span(curves, take_anisotropy);
+    ps_plot_span_widen(&all, find_span(curves, take_level).least);
+    ps_plot_span_widen(&all, find_span(curves, take_level).most);
+    return ps_script_tick_step(all);
 }
 
-static void print_anisotropy_panel(const ps_figure *figure, const layout *where, FILE *stream) {
-    fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
-            where->middle - 0.015);
-    print_x_label(where, true, stream);
+static void print_anisotropy_panel(const layout *where, FILE *stream) {
+    const ps_panel *const curves = where->curves;
+    ps_script_print_margins(&where->lower, stream);
+    print_frequencies(where, true, stream);
     fprintf(stream,
-            "set ylabel 'anisotropy / dB' offset 0,0\nset yrange [*:*]\nset ytics %g in mirror\n",
-            find_tick_step(figure));
-    /* The key holds the noise level alone; without it, it would be an empty box. */
-    const bool has_level = isfinite(figure->noise_level_db);
-    fprintf(stream, "%splot ", has_level ? key : "unset key\n");
-    if (has_level) {
-        fprintf(stream,
-                "%.9g with lines linecolor rgb '#707070' dashtype 2 linewidth 1.2 title "
-                "'pure noise, %.1f dB', ",
-                figure->noise_level_db, figure->noise_level_db + 0.0);
-    }
+            "unset logscale y\nset format y '%%g'\nset ylabel 'anisotropy / dB' offset 0,0\n"
+            "set yrange [*:*]\nset ytics %g in mirror\n",
+            find_tick_step(curves));
+    /* The key holds levels of noise alone; without them, it would be an empty box. */
+    fprintf(stream, "%splot ", count_levels(curves) > 0 ? key : "unset key\n");
+    print_levels(curves, stream);
     print_curves(where, "1:4", "lines", stream);
     putc('\n', stream);
 }
 
 /* Low degrees of good patterns have powers that a linear axis cannot show. */
 static void print_logarithmic_panel(const layout *where, FILE *stream) {
-    fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
-            where->middle - 0.085); /* room for the upper panel's labels */
-    print_x_label(where, true, stream);
-    fputs("set logscale xy\nset format y '10^{%T}'\nset ylabel 'power' offset 1,0\nunset key\n"
-          "set xrange [*:*] noextend\nset yrange [*:*]\nplot ",
-          stream);
-    print_curves(where, "1:($2 > 0 ? $2 : NaN)", NULL, stream);
+    ps_figure figure = *where->figure;
+    layout own = *where;
+    figure.is_log_x = figure.is_log_y = true;
+    figure.axes = (ps_plot_axes){0};
+    own.figure = &figure;
+    ps_script_print_margins(&where->lower, stream);
+    print_frequencies(&own, true, stream);
+    print_axis("y", true, find_powers(&figure, where->curves, 0), stream);
+    fputs("set ylabel 'power' offset 1,0\nunset key\nplot ", stream);
+    print_curves(&own, "1:($2 > 0 ? $2 : NaN)", NULL, stream);
     print_profiles(where->curves, stream);
 }
 
-static pspec_status print_image(const ps_plot_image *image, FILE *stream, ps_error *error) {
-    ps_plot_raster raster = {0};
-    PS_TRY(ps_plot_raster_make(&raster, image, error));
-    print_raster(&raster, stream);
-    print_image_panel(&raster, stream);
-    free(raster.power);
-    return PSPEC_OK;
-}
-
-pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream, ps_error *error) {
+pspec_status ps_script_print_spectra(const ps_figure *figure, const char *terminal, FILE *stream,
+                                     ps_error *error) {
     const bool on_sphere = figure->on_sphere;
-    const layout where = {
-        .curves = figure->panels,
-        .has_lower = on_sphere || has_any(find_range(figure->panels, take_anisotropy)),
-        .x_label = on_sphere ? "normalized degree l N^{-1/2}" : "normalized frequency |k| N^{-1/d}",
-        .y_label = on_sphere ? "power" : "radial mean power",
-        .left = figure->image != NULL ? 0.605 : 0.085,
-        .right = 0.985,
-        .middle = on_sphere ? 0.48 : 0.38};
-    if (figure->image != NULL) {
-        PS_TRY(print_image(figure->image, stream, error));
+    layout where = {.figure = figure,
+                    .curves = figure->panels,
+                    .has_lower = on_sphere ? !(figure->is_log_x && figure->is_log_y)
+                                           : has_any(figure->panels, take_anisotropy),
+                    .x_label = on_sphere ? "normalized degree l N^{-1/2}"
+                                         : "normalized frequency |k| N^{-1/d}",
+                    .y_label = on_sphere ? "power" : "radial mean power"};
+    place(&where);
+    if (figure->points != NULL) {
+        ps_script_print_beside(&(ps_script_points){figure->points, &figure->frames[0], where.points,
+                                                   "$points", terminal},
+                               stream);
     }
-    print_power_panel(figure, &where, stream);
-    if (on_sphere) {
+    if (figure->image != NULL) {
+        PS_TRY(ps_script_print_image(figure->image, &where.image, stream, error));
+    }
+    print_power_panel(&where, stream);
+    if (where.has_lower && on_sphere) {
         print_logarithmic_panel(&where, stream);
     } else if (where.has_lower) {
-        print_anisotropy_panel(figure, &where, stream);
+        print_anisotropy_panel(&where, stream);
     }
     return PSPEC_OK;
 }

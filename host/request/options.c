@@ -377,6 +377,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, PICTURES),
                               .help = "what the axes of the picture show; X0..X1 alone, or ,Y0..Y1",
                               .set = ps_set_plot_range},
+    [PS_OPTION_PLOT_POINTS] = {NAMED("plot-points", 0, "yes|no"), OF(0, BIT(power) | BIT(angular)),
+                               .help = "show the points of the first set, up to 16384, beside the "
+                                       "spectrum of one sampler or of files (default yes)",
+                               WORD(plot_points)},
     [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, ENGINES),
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(limits.profile)},

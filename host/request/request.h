@@ -92,6 +92,7 @@ typedef enum ps_option_id {
     PS_OPTION_PLOT,              /* --plot FILE */
     PS_OPTION_PLOT_LOG,          /* --plot-log x|y|xy|none */
     PS_OPTION_PLOT_RANGE,        /* --plot-range X0..X1,Y0..Y1 */
+    PS_OPTION_PLOT_POINTS,       /* --plot-points yes|no */
     PS_OPTION_PROFILE,           /* --profile */
     PS_OPTION_QUIET,             /* --quiet */
     PS_OPTION_QUICK,             /* --quick */
@@ -145,8 +146,8 @@ typedef struct ps_request {
     const char *against;     /* NULL unless given */
     double false_alarm_rate; /* 1e-3 unless given */
     const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
-        *output, *format, *plot; /* NULL unless given */
-    ps_text_view view;           /* of a table on a terminal; {0} elsewhere */
+        *output, *format, *plot, *plot_points; /* NULL unless given */
+    ps_text_view view;                         /* of a table on a terminal; {0} elsewhere */
     /* How point files are read. What is of samplers or engines, too (dimension, number of points,
      * memory), stands in it no sooner than ps_point_options_make hands it on. */
     ps_point_options reading;

@@ -217,7 +217,9 @@ refuses 2 ' -s does not go with point files' power -k 4 -s 2 "$in/good.txt"
 power 3 'tolerance' --sampler white -n 64 --tol 1e-30
 power 2 'can be indexed' --sampler white -n 16 -d 6 -k 2e8
 power 2 '--per-ring' --sampler white -n 16 -d 6 -k 20
-power 2 '--plot-log and --plot-range are about --plot, which was not given' --sampler white -n 16 -k 4 --plot-log x
+power 2 '--plot-log, --plot-range and --plot-points are about --plot, which was not given' --sampler white -n 16 -k 4 --plot-log x
+power 2 'are about --plot, which was not given' --sampler white -n 16 -k 4 --plot-points no
+power 2 '--plot-points' --sampler white -n 16 -k 4 --plot x.png --plot-points maybe
 power 2 '--plot-range: "2" is not one of X0..X1,Y0..Y1' --sampler white -n 16 -k 4 --plot x.png --plot-range 2
 power 2 '--plot-range: 2..1 is no interval' --sampler white -n 16 -k 4 --plot x.png --plot-range ,2..1
 # before the work, which these would take very long for

@@ -42,4 +42,29 @@ LINES
 # another file is kept
 PATH=$PWD/none try 0 quadrature --sampler fibonacci-hemisphere -n 4 -l 4 --brdf diffuse --engine host_direct --weights-out w.npy --plot a.svg -o /dev/null
 [[ -s w.npy && $(<err) == *'"a.svg" was not drawn: '* ]] || complain "weights and a picture: $(<err)"
+# the points of the first set stand beside the spectrum of one question
+if PATH=$whole command -v gnuplot >/dev/null; then
+    PATH=$whole
+    while read -r num line; do
+        read -r -a words <<<"$line"
+        try 0 "${words[@]}" -k 4 --quiet -o /dev/null --plot a.svg
+        [[ $(grep -c 'the first set' a.svg) == "$num" ]] || complain "not $num panels of points: $line"
+        rm -f a.svg
+    done <<'LINES'
+1 power --sampler white -n 16384
+0 power --sampler white -n 16385
+0 power --sampler white -n 16384 --plot-points no
+1 power --sampler white -n 64 -m 3 -d 3 --plot-points yes
+1 power --sampler white -n 64 -d 1
+0 power --sampler white --sampler jittered -n 64
+0 power --sampler white -n 16,64
+LINES
+    "$program" sample --sampler white -n 64 -m 2 --quiet >two.txt
+    "$program" power - -k 4 --quiet -o /dev/null --plot a.svg <two.txt || complain "no picture of standard input"
+    grep -q 'the first set, N = 64' a.svg || complain "no points of standard input"
+    try 0 angular --sampler fibonacci -n 64 -l 4 --quiet -o /dev/null --plot a.svg
+    grep -q 'the first set, N = 64, z ≥ 0, from above' a.svg || complain "no points of the sphere"
+    try 0 pairs --sampler fibonacci -n 64 -l 4 --quiet -o /dev/null --plot a.svg
+    grep -q 'the first set' a.svg && complain "points beside pair sums"
+fi
 finish

@@ -26,11 +26,12 @@ static void make_example(example *out) {
         .label = "a", .num = NUM, .x = out->x, .y = out->y, .error = out->y, .anisotropy = out->y};
     out->curves[0] = out->curves[1] = curve;
     out->panel = (ps_panel){NULL, 2, out->curves};
-    out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
-                            .title = "title",
-                            .num_panels = 1,
-                            .panels = &out->panel,
-                            .noise_level_db = -10};
+    out->plot = (ps_figure){
+        .form = PS_FIGURE_SPECTRA,
+        .title = "title",
+        .num_panels = 1,
+        .panels = &out->panel,
+    };
 }
 
 static bool has_gnuplot(void) {

@@ -42,16 +42,16 @@ static void make_example(example *out, size_t num_curves, bool has_image, bool h
                                      .x = out->frequency,
                                      .y = out->power,
                                      .error = out->error,
-                                     .anisotropy = out->anisotropy};
+                                     .anisotropy = out->anisotropy,
+                                     .num_realizations = has_errors ? 10 : 1};
     }
-    out->picture = (ps_plot_image){IMAGE_SIZE, out->image, 8};
+    out->picture = (ps_plot_image){.size = IMAGE_SIZE, .power = out->image, .unit = 8};
     out->panel = (ps_panel){NULL, num_curves, out->curves};
     out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
                             .title = "it's \"a_b\"\nexit 1; `false` {",
                             .num_panels = 1,
                             .panels = &out->panel,
-                            .image = has_image ? &out->picture : NULL,
-                            .noise_level_db = has_errors ? -10 : (double)NAN};
+                            .image = has_image ? &out->picture : NULL};
 }
 
 static bool has_gnuplot(void) {
@@ -222,7 +222,7 @@ static void no_key_without_something_in_it(void **state) {
     (void)state;
     make_example(&data, 1, false, true);
     assert_true(script_contains(&data.plot, "\nset key"));
-    data.plot.noise_level_db = (double)NAN;
+    data.curves[0].num_realizations = 1;
     assert_false(script_contains(&data.plot, "\nset key"));
     assert_true(script_contains(&data.plot, "anisotropy"));
 }
@@ -305,12 +305,33 @@ static void formulas(void **state) {
     example data;
     make_example(&data, 2, false, true);
     data.plot.form = PS_FIGURE_FRAME;
-    data.curves[0].formula = "d@_l^2";
+    data.curves[0].formula = "d_l^2";
     data.curves[0].label = "a_b^c";
-    assert_true(script_contains(&data.plot, "title \"d\\100\\137l\\136\\062\\054 "
+    assert_true(script_contains(&data.plot, "d\\137l\\136\\062\\175\\054 "
                                             "a\\134\\137b\\134\\136c\""));
     data.curves[0].label = NULL;
-    assert_true(script_contains(&data.plot, "title \"d\\100\\137l\\136\\062\""));
+    assert_true(script_contains(&data.plot, "title \"\\173\\057\\052\\061\\056\\063\\065 "
+                                            "d\\137l\\136\\062\\175\""));
+}
+
+/* In SVG nothing is put on something else: what is raised stands behind what is lowered. */
+static void formulas_in_svg(void **state) {
+    (void)state;
+    example data;
+    ps_text svg = {0};
+    ps_error said = {0};
+    if (!has_gnuplot()) {
+        skip();
+    }
+    make_example(&data, 2, false, true);
+    data.plot.form = PS_FIGURE_FRAME;
+    data.curves[0].formula = "d_l^2";
+    assert_int_equal(ps_figure_draw_svg(&svg, &data.plot, &said), PSPEC_OK);
+    const char *const begin = strstr(ps_text_string(&svg), ">d</tspan>");
+    assert_non_null(begin);
+    assert_non_null(strstr(begin, "dy=\"-17.28px\">2</tspan>"));
+    assert_null(strstr(begin, "dx=\"-"));
+    ps_text_free(&svg);
 }
 
 /* One panel and many, some of them empty, in every format. */
@@ -366,6 +387,7 @@ int main(void) {
         cmocka_unit_test(loud_curves),
         cmocka_unit_test(axes_that_were_asked_for),
         cmocka_unit_test(formulas),
+        cmocka_unit_test(formulas_in_svg),
     };
     return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
 }

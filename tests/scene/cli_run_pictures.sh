@@ -52,6 +52,16 @@ SCENE
 if command -v gnuplot >/dev/null; then
     runs 0 varying.yaml -o varying
     [[ -s varying/disks.svg && -s varying/disks-picture-1.svg ]] || complain "no picture: $(ls varying)"
+    # one scale of colours for the images of a result: the same numbers at its ends
+    cat >colours.yaml <<'SCENE'
+scene: 1
+results:
+  - {result: power, name: both, samplers: [jittered, regular], points: 256, max-frequency: 16, pictures: true}
+SCENE
+    runs 0 colours.yaml -o colours
+    for i in 1 2; do
+        grep -q '<text><tspan[^>]*>100</tspan>' "colours/both-picture-$i.svg" || complain "image $i has a scale of its own"
+    done
     runs 0 many.yaml -o many
     grep -q 'rules-d2-1.svg: 10 curves are too many for one frame: 2 panels, one for each of weights' err ||
         complain "panels are not said: $(<err)"

@@ -195,9 +195,11 @@ static const char *const summary[] = {"points",
                                       "predicted_error",
                                       NULL};
 static const ps_line_kind lines[] = {
-    {"-d2", "zonal part", "degree", "d2", "degree l", "d@_l^2", false, true},
-    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C@_l^2", false, true},
-    {"-e2", "share of the squared error", "degree", "e2", "degree l", "e@_l^2", false, true},
+    {"-d2", "zonal part", "degree", "d2", "degree l", "{/*1.35 d_l^2}", false, true},
+    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "{/*1.35 C_l^2}", false,
+     true},
+    {"-e2", "share of the squared error", "degree", "e2", "degree l", "{/*1.35 e_l^2}", false,
+     true},
     {.suffix = NULL}};
 const ps_kind ps_kind_quadrature = {
     .name = "quadrature",

@@ -14,7 +14,7 @@ typedef struct curves {
 
 static pspec_status make_curves(curves *out, ps_series *lines, size_t first, const char *sampler,
                                 const ps_quadrature_result *result, ps_error *error) {
-    static const char *const names[LINES] = {"d@_l^2", "C@_l^2", "e@_l^2"};
+    static const char *const names[LINES] = {"d_l^2", "C_l^2", "e_l^2"};
     const size_t num = result->max_degree + 1;
     PS_TRY(PS_NEW(&out->numbers, (1 + LINES) * num, "a picture", error));
     for (size_t l = 0; l < num; l++) {
@@ -29,6 +29,7 @@ static pspec_status make_curves(curves *out, ps_series *lines, size_t first, con
                                .label = sampler,
                                .kind = first + i,
                                .num = num,
+                               .floor = result->numerical_bound,
                                .x = out->numbers,
                                .y = out->numbers + (i + 1) * num};
     }
@@ -73,7 +74,7 @@ static pspec_status write_plot(const ps_request *arguments, const axis_labels *l
 pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
                                 const ps_quadrature_result *results, ps_error *error) {
     static const axis_labels labels = {"degree l",
-                                       "d@_l^2 , C@_l^2 , e@_l^2 = a_l (d@_l^2 + C@_l^2 )"};
+                                       "{/*1.35 d_l^2 ,  C_l^2 ,  e_l^2 = a_l (d_l^2 + C_l^2 )}"};
     curves all[PS_MAX_SAMPLERS] = {{.numbers = NULL}};
     ps_series lines[LINES * PS_MAX_SAMPLERS];
     pspec_status status = PSPEC_OK;

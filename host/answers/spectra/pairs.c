@@ -55,7 +55,8 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
 
 static const ps_line_kind lines[] = {
     {"-sums", "Legendre sums", "degree", "legendre_sum", "degree l", "Q(l)", false, true},
-    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C@_l^2", false, true},
+    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "{/*1.35 C_l^2}", false,
+     true},
     {.suffix = NULL}};
 
 const ps_kind ps_kind_pairs = {

@@ -153,6 +153,14 @@ static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) 
                 : 0);
 }
 
+/* Of one question alone: points of one sampler beside the curves of many would be taken for those
+ * of all. */
+static bool shows_points(const ps_request *arguments, ps_question_kind kind) {
+    const char *const word = arguments->plot_points;
+    return arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
+           kind != PS_QUESTION_PAIRS && (word == NULL || strcmp(word, "no") != 0);
+}
+
 static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
     ps_power_question question = {
         .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
@@ -168,6 +176,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
                             arguments->wants_picture || arguments->wants_array ||
                             (arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
                              arguments->frequencies.per_ring == 0),
+        .keeps_first = shows_points(arguments, kind),
         .normalization = choose_normalization(arguments, kind),
         .accuracy = arguments->accuracy,
         .may_loosen = arguments->accuracy.standard_error > 0 && arguments->accuracy.floor > 0 &&

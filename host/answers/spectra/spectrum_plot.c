@@ -1,6 +1,7 @@
 #include "answers/spectra/spectra.h"
 
 #include "answers/lead.h"
+#include "answers/points/points_picture.h"
 #include "answers/spectra/shape_table.h"
 #include "base/memory.h"
 #include "plots/plot.h"
@@ -14,6 +15,21 @@ static double power_unit(const ps_power_job *job) {
     const double sum = spectrum->mean_weight_sum;
     const double unit = spectrum->sample_size.mean / (sum * sum);
     return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS && isfinite(unit) ? unit : 1;
+}
+
+/* Of the powers as they are drawn: what the numerical error of S alone would make. */
+static double find_floor(const ps_power_job *job, double unit) {
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
+    const double error = ps_power_job_accuracy(job)->error;
+    const double sum = spectrum->mean_weight_sum;
+    return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS ? error * sum * sum * unit
+                                                                 : error * error;
+}
+
+/* A set that is the same every time has no noise. */
+static double count_noisy(const ps_power_job *job) {
+    const uint64_t num = ps_power_job_spectrum(job)->num_realizations;
+    return ps_power_job_needs(job)->one_realization ? 1 : (double)num;
 }
 
 /* The profiles and the fit of a curve, behind its other columns. */
@@ -59,7 +75,9 @@ static pspec_status make_curve(ps_series *curve, size_t number, const char *labe
                          .x = columns,
                          .y = columns + num,
                          .error = columns + 2 * num,
-                         .anisotropy = columns + 3 * num};
+                         .anisotropy = columns + 3 * num,
+                         .num_realizations = count_noisy(job),
+                         .floor = find_floor(job, unit)};
     return request->wants_fit ? add_shape(curve, columns + COLUMNS * num, request, spectrum, error)
                               : PSPEC_OK;
 }
@@ -68,8 +86,29 @@ static pspec_status make_image(ps_plot_image *image, double **array, const ps_sp
                                ps_error *error) {
     size_t num_entries = 0;
     PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, array, &num_entries, error));
-    *image = (ps_plot_image){2 * (size_t)spectrum->frequencies.max_frequency + 1, *array,
-                             sqrt(spectrum->mean_points)};
+    *image = (ps_plot_image){.size = 2 * (size_t)spectrum->frequencies.max_frequency + 1,
+                             .power = *array,
+                             .unit = sqrt(spectrum->mean_points)};
+    return PSPEC_OK;
+}
+
+/* One view of the first set: of more dimensions the first two coordinates, of the sphere the half
+ * above. */
+static pspec_status make_points(ps_points_picture *picture, const ps_power_job *job,
+                                ps_figure *figure, ps_error *error) {
+    const ps_point_set *const set = ps_power_job_first_set(job);
+    ps_figure own;
+    if (set == NULL) {
+        return PSPEC_OK;
+    }
+    const ps_drawn_set drawn = {"the first set",
+                                set->coordinates == PS_UNIT_VECTORS ? PS_SAMPLES_HEMISPHERE
+                                                                    : PS_SAMPLES_TORUS,
+                                set->dimension, set->num_points, set->points};
+    PS_TRY(ps_points_picture_add(picture, &drawn, &(ps_watch){0}, error));
+    PS_TRY(ps_points_picture_figure(picture, "", &own, error));
+    figure->points = own.panels;
+    figure->frames = own.frames;
     return PSPEC_OK;
 }
 
@@ -88,9 +127,24 @@ static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t
     }
 }
 
+/* Where a standard error was asked for, each has as many as that takes. */
+static void write_realizations(ps_text *title, const ps_power_job *const *jobs, size_t num) {
+    uint64_t least = ps_power_job_spectrum(jobs[0])->num_realizations;
+    uint64_t most = least;
+    for (size_t i = 1; i < num; i++) {
+        const uint64_t own = ps_power_job_spectrum(jobs[i])->num_realizations;
+        least = own < least ? own : least;
+        most = own > most ? own : most;
+    }
+    ps_text_append(title, ", %llu", (unsigned long long)least);
+    if (most > least) {
+        ps_text_append(title, " to %llu", (unsigned long long)most);
+    }
+    ps_text_append(title, " realization%s", most == 1 ? "" : "s");
+}
+
 static void write_title(ps_text *title, const ps_request *arguments,
                         const ps_power_job *const *jobs, size_t num) {
-    const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     if (arguments->num_sources > 1) {
         ps_text_append(title, "%zu %s", arguments->num_sources,
                        ps_request_has_files(arguments) ? "sets of points" : "samplers");
@@ -102,8 +156,7 @@ static void write_title(ps_text *title, const ps_request *arguments,
         ps_text_append(title, "%zu files", arguments->num_files);
     }
     write_points(title, jobs, num);
-    ps_text_append(title, ", %llu realization%s", (unsigned long long)first->num_realizations,
-                   first->num_realizations == 1 ? "" : "s");
+    write_realizations(title, jobs, num);
 }
 
 /* What tells the curve from the others. */
@@ -126,6 +179,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     ps_plot_image image;
     double *array = NULL;
     ps_text title = {0};
+    ps_points_picture points = {.num_sets = 2}; /* of several: the panel says what it is */
     pspec_status status = PSPEC_OK;
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     const bool on_sphere = first->frequencies.kind == PS_FREQUENCIES_DEGREES;
@@ -141,16 +195,15 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     }
     write_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
-    const double realizations = (double)first->num_realizations;
     const ps_panel panel = {NULL, num, curves};
-    const ps_figure figure = {.form = PS_FIGURE_SPECTRA,
-                              .title = ps_text_string(&title),
-                              .num_panels = 1,
-                              .panels = &panel,
-                              .image = has_image ? &image : NULL,
-                              .noise_level_db = realizations > 1 ? -10 * log10(realizations) : NAN,
-                              .on_sphere = on_sphere,
-                              .axes = arguments->plot_axes};
+    ps_figure figure = {.form = PS_FIGURE_SPECTRA,
+                        .title = ps_text_string(&title),
+                        .num_panels = 1,
+                        .panels = &panel,
+                        .image = has_image ? &image : NULL,
+                        .on_sphere = on_sphere,
+                        .axes = arguments->plot_axes};
+    PS_TRY_OUT(status, make_points(&points, jobs[0], &figure, error));
     PS_TRY_OUT(status, ps_figure_write(arguments->plot, &figure, error));
 out:
     for (size_t i = 0; i < num; i++) {
@@ -158,6 +211,7 @@ out:
         ps_text_free(&labels[i]);
     }
     free(array);
+    ps_points_picture_free(&points);
     ps_text_free(&title);
     return status;
 }

@@ -89,6 +89,7 @@ static pspec_status count_sets(ps_power_job *job, ps_error *error) {
 static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     bool has_set = false;
+    job->sets.keeps_first = question->keeps_first;
     if (question->sampler != NULL) {
         job->dimension = question->sampler->dimension;
         job->num_points = question->sampler->num_points;

@@ -51,8 +51,9 @@ typedef struct ps_power_question {
     bool wants_pair_sums; /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
     /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
     ps_harmonics harmonics;
-    bool keeps_sets; /* on the sphere, too, those of every set are wanted */
-    bool is_turned;  /* on the sphere: about the x axis, see ps_source_turn */
+    bool keeps_sets;  /* on the sphere, too, those of every set are wanted */
+    bool keeps_first; /* a copy of the first set, for a picture */
+    bool is_turned;   /* on the sphere: about the x axis, see ps_source_turn */
     /* Weighted sums of the powers, see ps_estimator_weighted: weigh fills weights
      * [num_weighted][frequencies->num] once the frequencies are known; 0: none */
     size_t num_weighted;
@@ -103,6 +104,9 @@ const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
 /* A piece of an axis that the first set of files leaves empty, unlike uniform points; false: none,
  * or nobody looked (samplers, the sphere, with --box). */
 bool ps_power_job_empty_axis(const ps_power_job *job, ps_empty_axis *out);
+/* The points of the first set, as they came; NULL unless question.keeps_first, and of sets of more
+ * than PS_MOST_POINTS_KEPT. */
+const ps_point_set *ps_power_job_first_set(const ps_power_job *job);
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 /* "(torus_direct ...)" */
 const char *ps_power_job_description(const ps_power_job *job);

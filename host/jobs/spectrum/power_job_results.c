@@ -33,6 +33,10 @@ bool ps_power_job_empty_axis(const ps_power_job *job, ps_empty_axis *out) {
     return ps_axis_cells_find_empty(&job->sets.first_cells, out);
 }
 
+const ps_point_set *ps_power_job_first_set(const ps_power_job *job) {
+    return job->sets.first.num_points > 0 ? &job->sets.first : NULL;
+}
+
 const char *ps_power_job_source_columns(const ps_power_job *job) {
     return ps_source_columns(job->sets.source);
 }

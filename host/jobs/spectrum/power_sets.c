@@ -29,6 +29,7 @@ void ps_power_sets_free(ps_power_sets *sets) {
         ps_source_destroy(sets->source);
     }
     ps_power_sets_release(sets);
+    ps_point_set_free(&sets->first);
     free(sets->weights);
     *sets = (ps_power_sets){0};
 }
@@ -120,6 +121,24 @@ static void look_at(ps_power_sets *sets, const pspec_pattern *block, bool ends_s
     }
 }
 
+/* A copy, for the batch has the set for itself. */
+static pspec_status keep_first(ps_power_sets *sets, const ps_point_set *set, ps_error *error) {
+    const size_t num = set->num_points * set->dimension;
+    if (!sets->keeps_first || sets->has_kept) {
+        return PSPEC_OK;
+    }
+    sets->has_kept = true;
+    if (set->num_points > PS_MOST_POINTS_KEPT) {
+        return PSPEC_OK;
+    }
+    sets->first.dimension = set->dimension;
+    sets->first.coordinates = set->coordinates;
+    PS_TRY(ps_points_reserve(&sets->first, set->num_points, error));
+    memcpy(sets->first.points, set->points, num * sizeof *set->points);
+    sets->first.num_points = set->num_points;
+    return PSPEC_OK;
+}
+
 /* The next set becomes number `at` of the batch. */
 static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
     ps_point_set *const set = &sets->sets[at];
@@ -127,6 +146,7 @@ static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
     sets->has_next = false;
     sets->patterns[at] = show(sets, set, 0, set->num_points, 0);
     look_at(sets, &sets->patterns[at], true);
+    PS_TRY(keep_first(sets, set, error));
     return check_weights(sets, set->num_points, error);
 }
 

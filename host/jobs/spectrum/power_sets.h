@@ -8,6 +8,9 @@
 #include "jobs/source.h"
 #include "jobs/spectrum/empty_axis.h"
 
+/* Of more nobody sees single points in a panel of a picture. */
+enum { PS_MOST_POINTS_KEPT = 16384 };
+
 typedef struct ps_power_sets {
     ps_source *source;
     bool is_borrowed;         /* the source */
@@ -28,6 +31,10 @@ typedef struct ps_power_sets {
     /* Where the points of the first set are; only with looks_at_axes */
     bool looks_at_axes, has_looked;
     ps_axis_cells first_cells;
+    /* A copy of the first set, without weights, if it has no more than PS_MOST_POINTS_KEPT points
+     * and came whole; only with keeps_first */
+    bool keeps_first, has_kept;
+    ps_point_set first;
 } ps_power_sets;
 
 void ps_power_sets_free(ps_power_sets *sets);

@@ -9,6 +9,7 @@ typedef struct ps_artist {
     ps_run *run;
     ps_run_result *result;
     ps_error *error;
+    double image_maximum; /* of the scale that images of the result share */
 } ps_artist;
 
 /* The title of the result, what its questions have in common, what the picture shows. */

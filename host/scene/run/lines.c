@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "scene/run/drawing.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,6 +99,15 @@ static bool has_bars(const ps_picture *what) {
            (what->form == PS_PICTURE_SPECTRA || what->form == PS_PICTURE_IMAGE);
 }
 
+/* What pure noise comes to, where the table has a level of it, and what is rounding. */
+static void take_limits(ps_series *line, const ps_table *table) {
+    const double error = ps_cell_number(ps_table_find_meta(table, "predicted_error"));
+    const double level = ps_cell_number(ps_table_find_meta(table, "noise_level_db"));
+    const double num = ps_cell_number(ps_table_find_meta(table, "realizations"));
+    line->floor = error > 0 ? error * error : 0;
+    line->num_realizations = isfinite(level) ? num : 1;
+}
+
 static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t index,
                                  const ps_picture *what, const ps_line_kind *kind) {
     enum { MOST_COLUMNS = 4 };
@@ -112,6 +122,7 @@ static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t 
     if (num_columns == MOST_COLUMNS) {
         set->lines[index].error = set->numbers[index] + 2 * num;
         set->lines[index].anisotropy = set->numbers[index] + 3 * num;
+        take_limits(&set->lines[index], table);
     }
     return PSPEC_OK;
 }
@@ -238,11 +249,6 @@ static bool has_lines(const ps_artist *artist, const ps_picture *what) {
     return what->form != PS_PICTURE_COLUMNS || ps_table_num_rows(first) >= FEWEST_ROWS;
 }
 
-static double noise_level(const ps_artist *artist, const ps_picture *what) {
-    const ps_table *const first = artist->result->questions[what->curves[0]].answer.table;
-    return ps_cell_number(ps_table_find_meta(first, "noise_level_db"));
-}
-
 pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
                             const ps_plot_image *image) {
     line_set set = {0};
@@ -264,7 +270,6 @@ pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
                         .is_log_x = kind.is_log_x && !has_bars(what),
                         .is_log_y = kind.is_log_y && !has_bars(what),
                         .image = image,
-                        .noise_level_db = noise_level(artist, what),
                         .on_sphere = artist->result->asked->kind->samples == PS_DOMAIN_SPHERE};
     status = draw_panels(artist, what, &figure, &set);
 out:

@@ -15,14 +15,37 @@ static double frequency_unit(const ps_table *table) {
                : NAN;
 }
 
-/* Where the array was wanted and is there. */
+/* Of a question whose array was wanted and is there. */
+static bool find_image(const ps_run_result *result, size_t question, ps_plot_image *out) {
+    const ps_answer *const answer = &result->questions[question].answer;
+    *out = (ps_plot_image){
+        .size = answer->shape[0], .power = answer->array, .unit = frequency_unit(answer->table)};
+    return answer->array != NULL && answer->rank == 2 && !answer->is_complex && out->unit > 0;
+}
+
+/* Images of a result have the same colours for the same powers. */
+static pspec_status find_maximum(const ps_artist *artist, double *out) {
+    const ps_pictures *const pictures = &artist->result->pictures;
+    *out = 0;
+    for (size_t i = 0; i < pictures->num; i++) {
+        ps_plot_image image;
+        double own = 0;
+        if (pictures->all[i].form == PS_PICTURE_IMAGE &&
+            find_image(artist->result, pictures->all[i].curves[0], &image)) {
+            PS_TRY(ps_plot_find_maximum(&own, &image, artist->error));
+            *out = fmax(*out, own);
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status draw_image(const ps_artist *artist, const ps_picture *what) {
-    const ps_answer *const answer = &artist->result->questions[what->curves[0]].answer;
-    const double unit = frequency_unit(answer->table);
-    const ps_plot_image image = {answer->shape[0], answer->array, unit};
-    return answer->rank == 2 && !answer->is_complex && unit > 0
-               ? ps_draw_curves(artist, what, &image)
-               : PSPEC_OK;
+    ps_plot_image image;
+    if (!find_image(artist->result, what->curves[0], &image)) {
+        return PSPEC_OK;
+    }
+    image.maximum = artist->image_maximum;
+    return ps_draw_curves(artist, what, &image);
 }
 
 /* Lists of frequencies have no normalized ones, and no picture. */
@@ -83,8 +106,9 @@ static void say_panels(const ps_artist *artist) {
 }
 
 pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *error) {
-    const ps_artist artist = {run, result, error};
+    ps_artist artist = {run, result, error, 0};
     say_panels(&artist);
+    PS_TRY(find_maximum(&artist, &artist.image_maximum));
     for (size_t i = 0; i < result->pictures.num; i++) {
         const ps_picture *const what = &result->pictures.all[i];
         const pspec_status status = draw(&artist, what);

@@ -1,0 +1,248 @@
+/* Pictures of spectra: what their axes cover, levels of noise, lines that lie on each other. */
+#include "plots/plot_script.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { NUM = 6, IMAGE_SIZE = 5 };
+static const double frequencies[NUM] = {0.04, 0.1, 0.2, 0.5, 1, 2};
+static const double powers[NUM] = {5e-3, 0.03, 0.1, 0.6, 1, 1.1};
+static const double none[NUM] = {NAN, NAN, NAN, NAN, NAN, NAN};
+static const double anisotropies[NUM] = {-12, -11, -13, -12, -12, -13};
+
+typedef struct example {
+    ps_series curves[4];
+    ps_panel panel;
+    ps_figure plot;
+} example;
+
+static void make_example(example *out, size_t num_curves) {
+    for (size_t i = 0; i < num_curves; i++) {
+        out->curves[i] = (ps_series){.label = "a",
+                                     .kind = i,
+                                     .num = NUM,
+                                     .x = frequencies,
+                                     .y = powers,
+                                     .error = none,
+                                     .anisotropy = anisotropies,
+                                     .num_realizations = 20};
+    }
+    out->panel = (ps_panel){NULL, num_curves, out->curves};
+    out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
+                            .title = "title",
+                            .num_panels = 1,
+                            .panels = &out->panel,
+                            .axes = {.has_log = true, .is_log_x = true, .is_log_y = true}};
+}
+
+/* To be freed. */
+static char *write_script(const ps_figure *plot) {
+    char *script = NULL;
+    size_t length = 0;
+    ps_error error = {0};
+    FILE *const stream = open_memstream(&script, &length);
+    assert_non_null(stream);
+    assert_int_equal(ps_figure_write_script(plot, "svg", stream, &error), PSPEC_OK);
+    assert_int_equal(fclose(stream), 0);
+    return script;
+}
+
+static size_t count(const ps_figure *plot, const char *what) {
+    char *const script = write_script(plot);
+    size_t num = 0;
+    for (const char *at = script; (at = strstr(at, what)) != NULL; at += strlen(what)) {
+        num++;
+    }
+    free(script);
+    return num;
+}
+
+/* The first range of this axis. */
+static ps_plot_span find_range(const ps_figure *plot, const char *axis) {
+    char *const script = write_script(plot);
+    char begin[32];
+    ps_plot_span out = {NAN, NAN};
+    snprintf(begin, sizeof begin, "set %srange [", axis);
+    const char *const at = strstr(script, begin);
+    assert_non_null(at);
+    char *end = NULL;
+    out.least = strtod(at + strlen(begin), &end);
+    assert_int_equal(*end, ':');
+    out.most = strtod(end + 1, &end);
+    assert_int_equal(*end, ']');
+    free(script);
+    return out;
+}
+
+/* All data are in sight, and axes do not go on to whole powers of ten. */
+static void logarithmic_axes_keep_all_data(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 1);
+    const ps_plot_span x = find_range(&data.plot, "x");
+    const ps_plot_span y = find_range(&data.plot, "y");
+    assert_true(x.least < 0.04 && x.least > 0.03 && x.most > 2 && x.most < 3);
+    assert_true(y.least < 5e-3 && y.least > 2e-3 && y.most > 1.1 && y.most < 3);
+    data.plot.axes.is_log_x = false;
+    assert_true(find_range(&data.plot, "x").least == 0);
+    assert_true(find_range(&data.plot, "x").most == 2);
+}
+
+/* Numbers that rounding left do not stretch the axis; it has white noise in any case. */
+static void axes_end_at_the_numerical_floor(void **state) {
+    (void)state;
+    const double rounded[NUM] = {1e-14, 1e-18, 3e-3, 1e-16, 0, 0.1};
+    example data;
+    make_example(&data, 1);
+    data.curves[0].y = rounded;
+    assert_true(find_range(&data.plot, "y").least < 1e-14);
+    data.curves[0].floor = 1e-12;
+    assert_true(find_range(&data.plot, "y").least > 2e-3);
+    assert_true(find_range(&data.plot, "y").most > 1);
+    assert_int_equal(count(&data.plot, "set arrow 1 from"), 1);
+    data.curves[0].floor = 1; /* nothing is above it */
+    const ps_plot_span y = find_range(&data.plot, "y");
+    assert_true(y.least < 1 && y.most > 1);
+    data.plot.axes.has_y = true;
+    data.plot.axes.y[0] = 1e-3;
+    data.plot.axes.y[1] = 0.5; /* white noise is not in it */
+    assert_true(find_range(&data.plot, "y").most == 0.5);
+    assert_int_equal(count(&data.plot, "set arrow 1 from"), 0);
+}
+
+/* Plain numbers where there are few decades, more of them where there is a part of one. */
+static void ticks_of_short_axes(void **state) {
+    (void)state;
+    const double noise[NUM] = {1.1, 0.9, 0.8, 1.2, 1, 1};
+    example data;
+    make_example(&data, 1);
+    assert_int_equal(count(&data.plot, "set xtics in mirror (0.05, 0.1, 0.2, 0.5, 1, 2)"), 2);
+    assert_int_equal(count(&data.plot, "set format y '10^{%T}'"), 1);
+    data.curves[0].y = noise;
+    assert_int_equal(count(&data.plot, "set ytics in mirror (0.6, 0.8, 1, 1.2, 1.4, 1.6)"), 1);
+}
+
+/* The second panel of the sphere is the first one where both axes are logarithmic. */
+static void the_sphere_has_one_panel_of_logarithms(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 1);
+    data.plot.on_sphere = true;
+    assert_int_equal(count(&data.plot, "\nplot "), 1);
+    data.plot.axes.is_log_y = false;
+    assert_int_equal(count(&data.plot, "\nplot "), 2);
+    data.plot.axes = (ps_plot_axes){0};
+    assert_int_equal(count(&data.plot, "\nplot "), 2);
+}
+
+/* Curves have the level of their own number of realizations. */
+static void levels_of_noise(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 3);
+    assert_int_equal(count(&data.plot, "title 'pure noise, -13.0 dB'"), 1);
+    data.curves[1].num_realizations = 1000;
+    assert_int_equal(count(&data.plot, "linecolor rgb '#0072B2' title 'pure noise of M = 20, "
+                                       "-13.0 dB'"),
+                     1);
+    assert_int_equal(count(&data.plot, "linecolor rgb '#D55E00' title 'pure noise of M = 1000, "
+                                       "-30.0 dB'"),
+                     1);
+    assert_int_equal(count(&data.plot, "pure noise"), 2);
+    data.curves[0].num_realizations = data.curves[2].num_realizations = 1; /* the same every time */
+    assert_int_equal(count(&data.plot, "title 'pure noise, -30.0 dB'"), 1);
+    data.curves[1].num_realizations = 1;
+    assert_int_equal(count(&data.plot, "pure noise"), 0);
+}
+
+/* Of lines that lie on each other the lower ones are wider; marks blank nothing out. */
+static void lines_that_coincide(void **state) {
+    (void)state;
+    double other[NUM];
+    example data;
+    make_example(&data, 3);
+    data.plot.is_log_y = true;
+    assert_true(ps_script_line_width(&data.plot, &data.panel, 0) >
+                1 + ps_script_line_width(&data.plot, &data.panel, 1));
+    assert_true(ps_script_line_width(&data.plot, &data.panel, 1) >
+                1 + ps_script_line_width(&data.plot, &data.panel, 2));
+    for (size_t i = 0; i < NUM; i++) {
+        other[i] = powers[i] * (i == 0 ? 1 : 1.1); /* near at one place */
+    }
+    data.curves[0].y = other;
+    assert_true(ps_script_line_width(&data.plot, &data.panel, 0) ==
+                ps_script_line_width(&data.plot, &data.panel, 2));
+    data.curves[1].look = PS_LOOK_MARKS;
+    assert_true(ps_script_line_width(&data.plot, &data.panel, 1) ==
+                ps_script_line_width(&data.plot, &data.panel, 2));
+    assert_int_equal(count(&data.plot, "\nset pointintervalbox 0\n"), 1);
+}
+
+/* White noise is the middle of the colours, wherever the scale ends. */
+static void white_noise_is_neutral(void **state) {
+    (void)state;
+    double image[IMAGE_SIZE * IMAGE_SIZE] = {[3] = 100};
+    ps_plot_image picture = {.size = IMAGE_SIZE, .power = image, .unit = 2};
+    double own = 0;
+    ps_error error = {0};
+    example data;
+    make_example(&data, 1);
+    data.plot.image = &picture;
+    assert_int_equal(count(&data.plot, "0.321928 '#f4f2ee', "), 1); /* log2(1.25) */
+    assert_int_equal(count(&data.plot, "set cbrange [0:1.80735]"), 1);
+    assert_int_equal(count(&data.plot, "'1' 0.321928"), 1);
+    image[3] = 0;
+    assert_int_equal(count(&data.plot, "0.321928 '#f4f2ee', "), 1);
+    assert_int_equal(count(&data.plot, "set cbrange [0:0.436"), 1); /* 2 */
+    assert_int_equal(count(&data.plot, "'1' 0.321928"), 1);
+    picture.maximum = 100; /* that of another image */
+    assert_int_equal(count(&data.plot, "set cbrange [0:1.80735]"), 1);
+    assert_int_equal(ps_plot_find_maximum(&own, &picture, &error), PSPEC_OK);
+    assert_true(own == 2);
+}
+
+/* Points stand to the left of all else, and leave nothing of their axes behind. */
+static void points_beside_spectra(void **state) {
+    (void)state;
+    static const double x[] = {0, 0.25, 0.5};
+    static const ps_frame_form forms[] = {PS_FRAME_SQUARE, PS_FRAME_LINE, PS_FRAME_DISC};
+    const ps_series series = {.num = 3, .x = x, .y = x};
+    const ps_panel points = {"the first set", 1, &series};
+    example data;
+    ps_text first = {0};
+    ps_text second = {0};
+    make_example(&data, 1);
+    ps_figure_add_key(&first, &data.plot);
+    data.plot.points = &points;
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        const ps_point_frame frame = {forms[i], 0, 1, "x", "y", false};
+        data.plot.frames = &frame;
+        assert_int_equal(count(&data.plot, "$points_0 << EOD\n 0 0\n"), 1); /* 0 is no gap */
+        assert_int_equal(count(&data.plot, "plot $points_0 using "), 1);
+        assert_int_equal(count(&data.plot, "set terminal svg enhanced size 1650,700 "), 1);
+        assert_int_equal(count(&data.plot, "\nunset object\nset border 31 "), 1);
+        ps_figure_add_key(&second, &data.plot);
+        assert_true(second.length > first.length);
+    }
+    ps_text_free(&first);
+    ps_text_free(&second);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(logarithmic_axes_keep_all_data),
+        cmocka_unit_test(axes_end_at_the_numerical_floor),
+        cmocka_unit_test(ticks_of_short_axes),
+        cmocka_unit_test(the_sphere_has_one_panel_of_logarithms),
+        cmocka_unit_test(levels_of_noise),
+        cmocka_unit_test(lines_that_coincide),
+        cmocka_unit_test(white_noise_is_neutral),
+        cmocka_unit_test(points_beside_spectra),
+    };
+    return cmocka_run_group_tests_name("plot_spectra", tests, NULL, NULL);
+}
