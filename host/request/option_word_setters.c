@@ -182,6 +182,37 @@ pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
     return parse_bound(&bounds->above, said, second, strlen(second), error);
 }
 
+/* "3" or "3,-4": whole numbers, as many as dimensions, not all 0. */
+pspec_status ps_set_scatter(const ps_said *said, ps_error *error) {
+    ps_frequencies_spec *const spec = &said->request->frequencies;
+    const char *at = said->text;
+    bool is_zero = true;
+    spec->num_shown = 0;
+    for (size_t length = 0; spec->num_shown < PS_MAX_TORUS_DIMENSION; at += length + 1) {
+        enum { NUMBER_BYTES = 32 };
+        char own[NUMBER_BYTES];
+        double number = 0;
+        length = strcspn(at, ",");
+        snprintf(own, sizeof own, "%.*s", (int)(length < sizeof own ? length : sizeof own - 1), at);
+        PS_TRY(
+            ps_parse_number(own, said->shown, -PS_MAX_FREQUENCY, PS_MAX_FREQUENCY, &number, error));
+        if (number != floor(number)) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not a whole number",
+                           said->shown, own);
+        }
+        is_zero = is_zero && number == 0;
+        spec->shown[spec->num_shown++] = (int32_t)number;
+        if (at[length] == '\0') {
+            return !is_zero ? PSPEC_OK
+                            : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                      "%s: S(0) is the sum of weights, and does not scatter",
+                                      said->shown);
+        }
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: a frequency has %d numbers at most",
+                   said->shown, PS_MAX_TORUS_DIMENSION);
+}
+
 pspec_status ps_set_box(const ps_said *said, ps_error *error) {
     enum { NUMBER_BYTES = 64 };
     char first[NUMBER_BYTES];

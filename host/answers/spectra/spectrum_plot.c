@@ -88,8 +88,8 @@ static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t
     }
 }
 
-static void write_title(ps_text *title, const ps_request *arguments,
-                        const ps_power_job *const *jobs, size_t num) {
+void ps_spectrum_title(ps_text *title, const ps_request *arguments, const ps_power_job *const *jobs,
+                       size_t num) {
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     if (arguments->num_samplers > 1) {
         ps_text_append(title, "%zu samplers", arguments->num_samplers);
@@ -138,7 +138,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     if (has_image) {
         PS_TRY_OUT(status, make_image(&image, &array, first, error));
     }
-    write_title(&title, arguments, jobs, num);
+    ps_spectrum_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
     const double realizations = (double)first->num_realizations;
     const ps_panel panel = {NULL, num, curves};
