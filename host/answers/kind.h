@@ -58,7 +58,8 @@ typedef struct ps_answer {
     ps_table *table;
     /* The averaged periodogram on the whole box, [2K+1]^d, or the weights of the only rule, where
      * request->wants_array, or wants_picture in the plane, and there are such; points; complex
-     * coefficients, as --coefficients writes them, where request->wants_coefficients; NULL: none */
+     * coefficients, as --coefficients writes them, where request->wants_coefficients, or those
+     * of a row of every set, [M][2K+1], where there is request->frequencies.shown; NULL: none */
     double *array;
     bool is_complex; /* pairs (real, imaginary) */
     unsigned rank;

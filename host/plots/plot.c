@@ -180,6 +180,11 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
     if (figure->points != NULL) {
         add_panel(key, figure->points);
     }
+    for (size_t i = 0; figure->panel_axes != NULL && i < figure->num_panels; i++) {
+        add_text(key, figure->panel_axes[i].x_label);
+        add_text(key, figure->panel_axes[i].y_label);
+        ps_text_append(key, "%d\n", figure->panel_axes[i].is_plane);
+    }
     if (figure->frames != NULL) {
         add_frames(key, figure);
     }

@@ -14,6 +14,7 @@ typedef enum ps_look {
     PS_LOOK_CURVE, /* a line without marks, on the band from `low` to `high` if there is one */
     PS_LOOK_MARKS, /* marks that nothing joins, with bars of `error` up and down if there are any */
     PS_LOOK_BOUND, /* dots in the colour of the kind */
+    PS_LOOK_CLOUD, /* small grey marks, of which there are many */
     PS_LOOK_REFERENCE /* a thin grey line of dashes, to compare others with */
 } ps_look;
 
@@ -49,6 +50,12 @@ typedef struct ps_panel {
     size_t num_series;
     const ps_series *series;
 } ps_panel;
+
+/* What the axes of a panel of a frame have for themselves; NULL: a label is the figure's. */
+typedef struct ps_panel_axes {
+    const char *x_label, *y_label;
+    bool is_plane; /* 0 is in the middle, and both axes have the same unit */
+} ps_panel_axes;
 
 /* What a panel of points shows. */
 typedef enum ps_frame_form {
@@ -106,6 +113,8 @@ typedef struct ps_figure {
     ps_plot_axes axes;
     size_t num_panels;
     const ps_panel *panels;
+    /* of a frame: one for each panel; NULL: all have those of the figure */
+    const ps_panel_axes *panel_axes;
     /* of spectra */
     const ps_plot_image *image; /* NULL: none */
     bool on_sphere;         /* normalized frequency is l / sqrt(N); anisotropy is not looked at */

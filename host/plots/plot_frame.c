@@ -83,6 +83,27 @@ static bool goes_below(const ps_panel *panel, double bottom) {
     return false;
 }
 
+static ps_panel_axes axes_of(const ps_figure *figure, size_t index) {
+    return figure->panel_axes != NULL ? figure->panel_axes[index] : (ps_panel_axes){0};
+}
+
+/* The largest number of either axis, in a frame of that shape. */
+static void print_plane_range(const ps_panel *panel, double width, double height, FILE *stream) {
+    const double margin = 1.05;
+    double reach = 0;
+    for (size_t i = 0; i < panel->num_series; i++) {
+        for (size_t k = 0; k < panel->series[i].num; k++) {
+            reach = fmax(reach, fabs(panel->series[i].x[k]) * height / width);
+            reach = fmax(reach, fabs(panel->series[i].y[k]));
+        }
+    }
+    if (reach > 0) {
+        const double y = reach * margin;
+        const double x = y * width / height;
+        fprintf(stream, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -x, x, -y, y);
+    }
+}
+
 /* gnuplot would go on to whole powers of ten, where few points are. */
 static void print_log_range(const ps_panel *panel, FILE *stream) {
     const double margin = 1.15;
@@ -213,6 +234,10 @@ static void print_series(const char *data, const ps_series *series, double width
                 series->num > 1 ? "lines" : "points pointtype 2 pointsize 1");
         ps_script_print_colour(series->kind, stream);
         break;
+    case PS_LOOK_CLOUD:
+        fprintf(stream,
+                "%s using 1:2 with points pointtype 7 pointsize 0.3 linecolor rgb '#b8b8b8'", data);
+        break;
     case PS_LOOK_REFERENCE:
         fprintf(stream, "%s using 1:2 with %s linewidth 1 linecolor rgb '#808080' dashtype 2", data,
                 series->num > 1 ? "lines" : "points pointtype 1 pointsize 1.4");
@@ -269,6 +294,13 @@ static void print_all_series(const ps_figure *figure, size_t index, double botto
     }
 }
 
+/* Its own, or those of all. */
+static void print_labels(const ps_figure *figure, size_t index, FILE *stream) {
+    const ps_panel_axes own = axes_of(figure, index);
+    ps_script_print_label("x", own.x_label != NULL ? own.x_label : figure->x_label, "0,0", stream);
+    ps_script_print_label("y", own.y_label != NULL ? own.y_label : figure->y_label, "0,0", stream);
+}
+
 static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     const ps_panel *const panel = &figure->panels[index];
     const cell where = find_cell(figure, index);
@@ -276,7 +308,9 @@ static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     const bool has_key = panel->num_series > 1;
     const size_t num_rows = has_key ? (count_named(panel) + columns - 1) / columns : 0;
     const double bottom = figure->is_log_y ? find_bottom(panel) : 0;
-    print_margins(&where, find_row_height(panel) * (double)num_rows, stream);
+    const double key_height = find_row_height(panel) * (double)num_rows;
+    print_margins(&where, key_height, stream);
+    print_labels(figure, index, stream);
     if (figure->num_panels > 1) {
         fputs(index > 0 ? "unset label 1\nset autoscale\nset title " : "set title ", stream);
         ps_script_print_text(panel->title, stream);
@@ -285,6 +319,10 @@ static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     if (figure->num_panels > 1 && !has_places(figure, panel)) {
         fputs("unset key\nset xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\n", stream);
         return;
+    }
+    if (axes_of(figure, index).is_plane) {
+        print_plane_range(panel, where.width - LEFT - RIGHT,
+                          where.height - where.above - BELOW - key_height, stream);
     }
     print_ranges(figure, panel, bottom, stream);
     if (has_key) {
@@ -299,8 +337,6 @@ void ps_script_print_frames(const ps_figure *figure, FILE *stream) {
     fputs(ps_script_ticks, stream);
     ps_script_print_scale("x", figure->is_log_x, stream);
     ps_script_print_scale("y", figure->is_log_y, stream);
-    ps_script_print_label("x", figure->x_label, "0,0", stream);
-    ps_script_print_label("y", figure->y_label, "0,0", stream);
     for (size_t i = 0; i < figure->num_panels; i++) {
         print_panel(figure, i, stream);
     }

@@ -183,8 +183,8 @@ pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
 }
 
 /* Numbers between commas; *num: how many there are, of which the first `most` are written. */
-static pspec_status parse_numbers(const ps_said *said, double *numbers, size_t most, size_t *num,
-                                  ps_error *error) {
+static pspec_status parse_numbers(const ps_said *said, double *numbers, size_t most, double limit,
+                                  size_t *num, ps_error *error) {
     enum { NUMBER_BYTES = 64 };
     bool is_more = true;
     *num = 0;
@@ -197,7 +197,7 @@ static pspec_status parse_numbers(const ps_said *said, double *numbers, size_t m
         }
         snprintf(own, sizeof own, "%.*s", (int)length, at);
         if (*num < most) {
-            PS_TRY(ps_parse_number(own, said->shown, -MOST_BOX, MOST_BOX, &numbers[*num], error));
+            PS_TRY(ps_parse_number(own, said->shown, -limit, limit, &numbers[*num], error));
         }
         at += length + is_more;
     }
@@ -224,7 +224,7 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
     double ends[MOST];
     size_t num = 0;
     ps_box *const box = &said->request->reading.box;
-    PS_TRY(parse_numbers(said, ends, MOST, &num, error));
+    PS_TRY(parse_numbers(said, ends, MOST, MOST_BOX, &num, error));
     if (num % 2 != 0 || num > MOST) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: \"%s\" has %zu number%s; an interval of all axes has two, X0,X1, and "
@@ -238,6 +238,32 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
         PS_TRY(check_interval(said, i, box->low[i], box->high[i], error));
     }
     return PSPEC_OK;
+}
+
+/* "3" or "3,-4": whole numbers, as many as dimensions, not all 0. */
+pspec_status ps_set_scatter(const ps_said *said, ps_error *error) {
+    ps_frequencies_spec *const spec = &said->request->frequencies;
+    double numbers[PS_MAX_TORUS_DIMENSION];
+    size_t num = 0;
+    bool is_zero = true;
+    PS_TRY(parse_numbers(said, numbers, PS_MAX_TORUS_DIMENSION, PS_MAX_FREQUENCY, &num, error));
+    if (num > PS_MAX_TORUS_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: a frequency has %d numbers at most, and \"%s\" has %zu", said->shown,
+                       PS_MAX_TORUS_DIMENSION, said->text, num);
+    }
+    for (size_t i = 0; i < num; i++) {
+        if (numbers[i] != floor(numbers[i])) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %g is not a whole number",
+                           said->shown, numbers[i]);
+        }
+        is_zero = is_zero && numbers[i] == 0;
+        spec->shown[i] = (int32_t)numbers[i];
+    }
+    spec->num_shown = (unsigned)num;
+    return !is_zero ? PSPEC_OK
+                    : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                              "%s: S(0) is the sum of weights, and does not scatter", said->shown);
 }
 
 /* "type=1" */

@@ -192,6 +192,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            "also: power law or plateau at 0, peak, effective Nyquist, profiles "
                            "gamma (nu/alpha)^B about all powers (auto: B as found); -m 8 or more",
                        .set = ps_set_fit},
+    [PS_OPTION_SCATTER] = {NAMED("scatter", 0, "K1,..,KD"), OF(BIT(power), 0),
+                           .help = "S(k) of every set at this frequency: the mean, are phases "
+                                   "uniform?; --plot shows the sets in the complex plane",
+                           .set = ps_set_scatter},
     [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
                                 "its standard error to FILE.standard_error.npy",

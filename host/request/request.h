@@ -51,6 +51,7 @@ typedef enum ps_option_id {
     PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
     PS_OPTION_FIT,               /* --fit auto|B */
+    PS_OPTION_SCATTER,           /* --scatter K1,..,KD */
     PS_OPTION_FULL,              /* --full FILE.npy */
     PS_OPTION_NORMALIZE,         /* --normalize power|effective|integral */
     PS_OPTION_HOMOGENIZE,        /* --homogenize */

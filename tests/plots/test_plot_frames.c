@@ -159,6 +159,38 @@ static void draws_frames(void **state) {
     assert_true(script_contains(&plot, "set terminal svg enhanced size 1000,700 "));
 }
 
+/* A panel may have axes of its own: a plane has the same unit on both. */
+static void planes_of_a_frame(void **state) {
+    (void)state;
+    const double x[] = {1, -3};
+    const double y[] = {4, 2};
+    const ps_series cloud = {.look = PS_LOOK_CLOUD, .num = 2, .x = x, .y = y};
+    const ps_panel panels[] = {{"parts", 1, &cloud}, {"plane", 1, &cloud}};
+    const ps_panel_axes axes[] = {{"k", NULL, false}, {"real", "imaginary", true}};
+    ps_figure plot = {.form = PS_FIGURE_FRAME,
+                      .title = "",
+                      .x_label = "x",
+                      .y_label = "y",
+                      .num_panels = 2,
+                      .panels = panels};
+    assert_false(script_contains(&plot, "set yrange"));
+    plot.panel_axes = axes;
+    assert_true(script_contains(&plot, "set xlabel \"k\" offset 0,0\nset ylabel \"y\" "));
+    assert_true(script_contains(&plot, "set xlabel \"real\" offset 0,0\nset ylabel \"imaginary\""));
+    /* 4.2 up and down in 533 pixels, so much more in 601 */
+    assert_true(script_contains(&plot, "set xrange [-4.73583"));
+    assert_true(script_contains(&plot, "set yrange [-4.2:4.2]\n"));
+    assert_true(script_contains(&plot, "with points pointtype 7 pointsize 0.3 linecolor rgb '#b"));
+    ps_text with = {0};
+    ps_text without = {0};
+    ps_figure_add_key(&with, &plot);
+    plot.panel_axes = NULL;
+    ps_figure_add_key(&without, &plot);
+    assert_true(with.length > without.length);
+    ps_text_free(&with);
+    ps_text_free(&without);
+}
+
 /* All that a picture shows is in what it is known by. */
 static void keys_of_looks(void **state) {
     (void)state;
@@ -208,6 +240,7 @@ int main(void) {
         cmocka_unit_test(looks_of_a_frame),
         cmocka_unit_test(ends_of_a_logarithmic_axis),
         cmocka_unit_test(single_places_of_a_frame),
+        cmocka_unit_test(planes_of_a_frame),
         cmocka_unit_test(keys_of_looks),
         cmocka_unit_test(slopes),
     };

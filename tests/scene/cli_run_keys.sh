@@ -54,7 +54,7 @@ is_computed 'the content of saved.json'
 power='result: power, sampler: white, points: 16, max-frequency: 3'
 result_is "$power"
 is_computed 'a power spectrum'
-for more in 'arrays: true' 'arrays: coefficients' 'pictures: true' 'seed: 2' 'points: 17' 'max-frequency: 4' 'no-skip: true' 'normalize: effective' 'bins: shells'; do
+for more in 'arrays: true' 'arrays: coefficients' 'pictures: true' 'seed: 2' 'points: 17' 'max-frequency: 4' 'no-skip: true' 'normalize: effective' 'bins: shells' 'scatter: "1,1"' 'scatter: "1,2"'; do
     key=${more%%:*}
     result_is "${power/, $key: +([0-9])/}, $more"
     is_computed "$more"

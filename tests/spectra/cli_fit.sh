@@ -64,6 +64,11 @@ printf 'scene: 1\nresults:\n  - {result: power, name: one, samplers: jittered, p
 command=run
 runs 0 scene.yaml -o folder
 grep -q '^# exponent: ' folder/one.csv || complain "a scene: $(grep '^#' folder/one.csv)"
+if command -v gnuplot >/dev/null; then
+    sed -i 's/, fit: 2//' scene.yaml
+    runs 0 scene.yaml -o bare
+    (($(grep -c '<path' folder/one.svg) == $(grep -c '<path' bare/one.svg) + 3)) || complain 'the picture of a scene has no profiles and fit'
+fi
 
 # ---- what there is none of says why, in the header; no number stands for it ----
 command=power

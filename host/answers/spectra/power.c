@@ -1,6 +1,7 @@
 /* The averaged periodogram of sets on the torus. */
 #include "answers/compare.h"
 #include "answers/spectra/power_table.h"
+#include "answers/spectra/scatter.h"
 #include "answers/spectra/spectra.h"
 
 #include <string.h>
@@ -45,11 +46,25 @@ static pspec_status take_coefficients(ps_answer *out, const ps_power_job *job, p
     return PSPEC_OK;
 }
 
+/* The row of every set that goes through the frequency of --scatter. */
+static pspec_status take_scatter(ps_answer *out, const ps_frequencies_spec *asked,
+                                 const ps_power_job *job, ps_error *error) {
+    ps_scatter scatter;
+    PS_TRY(ps_scatter_take(&scatter, &out->array, asked, job, error));
+    out->is_complex = true;
+    out->rank = 2;
+    out->shape[0] = scatter.num_sets;
+    out->shape[1] = 2 * (size_t)scatter.max_frequency + 1;
+    return PSPEC_OK;
+}
+
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const ps_spectra *const spectra = computed;
     if (request->wants_coefficients) {
         PS_TRY(take_coefficients(out, spectra->jobs[0], error));
+    } else if (request->frequencies.num_shown > 0) {
+        PS_TRY(take_scatter(out, &request->frequencies, spectra->jobs[0], error));
     } else if (request->wants_picture || request->wants_array) {
         PS_TRY(take_array(out, ps_power_job_spectrum(spectra->jobs[0]), request, error));
     }
@@ -64,6 +79,21 @@ static pspec_status write_others(const void *computed, const ps_request *request
     return request->coefficients != NULL
                ? ps_power_write_coefficients(request, spectra->jobs[0], error)
                : PSPEC_OK;
+}
+
+static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    ps_text title = {0};
+    if (request->frequencies.num_shown == 0) {
+        return ps_spectra_draw(computed, request, error);
+    }
+    ps_spectrum_title(&title, request, (const ps_power_job *const *)spectra->jobs, 1);
+    pspec_status status = ps_text_check(&title, error);
+    if (status == PSPEC_OK) {
+        status = ps_scatter_plot(request, spectra->jobs[0], ps_text_string(&title), error);
+    }
+    ps_text_free(&title);
+    return status;
 }
 
 static const ps_line_kind axes = {NULL,
@@ -89,7 +119,7 @@ const ps_kind ps_kind_power = {
     .compute = compute,
     .tabulate = tabulate,
     .write_others = write_others,
-    .draw = ps_spectra_draw,
+    .draw = draw,
     .discard = ps_spectra_discard,
     .summary = ps_spectra_summary,
     .spectrum = &axes,

@@ -1,6 +1,7 @@
 #include "answers/spectra/power_table.h"
 
 #include "answers/spectra/job_table.h"
+#include "answers/spectra/scatter.h"
 #include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
 
@@ -76,6 +77,9 @@ static size_t choose_columns(const char **columns, const ps_request *arguments,
 static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
                              const ps_lead *lead, ps_error *error) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    if (arguments->frequencies.num_shown > 0) {
+        PS_TRY(ps_scatter_add_header(table, &arguments->frequencies, job, error));
+    }
     return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, lead, error)
                                                : add_bins(table, arguments, spectrum, lead, error);
 }

@@ -46,6 +46,9 @@ static pspec_status check_several(const ps_request *arguments, ps_error *error) 
     if (arguments->coefficients != NULL) {
         return fail_conflict("--coefficients", several, "one array has one file", error);
     }
+    if (arguments->plot != NULL && arguments->frequencies.num_shown > 0) {
+        return fail_conflict("--scatter", several, "a picture shows the sets of one", error);
+    }
     PS_TRY(ps_weights_check_counts(arguments, error));
     return arguments->plot == NULL || num <= PS_MAX_CURVES
                ? PSPEC_OK
@@ -68,6 +71,13 @@ static pspec_status check_fit(const ps_request *arguments, ps_error *error) {
                          PS_FEWEST_FITTED_REALIZATIONS, (unsigned long long)num);
 }
 
+/* The powers of a picture, those of an array and coefficients are different ones, as are the
+ * coefficients of a row. */
+static int count_arrays(const ps_request *arguments) {
+    return (arguments->wants_array || arguments->wants_picture) + arguments->wants_coefficients +
+           (arguments->frequencies.num_shown > 0);
+}
+
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     static const option_pair pairs[] = {
         {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
@@ -83,6 +93,10 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
         {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR,
          "coefficients are of sets whose number is known before"},
         {PS_OPTION_COEFFICIENTS, PS_OPTION_PER_RING, "a subset does not fill an array"},
+        {PS_OPTION_SCATTER, PS_OPTION_FREQUENCIES, "a list has no row of frequencies"},
+        {PS_OPTION_SCATTER, PS_OPTION_STANDARD_ERROR,
+         "coefficients are of sets whose number is known before"},
+        {PS_OPTION_SCATTER, PS_OPTION_PER_RING, "a subset may not have the frequency"},
         {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {
@@ -96,8 +110,9 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
         return fail_conflict(arguments->frequencies.path != NULL ? "frequencies" : "per-ring",
                              "arrays", "they do not fill an array", error);
     }
-    if (arguments->wants_coefficients && arguments->wants_picture) {
-        return fail_conflict("pictures", "arrays: coefficients", "an answer has one array", error);
+    if (count_arrays(arguments) > 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "an answer has one array: that of arrays, of pictures or of scatter");
     }
     if (arguments->wants_coefficients &&
         (arguments->accuracy.standard_error > 0 || arguments->frequencies.per_ring > 0)) {
@@ -116,7 +131,8 @@ static void fill_points(ps_power_question *question, const ps_request *arguments
 }
 
 static bool wants_coefficients(const ps_request *arguments) {
-    return arguments->coefficients != NULL || arguments->wants_coefficients;
+    return arguments->coefficients != NULL || arguments->wants_coefficients ||
+           arguments->frequencies.num_shown > 0;
 }
 
 static ps_harmonics find_harmonics(const ps_request *arguments, ps_question_kind kind) {
@@ -147,10 +163,10 @@ static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) 
         arguments->frequencies.per_ring > 0) {
         return 0;
     }
-    return PS_OFFER_RINGS |
-           (arguments->plot == NULL && arguments->frequencies.bins.kind != PS_BINS_SHELLS
-                ? (unsigned)PS_OFFER_LISTS
-                : 0);
+    return PS_OFFER_RINGS | (arguments->plot == NULL && arguments->frequencies.num_shown == 0 &&
+                                     arguments->frequencies.bins.kind != PS_BINS_SHELLS
+                                 ? (unsigned)PS_OFFER_LISTS
+                                 : 0);
 }
 
 /* Of one question alone: points of one sampler beside the curves of many would be taken for those

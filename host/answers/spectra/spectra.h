@@ -59,6 +59,10 @@ pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_
 pspec_status ps_spectra_draw(const void *computed, const ps_request *request,
                              ps_error *error) PS_MUST_CHECK;
 
+/* Samplers or files, numbers of points and realizations. */
+void ps_spectrum_title(ps_text *title, const ps_request *arguments, const ps_power_job *const *jobs,
+                       size_t num);
+
 /* Header entries that are columns of a summary of spectra. */
 extern const char *const ps_spectra_summary[];
 

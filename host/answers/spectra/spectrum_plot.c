@@ -143,8 +143,8 @@ static void write_realizations(ps_text *title, const ps_power_job *const *jobs, 
     ps_text_append(title, " realization%s", most == 1 ? "" : "s");
 }
 
-static void write_title(ps_text *title, const ps_request *arguments,
-                        const ps_power_job *const *jobs, size_t num) {
+void ps_spectrum_title(ps_text *title, const ps_request *arguments, const ps_power_job *const *jobs,
+                       size_t num) {
     if (arguments->num_sources > 1) {
         ps_text_append(title, "%zu %s", arguments->num_sources,
                        ps_request_has_files(arguments) ? "sets of points" : "samplers");
@@ -193,7 +193,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     if (has_image) {
         PS_TRY_OUT(status, make_image(&image, &array, first, error));
     }
-    write_title(&title, arguments, jobs, num);
+    ps_spectrum_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
     const ps_panel panel = {NULL, num, curves};
     ps_figure figure = {.form = PS_FIGURE_SPECTRA,

@@ -4,6 +4,7 @@
 #include "points/lists/frequency_list.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static pspec_status default_max_frequency(int32_t *out, const ps_power_question *question,
                                           unsigned dimension, size_t num_points, ps_error *error) {
@@ -57,6 +58,25 @@ static pspec_status read_list(ps_frequencies *out, const char *path, uint64_t me
     return PSPEC_OK;
 }
 
+/* The frequency that is shown is one of the grid. */
+static pspec_status check_shown(const ps_frequencies_spec *spec, unsigned dimension,
+                                int32_t max_frequency, ps_error *error) {
+    if (spec->num_shown != 0 && spec->num_shown != dimension) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "the frequency of the scatter has %u numbers, and points have %u",
+                       spec->num_shown, dimension);
+    }
+    for (unsigned axis = 0; axis < spec->num_shown; axis++) {
+        if (abs(spec->shown[axis]) > max_frequency) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "the frequency of the scatter has the number %d, and the largest "
+                           "frequency (-k) is %d",
+                           (int)spec->shown[axis], (int)max_frequency);
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *question,
                                   unsigned dimension, size_t num_points, ps_error *error) {
     int32_t max_frequency = question->frequencies.max_frequency;
@@ -73,6 +93,7 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
         PS_TRY(default_max_frequency(&max_frequency, question, dimension, num_points, error));
     }
     max_frequency = (int32_t)cut(question, max_frequency);
+    PS_TRY(check_shown(&question->frequencies, dimension, max_frequency, error));
     ps_bin_rule_resolve(&bins, dimension, num_points);
     if (question->frequencies.per_ring > 0) {
         const ps_frequency_sample sample = {.dimension = dimension,

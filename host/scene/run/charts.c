@@ -1,4 +1,5 @@
-/* Pictures of the rows of many questions, as their kind draws them. */
+/* Pictures as a kind draws them: of the rows of many questions, of the sets of one. */
+#include "answers/spectra/scatter.h"
 #include "base/memory.h"
 #include "scene/run/drawing.h"
 
@@ -79,6 +80,31 @@ pspec_status ps_draw_chart(const ps_artist *artist, const ps_picture *what) {
     status = asked->kind->chart(&chart, artist->error);
 out:
     release(&self);
+    ps_text_free(&title);
+    return status;
+}
+
+pspec_status ps_draw_scatter(const ps_artist *artist, const ps_picture *what) {
+    const ps_run_question *const question = &artist->result->questions[what->curves[0]];
+    const ps_answer *const answer = &question->answer;
+    const ps_scatter scatter = {.num_sets = answer->shape[0],
+                                .asked = &question->asked.request.frequencies,
+                                .max_frequency = (int32_t)(answer->shape[1] / 2),
+                                .rows = answer->array};
+    ps_text label = {0};
+    ps_text title = {0};
+    verb own = {artist, what};
+    ps_run_label(artist->result, what->curves[0], &label);
+    ps_plot_title(artist, what, ps_text_string(&label), &title);
+    pspec_status status = ps_text_check(&label, artist->error);
+    if (status == PSPEC_OK) {
+        status = ps_text_check(&title, artist->error);
+    }
+    if (status == PSPEC_OK) {
+        status =
+            ps_scatter_draw(&scatter, ps_text_string(&title), take_figure, &own, artist->error);
+    }
+    ps_text_free(&label);
     ps_text_free(&title);
     return status;
 }

@@ -31,6 +31,9 @@ pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
 /* A picture of the rows of all questions, as the kind draws them. */
 pspec_status ps_draw_chart(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
 
+/* The sets of a question in the complex plane, from the array of its answer. */
+pspec_status ps_draw_scatter(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
+
 /* What tells the curve of a question from the others of its panel. */
 void ps_label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
                     ps_text *out);

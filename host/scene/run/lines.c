@@ -108,21 +108,39 @@ static void take_limits(ps_series *line, const ps_table *table) {
     line->num_realizations = isfinite(level) ? num : 1;
 }
 
+/* Columns of a line: its places, what has bars has more, and with --fit there are the profiles and
+ * the curve that was fitted. */
+enum { LINE_COLUMNS = 2, BARS_COLUMNS = 4, SHAPE_COLUMNS = 7 };
+
+static size_t count_columns(const ps_table *table, const ps_picture *what) {
+    size_t column = 0;
+    return !has_bars(what)                               ? LINE_COLUMNS
+           : ps_table_find_column(table, "fit", &column) ? SHAPE_COLUMNS
+                                                         : BARS_COLUMNS;
+}
+
 static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t index,
                                  const ps_picture *what, const ps_line_kind *kind) {
-    enum { MOST_COLUMNS = 4 };
     const ps_table *const table = artist->result->questions[what->curves[index]].answer.table;
-    const char *const names[MOST_COLUMNS] = {kind->x, kind->y, "standard_error", "anisotropy_db"};
-    const size_t num_columns = has_bars(what) ? MOST_COLUMNS : 2;
+    const char *const names[SHAPE_COLUMNS] = {
+        kind->x, kind->y, "standard_error", "anisotropy_db", "lower", "upper", "fit"};
+    const size_t num_columns = count_columns(table, what);
     const size_t num = ps_table_num_rows(table);
     PS_TRY(begin_line(set, index, num, num_columns, artist->error));
     for (size_t i = 0; i < num_columns; i++) {
         ps_table_read_column(table, names[i], set->numbers[index] + i * num);
     }
-    if (num_columns == MOST_COLUMNS) {
-        set->lines[index].error = set->numbers[index] + 2 * num;
-        set->lines[index].anisotropy = set->numbers[index] + 3 * num;
-        take_limits(&set->lines[index], table);
+    ps_series *const line = &set->lines[index];
+    const double *const more = set->numbers[index] + LINE_COLUMNS * num;
+    if (num_columns >= BARS_COLUMNS) {
+        line->error = more;
+        line->anisotropy = more + num;
+        take_limits(line, table);
+    }
+    if (num_columns == SHAPE_COLUMNS) {
+        line->low = more + 2 * num;
+        line->high = more + 3 * num;
+        line->fit = more + 4 * num;
     }
     return PSPEC_OK;
 }

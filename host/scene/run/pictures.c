@@ -243,22 +243,41 @@ static pspec_status list_lines(ps_pictures *out, const ps_scene_result *asked, p
     return PSPEC_OK;
 }
 
-static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    const layout how = find_layout(asked, asked->num_entries, true);
+/* A picture of every question. */
+static pspec_status add_singles(ps_pictures *out, const ps_scene_result *asked,
+                                ps_picture_form form, const char *stem, ps_error *error) {
     const size_t num = ps_scene_num_questions(asked);
-    for (size_t g = 0; g < count_values(asked, how.group); g++) {
-        PS_TRY(add_group(out, asked, (ps_picture){.form = PS_PICTURE_SPECTRA}, &how, g, error));
-    }
-    for (size_t q = 0; q < num && asked->wants_pictures; q++) {
-        const size_t none = asked->num_entries;
-        ps_picture one = {.form = PS_PICTURE_IMAGE, .group = none, .points = none, .panel = none};
-        snprintf(one.suffix, sizeof one.suffix, "-picture-%zu", q + 1);
+    const size_t none = asked->num_entries;
+    for (size_t q = 0; q < num; q++) {
+        ps_picture one = {.form = form, .group = none, .points = none, .panel = none};
+        snprintf(one.suffix, sizeof one.suffix, "-%s-%zu", stem, q + 1);
         PS_TRY(add(out, &one, 1, error));
         ps_picture *const picture = &out->all[out->num - 1];
         picture->num_curves = picture->num_panels = picture->ends[0] = 1;
         picture->curves[0] = q;
     }
     return PSPEC_OK;
+}
+
+static bool has_entry(const ps_scene_result *asked, ps_option_id id) {
+    size_t i = 0;
+    while (i < asked->num_entries && asked->entries[i].option != (int)id) {
+        i++;
+    }
+    return i < asked->num_entries;
+}
+
+static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
+    const layout how = find_layout(asked, asked->num_entries, true);
+    for (size_t g = 0; g < count_values(asked, how.group); g++) {
+        PS_TRY(add_group(out, asked, (ps_picture){.form = PS_PICTURE_SPECTRA}, &how, g, error));
+    }
+    if (asked->wants_pictures) {
+        PS_TRY(add_singles(out, asked, PS_PICTURE_IMAGE, "picture", error));
+    }
+    return has_entry(asked, PS_OPTION_SCATTER)
+               ? add_singles(out, asked, PS_PICTURE_SCATTER, "scatter", error)
+               : PSPEC_OK;
 }
 
 /* Sets side by side; pages of them, as few as there can be. */

@@ -11,6 +11,7 @@ enum { PS_MOST_CURVES = 8 };
 typedef enum ps_picture_form {
     PS_PICTURE_SPECTRA, /* powers of a group of questions */
     PS_PICTURE_IMAGE,   /* of one question, with the averaged periodogram */
+    PS_PICTURE_SCATTER, /* of one question, its sets in the complex plane */
     PS_PICTURE_COLUMNS, /* lines of one kind */
     PS_PICTURE_ERRORS,  /* worst-case errors against numbers of points */
     PS_PICTURE_CHART,   /* rows of all questions, as the kind draws them */

@@ -60,6 +60,9 @@ static pspec_status draw(const ps_artist *artist, const ps_picture *what) {
     if (what->form == PS_PICTURE_POINTS) {
         return ps_draw_points(artist, what);
     }
+    if (what->form == PS_PICTURE_SCATTER) {
+        return ps_draw_scatter(artist, what);
+    }
     if (what->form == PS_PICTURE_CHART) {
         return ps_draw_chart(artist, what);
     }
