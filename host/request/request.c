@@ -26,6 +26,12 @@ const char *ps_request_sampler(const ps_request *request, size_t question) {
     return request->num_samplers > 0 ? request->samplers[question / request->num_counts] : NULL;
 }
 
+ps_bounds_spec ps_request_bounds(const ps_request *request, size_t question) {
+    return request->num_bounds == 0   ? (ps_bounds_spec){0}
+           : request->num_bounds == 1 ? request->bounds[0]
+                                      : request->bounds[question / request->num_counts];
+}
+
 uint64_t ps_request_points(const ps_request *request, size_t question) {
     return request->counts[question % request->num_counts];
 }
