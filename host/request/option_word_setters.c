@@ -167,8 +167,13 @@ static pspec_status parse_bound(ps_bound *out, const ps_said *said, const char *
 
 pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
     static const char dots[] = "..";
-    ps_bounds_spec *const bounds = &said->request->bounds;
+    ps_request *const request = said->request;
     const char *const middle = strstr(said->text, dots);
+    if (request->num_bounds == PS_MAX_SAMPLERS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d pairs of profiles",
+                       said->shown, PS_MAX_SAMPLERS);
+    }
+    ps_bounds_spec *const bounds = &request->bounds[request->num_bounds++];
     *bounds = (ps_bounds_spec){.is_wanted = true};
     if (strcmp(said->text, "auto") == 0) {
         return PSPEC_OK;

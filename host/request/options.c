@@ -108,7 +108,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  FLAG(paper_formula)},
     [PS_OPTION_BOUNDS] = {NAMED("bounds", 0, "auto|G,A,B..G,A,B"), OF(BIT(variance), 0),
                           .help = "two columns more: the variance by profiles below and above P, "
-                                  "G (nu/A)^B up to A, then G; auto: those of power --fit auto",
+                                  "G (nu/A)^B up to A, then G; auto: those of power --fit auto; "
+                                  "again for each --sampler, or once for all",
                           .set = ps_set_bounds},
     [PS_OPTION_RATES] = {NAMED("rates", 0, "auto|A..B"), OF(BIT(variance), 0),
                          .help = "exponents of N, from N = A to B, with errors, and where two "

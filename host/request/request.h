@@ -34,7 +34,7 @@ typedef enum ps_option_id {
     PS_OPTION_IN_PLACE,          /* --in-place */
     PS_OPTION_TAIL,              /* --tail X */
     PS_OPTION_PAPER_FORMULA,     /* --paper-formula */
-    PS_OPTION_BOUNDS,            /* --bounds auto|G,A,B..G,A,B */
+    PS_OPTION_BOUNDS,            /* --bounds auto|G,A,B..G,A,B, one or one for each sampler */
     PS_OPTION_RATES,             /* --rates auto|A..B */
     PS_OPTION_RANK,              /* --rank */
     PS_OPTION_AGAINST,           /* --against FILE */
@@ -164,7 +164,8 @@ typedef struct ps_request {
     double smoothness;                 /* 1.5 unless given */
     bool wants_fit;
     double fit_exponent; /* of profiles; nan: the one that is found */
-    ps_bounds_spec bounds;
+    size_t num_bounds;   /* 0; 1 of all samplers, or one of each, in their order */
+    ps_bounds_spec bounds[PS_MAX_SAMPLERS];
     bool wants_rates, wants_ranking;
     double rates[2]; /* the smallest N and the largest */
     size_t num_files;
@@ -187,6 +188,8 @@ const char *ps_request_name(const ps_request *request, size_t question);
 bool ps_request_has_samplers(const ps_request *request);
 bool ps_request_has_files(const ps_request *request);
 uint64_t ps_request_points(const ps_request *request, size_t question);
+/* {0} where none are wanted. */
+ps_bounds_spec ps_request_bounds(const ps_request *request, size_t question);
 /* Refuses several numbers of points; why: "and one output holds sets of one". */
 pspec_status ps_request_check_one_count(const ps_request *request, const char *why,
                                         ps_error *error) PS_MUST_CHECK;

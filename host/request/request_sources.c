@@ -38,6 +38,12 @@ bool ps_request_has_files(const ps_request *request) {
     return i < request->num_sources || request->num_files > 0;
 }
 
+ps_bounds_spec ps_request_bounds(const ps_request *request, size_t question) {
+    return request->num_bounds == 0   ? (ps_bounds_spec){0}
+           : request->num_bounds == 1 ? request->bounds[0]
+                                      : request->bounds[question / request->num_counts];
+}
+
 uint64_t ps_request_points(const ps_request *request, size_t question) {
     return request->counts[question % request->num_counts];
 }

@@ -136,10 +136,10 @@ static bool has_lists(const ps_scene_node *node) {
 }
 
 /* One spectrum serves all integrands of a question, several files are one set of points, and
- * samplers may be compared by a question. */
+ * samplers may be compared by a question, each with bounds of its own. */
 static bool is_one_value(const ps_scene_result *result, int option, const ps_scene_node *node) {
     return option == PS_OPTION_INTEGRAND || (option == PS_SCENE_FILES && !has_lists(node)) ||
-           (option == PS_OPTION_SAMPLER && result->is_joined);
+           ((option == PS_OPTION_SAMPLER || option == PS_OPTION_BOUNDS) && result->is_joined);
 }
 
 static pspec_status refuse_list(const ps_scene_file *file, const char *key,

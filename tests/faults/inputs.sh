@@ -82,6 +82,7 @@ EOF
     printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml
     printf 'scene: 1\nresults:\n  - {result: sample, samplers: [white, zphi], points: 8, arrays: true}\n' >sampled.yaml
     printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [zphi, white-sphere], points: 8, max-degree: 2, integrands: [cap, square]}\n' >charted.yaml
+    printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [white, jittered], points: [4, 9], max-frequency: 2, realizations: 8, integrands: disk, shifts: 0, rates: auto, rank: true, bounds: [0..1, 0.5..1]}\n' >joined.yaml
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" run points.yaml -o "$scratch/warm" >/dev/null
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" run drawn.yaml -o "$scratch/warm" >/dev/null
     sed 's/"folder": ".*"/"folder": "."/' "$scratch/warm/record.json" >points.json

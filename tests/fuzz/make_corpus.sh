@@ -393,6 +393,13 @@ results:
   - {result: truncation, brdf: [diffuse, "zonal:file=a.lobe"], harmonics: [spherical, hemispherical], max-degree: 20}
   - {result: pairs, files: [[a.txt, b.txt], /c.npy], select-sets: 1..2, weights: column}
 EOF
+seed scene joined '' <<'EOF'
+scene: 1
+defaults: {points: [16..64, 100], rank: true}
+results:
+  - {result: variance, samplers: [white, jittered], integrands: [disk, gaussian], rates: 16..64, bounds: [auto, 0.5..1]}
+  - {result: variance, samplers: [zphi, spiral], integrand: cap, rank: false}
+EOF
 seed scene gate '' <<'EOF'
 scene: 1
 results:

@@ -5,11 +5,16 @@
 #include "request/options.h"
 
 static bool is_wanted(const ps_request *request) {
-    return request->bounds.is_wanted;
+    return request->num_bounds > 0;
 }
 
-static pspec_status check(const ps_request *request, ps_error *error) {
-    return request->bounds.is_given || !ps_request_has_samplers(request) ||
+/* Profiles that are found have errors. */
+static pspec_status check_errors(const ps_request *request, ps_error *error) {
+    bool are_given = true;
+    for (size_t i = 0; i < request->num_bounds; i++) {
+        are_given = are_given && request->bounds[i].is_given;
+    }
+    return are_given || !ps_request_has_samplers(request) ||
                    request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -18,6 +23,17 @@ static pspec_status check(const ps_request *request, ps_error *error) {
                          ps_option_show(request, PS_OPTION_BOUNDS).text,
                          PS_FEWEST_FITTED_REALIZATIONS,
                          (unsigned long long)request->num_realizations);
+}
+
+static pspec_status check(const ps_request *request, ps_error *error) {
+    const size_t num_sources = request->num_sources > 0 ? request->num_sources : 1;
+    return request->num_bounds == 1 || request->num_bounds == num_sources
+               ? check_errors(request, error)
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s is there %zu times, and there %s: it is said once for all samplers, "
+                         "or once for each of them, in their order",
+                         ps_option_show(request, PS_OPTION_BOUNDS).text, request->num_bounds,
+                         request->num_sources == 0 ? "are files" : "are not as many samplers");
 }
 
 static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,

@@ -177,7 +177,6 @@ static ps_variance_question make_question(const ps_request *arguments) {
         .num_integrands = arguments->num_integrands,
         .over_shells = over_shells,
         .wants_paper = arguments->paper_formula,
-        .bounds = arguments->bounds,
         .num_shifts = arguments->num_shifts,
         .single_shifts = has_shifts ? arguments->num_shifts : SINGLE_SHIFTS,
         .seed = arguments->seed,
@@ -197,6 +196,7 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
     for (size_t i = 0; i < num; i++) {
         ps_variance_question *const question = &out->questions[i];
         *question = make_question(arguments);
+        question->bounds = ps_request_bounds(arguments, i);
         question->name = ps_request_name(arguments, i);
         PS_TRY(out->files[i].num > 0
                    ? fill_files(&question->spectrum, &out->files[i], arguments, error)

@@ -58,12 +58,54 @@ runs 0 --sampler jittered -m 10 --shifts 0 --bounds auto -n 16 --integrand disk
 [[ $(key upper_profile) == 'none: 1 ring up to 0.5'* && -z $(column best_bound) && -z $(column worst_bound) ]] ||
     complain "16 points: $(key upper_profile)"
 
+# ---- every sampler has a pair of its own, of its own profile ----
+
+of_each() { # NAME of a column, a line for each row
+    grep -v '^#' out | awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR > 1 { print $at }'
+}
+alone=() profiles=()
+for sampler in white jittered poisson-disk; do
+    runs 0 --sampler $sampler -m 20 --shifts 0 --bounds auto -n 256,400 --integrand gaussian --integrand disk
+    alone+=("$(of_each best_bound | paste -sd' ') $(of_each worst_bound | paste -sd' ')")
+    profiles+=("$(grep '^# \(upper\|lower\)_' out)")
+done
+runs 0 --sampler white --sampler jittered --sampler poisson-disk -m 20 --shifts 0 --bounds auto -n 256,400 --integrand gaussian --integrand disk
+for i in 0 1 2; do
+    rows=$((4 * i + 1)),$((4 * i + 4))p
+    [[ "$(of_each best_bound | sed -n "$rows" | paste -sd' ') $(of_each worst_bound | sed -n "$rows" | paste -sd' ')" == "${alone[i]}" ]] ||
+        complain "bounds of sampler $i: $(grep -v '^#' out), alone ${alone[i]}"
+done
+[[ $(grep '^# \(upper\|lower\)_' out) == "$(printf '%s\n' "${profiles[@]}")" ]] || complain "profiles of three: $(grep '^# .*_profile' out)"
+[[ $(of_each worst_bound | sort -u | wc -l) == 12 && $(key upper_profile | sort -u | wc -l) == 6 ]] || complain "alike: $(grep -v '^#' out)"
+# Given: one for all, or one for each, in their order, found or not.
+runs 0 --sampler white --sampler jittered -m 2 --shifts 0 -n 16,64 --integrand wave:k=3x4 --bounds 0.5..2
+[[ $(of_each worst_bound | paste -sd' ') == '0.0625 0.015625 0.0625 0.015625' ]] || complain "one for all: $(grep -v '^#' out)"
+runs 0 --sampler white --sampler jittered -m 2 --shifts 0 -n 16,64 --integrand wave:k=3x4 --bounds 0.5..2 --bounds 0.25,2,1..1,0.5,2
+[[ $(of_each worst_bound | paste -sd' ') == '0.0625 0.015625 0.03125 0.0078125' && $(key upper_gamma | paste -sd' ') == '2 2 1 1' ]] ||
+    complain "one for each: $(grep -v '^#' out)"
+[[ $(of_each best_bound | paste -sd' ') == '0.015625 0.00390625 0.0048828125 0.0006103515625' ]] || complain "one for each: $(grep -v '^#' out)"
+runs 0 --sampler white --sampler jittered -m 20 --shifts 0 -n 256 --integrand disk --bounds auto --bounds 0.5,0.5513,2..1,0.5513,2
+[[ $(key upper_gamma | sed -n 2p) == 1 && $(key upper_alpha | sed -n 2p) == 0.5513 && $(key upper_gamma | sed -n 1p) != 1 ]] ||
+    complain "one found: $(key upper_profile)"
+refuses '--bounds is there 2 times, and there are not as many samplers: it is said once for all samplers, or once for each' \
+    --sampler white --sampler jittered --sampler halton --integrand disk --bounds 0..1 --bounds 0..2
+refuses '--bounds auto finds profiles by standard errors' --sampler white --sampler jittered --integrand disk --bounds 0..1 --bounds auto
+printf 'scene: 1\nresults:\n  - {result: variance, name: one, samplers: [white, jittered], points: 64, integrand: disk, realizations: 8, shifts: 0, rank: true, bounds: [0.5..2, 0..1]}\n' \
+    >each.yaml
+command=run
+runs 0 each.yaml -o each
+[[ $(grep '^# upper_gamma' each/one.csv | paste -sd' ') == '# upper_gamma: 2 # upper_gamma: 1' ]] || complain "a scene: $(grep '^#' each/one.csv)"
+command=variance
+
 # ---- pictures, scenes, refusals ----
 
 if command -v gnuplot >/dev/null; then
     runs 0 "${bounds[@]}" 0.5..2 -n 64,256 --integrand disk --plot with.svg -o table.csv
     runs 0 --sampler jittered -m 2 --shifts 0 -n 64,256 --integrand disk --plot without.svg -o table.csv
     (($(grep -c '<path' with.svg) >= $(grep -c '<path' without.svg) + 2)) || complain 'the picture has no bounds'
+    runs 0 "${bounds[@]}" 0.5..2 --bounds 0.1..1 --sampler white -n 64,256 --integrand disk --plot with.svg -o table.csv
+    runs 0 --sampler jittered --sampler white -m 2 --shifts 0 -n 64,256 --integrand disk --plot without.svg -o table.csv
+    (($(grep -c '<path' with.svg) >= $(grep -c '<path' without.svg) + 4)) || complain 'the picture has no bounds of each sampler'
 fi
 printf 'scene: 1\nresults:\n  - {result: variance, name: one, samplers: jittered, points: 64, integrand: disk, shifts: 0, bounds: 0.5..2}\n' \
     >scene.yaml

@@ -183,6 +183,38 @@ static void what_is_no_line_has_a_sentence(void **state) {
     refuse(logs, 2, "at N = 16 is 0 or unknown");
 }
 
+/* Errors that grow by a power of N weigh as their squares: the line of normal equations. */
+static void errors_weigh_by_their_squares(void **state) {
+    (void)state;
+    ps_log_variance logs[3];
+    ps_rate found;
+    ps_error error = {0};
+    double sums[3] = {0}; /* of weights times 1, x, x^2 */
+    for (size_t i = 0; i < 3; i++) {
+        const double x = (double)i;
+        const double own = 0.1 * pow(2, x);
+        logs[i] = make_alone(i, exp(x), i == 2 ? -2.5 : -x, own);
+        for (size_t k = 0; k < 3; k++) {
+            sums[k] += pow(x, (double)k) / (own * own);
+        }
+    }
+    const double square = sums[2] - sums[1] * sums[1] / sums[0];
+    const double bump = -0.5 / 0.16 * (2 - sums[1] / sums[0]);
+    assert_int_equal(ps_rate_fit(&found, logs, 3, &error), PSPEC_OK);
+    test_assert_near(found.rate.error, 1 / sqrt(square), 1e-14);
+    test_assert_near(found.rate.value, 1 - bump / square, 1e-14);
+}
+
+/* The logarithm of a mean with the relative error e is e^2/2 too small on average. */
+static void logarithms_are_not_biased(void **state) {
+    (void)state;
+    const ps_log_variance one = make(16, 0.5, 0.1);
+    const ps_log_variance exact = make(16, 0.5, 0);
+    test_assert_near(one.value, log(0.5) + 0.02, 1e-15);
+    test_assert_near(one.error, 0.2, 1e-15);
+    test_assert_near(exact.value, log(0.5), 1e-15);
+}
+
 /* ---- noise --------------------------------------------------------------------------------- */
 
 /* Means of M numbers of a gamma distribution with mean 1 and an even number of halves, half of each
@@ -304,6 +336,11 @@ static void lines_cross_where_they_do(void **state) {
     test_assert_near(memory[0].points.error, 400 * 2 * 0.02 * sqrt(2) * hypot(t, 1 - t), 1e-9);
     assert_int_equal(ps_crossings_find(&found, memory, b, a, MOST, &error), PSPEC_OK);
     assert_true(found.num == 1 && memory[0].is_a_below);
+    /* the end that is known less well counts by its share */
+    a[8] = make_alone(8, 512, a[8].value, 0.03);
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    test_assert_near(memory[0].points.error,
+                     400 * 2 * hypot((1 - t) * hypot(0.02, 0.02), t * hypot(0.03, 0.02)), 1e-9);
     /* not told apart between 64 and 2048: the line goes through all of them */
     for (size_t i = 0; i < MOST; i++) {
         a[i].error = a[i].deviations[i] = 0.25;
@@ -322,6 +359,16 @@ static void lines_cross_where_they_do(void **state) {
     assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
     assert_int_equal(found.num, 1);
     test_assert_near(memory[0].points.value, 400, 1e-9);
+    for (size_t i = 0; i < MOST; i++) {
+        a[i] = make_alone(i, a[i].points, a[i].value, 0.02);
+    }
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    const double share[] = {log(256 / b[7].points) / log(b[8].points / b[7].points),
+                            log(512 / b[8].points) / log(b[9].points / b[8].points)};
+    const double at_a = hypot(1 - t, t);
+    const double at_b = hypot(hypot((1 - t) * (1 - share[0]), t * share[1]),
+                              (1 - t) * share[0] + t * (1 - share[1]));
+    test_assert_near(memory[0].points.error, 400 * 2 * 0.02 * hypot(at_a, at_b), 1e-9);
     b[3].points *= 1.1;
     assert_false(ps_crossings_have_same_points(a, b, MOST));
     assert_false(ps_crossings_have_same_points(a, b + 1, 1));
@@ -337,6 +384,8 @@ int main(void) {
         cmocka_unit_test(laws_are_given_back),
         cmocka_unit_test(a_curve_has_its_change),
         cmocka_unit_test(errors_know_what_depends),
+        cmocka_unit_test(errors_weigh_by_their_squares),
+        cmocka_unit_test(logarithms_are_not_biased),
         cmocka_unit_test(what_is_no_line_has_a_sentence),
         cmocka_unit_test(errors_are_calibrated),
         cmocka_unit_test(lines_cross_where_they_do),
