@@ -65,6 +65,8 @@ grep -qE '^host_direct:extended +chosen +[0-9.]+ (ms|s) +[0-9.]+ (B|kB) ' shown 
 ! grep -qE '^phase: .*([0-9]e[+-]?[0-9]+ s;|[0-9] bytes)' shown || complain "phases have other units: $(grep ^phase shown)"
 grep -qE '^phase: .*; [0-9.]+ (ns|us|ms);' shown || complain "phases have no small units: $(grep ^phase shown)"
 grep -qE '^seconds: [0-9.]+ m?s$' shown || complain "no unit of all seconds: $(grep '^seconds' shown)"
+COLUMNS=70 on_terminal devices >shown
+[[ $(wc -L <shown) -le 70 && $(head -1 shown) == pointspec_version* ]] || complain "devices: $(<shown)"
 on_terminal devices >shown
 [[ $(grep -cE '^name +[^ ]|^global_bytes +[0-9.]+ [GMT]B$' shown) == $((2 * $(grep -c '^index ' shown))) ]] || complain "devices are no blocks: $(<shown)"
 "$program" power --sampler white -n 16 -k 2 --engine host_direct --format text >one.txt
