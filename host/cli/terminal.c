@@ -41,6 +41,7 @@ void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
     static const char text[] = "text";
     const bool is_terminal =
         arguments->output != NULL && strcmp(arguments->output, "-") == 0 && isatty(STDOUT_FILENO);
+    const bool is_brief = ps_command_takes(command, PS_OPTION_VERBOSE) && !arguments->verbose;
     const char *const words = ps_command_takes(command, PS_OPTION_FORMAT)
                                   ? ps_command_words(command, PS_OPTION_FORMAT)
                                   : "";
@@ -51,7 +52,7 @@ void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
         arguments->format = text;
     }
     arguments->view = (ps_text_view){.width = find_width(),
-                                     .most_lines = arguments->verbose ? 0 : MOST_LINES,
+                                     .most_lines = is_brief ? MOST_LINES : 0,
                                      .keys = seen_first,
                                      .rest = "--verbose"};
 }

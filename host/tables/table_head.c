@@ -76,8 +76,17 @@ static bool is_first(const ps_table *table, size_t i, bool *are_same) {
     return is;
 }
 
+static bool is_column(const ps_table *table, const char *name) {
+    size_t i = 0;
+    while (i < table->num_columns && strcmp(table->columns[i], name) != 0) {
+        i++;
+    }
+    return i < table->num_columns;
+}
+
 /* "key: value", or "key: one; two" where the table has several, which stand in the order of its
- * questions; nothing where it has none. *num: how many. */
+ * questions; nothing where it has none, or where a column of that name has them row by row. *num:
+ * how many. */
 static void append_line(ps_text *line, const ps_table *table, const char *key, size_t *num) {
     bool are_same = true;
     *num = 0;
@@ -87,6 +96,9 @@ static void append_line(ps_text *line, const ps_table *table, const char *key, s
             continue;
         }
         if (is_first(table, i, &are_same) || line->length == 0) {
+            if (!are_same && is_column(table, key)) {
+                return;
+            }
             ps_text_append(line, "%s: ", key);
             append_value(line, entry);
         } else if (!are_same) {

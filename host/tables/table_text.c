@@ -6,17 +6,14 @@
 
 #include <string.h>
 
-static void print_text(const char *text, FILE *stream) {
-    ps_places_print(text, strlen(text), stream);
-}
-
 /* ---- blocks ------------------------------------------------------------------------------ */
 
 static void print_blocks(const ps_table *table, FILE *stream) {
+    const size_t width = table->view.width > 0 ? table->view.width : SIZE_MAX;
     size_t widest = 0;
     for (size_t i = 0; i < table->num_columns; i++) {
-        const size_t width = strlen(table->columns[i]);
-        widest = width > widest ? width : widest;
+        const size_t length = strlen(table->columns[i]);
+        widest = length > widest ? length : widest;
     }
     for (size_t i = 0; i < table->num_rows * table->num_columns; i++) {
         char own[PS_CELL_BYTES];
@@ -25,8 +22,8 @@ static void print_blocks(const ps_table *table, FILE *stream) {
             putc('\n', stream);
         }
         fprintf(stream, "%-*s  ", (int)widest, name);
-        print_text(ps_cell_show(own, name, &table->cells[i], PS_TEXT_DIGITS), stream);
-        putc('\n', stream);
+        ps_places_wrap(ps_cell_show(own, name, &table->cells[i], PS_TEXT_DIGITS), widest + 2,
+                       widest + 2, width, SIZE_MAX, stream);
     }
 }
 

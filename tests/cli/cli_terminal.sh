@@ -28,7 +28,9 @@ on_terminal "${words[@]}" >shown
 left=$(($(sed '/^$/,$d' piped.txt | wc -l) - 4))
 [[ $(tail -1 shown) == "$left more lines of the header: --verbose" ]] || complain "not $left more lines: $(tail -1 shown)"
 on_terminal power --sampler jittered -n 64,256 -m 1 -k 2 --engine host_direct --quiet >shown
-[[ $(head -4 shown) == $'standard_error: none: one realization\nsampler: jittered\npoints: 64; 256\nrealizations: 1' ]] || complain "two N: $(<shown)"
+[[ $(head -4 shown) == $'standard_error: none: one realization\nsampler: jittered\nrealizations: 1\nself_check: '* ]] || complain "two N: $(<shown)"
+on_terminal quadrature --brdf diffuse --sampler white-hemisphere --sampler fibonacci-hemisphere -n 64 -l 2 --engine host_direct --quiet >shown
+[[ $(head -1 shown) =~ ^'worst_case_error: '[0-9.]+'; '[0-9.]+$ && $(head -4 shown) == *$'\nbrdf: diffuse\npoints: 64'* ]] || complain "two samplers: $(<shown)"
 on_terminal power --sampler jittered -n 1024 -m 8 -k 40 --fit auto --quiet >shown
 [[ $(sed '/^$/,$d' shown | wc -l) == 4 && $(head -1 shown) == 'fit: '* ]] || complain "sentences are not cut to four lines: $(<shown)"
 on_terminal truncation --brdf glossy:n=30 -l 4 --verbose >shown
@@ -65,6 +67,8 @@ grep -qE '^host_direct:extended +chosen +[0-9.]+ (ms|s) +[0-9.]+ (B|kB) ' shown 
 ! grep -qE '^phase: .*([0-9]e[+-]?[0-9]+ s;|[0-9] bytes)' shown || complain "phases have other units: $(grep ^phase shown)"
 grep -qE '^phase: .*; [0-9.]+ (ns|us|ms);' shown || complain "phases have no small units: $(grep ^phase shown)"
 grep -qE '^seconds: [0-9.]+ m?s$' shown || complain "no unit of all seconds: $(grep '^seconds' shown)"
+COLUMNS=70 on_terminal devices >shown
+[[ $(wc -L <shown) -le 70 && $(head -1 shown) == pointspec_version* ]] || complain "devices: $(<shown)"
 on_terminal devices >shown
 [[ $(grep -cE '^name +[^ ]|^global_bytes +[0-9.]+ [GMT]B$' shown) == $((2 * $(grep -c '^index ' shown))) ]] || complain "devices are no blocks: $(<shown)"
 "$program" power --sampler white -n 16 -k 2 --engine host_direct --format text >one.txt

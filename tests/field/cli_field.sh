@@ -254,9 +254,10 @@ reads '0 0 1|1 0 0' <(cat little.ply)
 reads '0.5 0.5 0.75|0.75 0.25 0.25' -d 3 --box -2,2 big.ply
 reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 ascii.ply
 reads '0 0.7|0.1 0.8' --columns x,red --box 0,10 little.ply
+reads '1 0 0' --select red=8.0 --domain sphere ascii.ply
+reads '1 0 0' --select red=8.0 --domain sphere little.ply
 for mesh in ascii.ply little.ply big.ply; do
     reads '0 0 1' --select red=7 --domain sphere "$mesh"
-    reads '1 0 0' --select red=8.0 --domain sphere <([[ $mesh == big.ply ]] && cat little.ply || cat "$mesh")
     refuses 'set 1 has no row with red=9' convert --select red=9 --domain sphere "$mesh"
     refuses '--select mass=3, and the columns are "x red y z"' convert --select mass=3 --domain sphere "$mesh"
 done

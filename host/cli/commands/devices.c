@@ -16,6 +16,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_text why_none = {0};
     pspec_status status = ps_devices_tabulate(&table, &why_none, arguments, error);
     if (status == PSPEC_OK) {
+        ps_table_set_view(table, &arguments->view);
         status = ps_table_write(table, arguments->output, format, error);
     }
     if (status == PSPEC_OK && why_none.length > 0) {
