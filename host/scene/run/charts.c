@@ -28,6 +28,9 @@ static pspec_status take_parts(const ps_artist *artist, const ps_picture *what, 
         ps_text *const label = &self->labels[i];
         ps_label_curve(asked, what, what->curves[i], label);
         if (label->length == 0) {
+            ps_name_sampler(asked, what->curves[i], label);
+        }
+        if (label->length == 0) { /* files */
             ps_run_label(artist->result, what->curves[i], label);
         }
         PS_TRY(ps_text_check(label, artist->error));
