@@ -187,7 +187,7 @@ static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
             "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
             "samplen 2 width %d\n",
             middle, bottom + 7 / where->page_height, count_key_columns(panel, where),
-            is_narrow ? long_label - 3 - longest : 0);
+            is_narrow ? long_label - 1 - longest : 0);
 }
 
 /* ---- series ---------------------------------------------------------------------------------- */
