@@ -25,14 +25,14 @@ echo "figures: variance.png" >&2
 "$pointspec" variance --sampler jittered --sampler poisson-disk --sampler white --integrand disk:radius=0.25 \
     -n 16..4096 -m 200 --quiet -o variance.csv --plot "$images/variance.png"
 
-# Those of the scenes p15_figure4_variance.yaml and p15_figure5_variance.yaml: three minutes, unless sets of FPO and ccvt-sphere are kept.
-echo "figures: p15_figure4_variance.png p15_figure5_variance.png" >&2
+# Those of the scene p15_figure6.yaml: three minutes, unless sets of FPO and ccvt-sphere are kept.
+echo "figures: p15_figure6_torus.png p15_figure6_sphere.png" >&2
 "$pointspec" variance --sampler white --sampler jittered --sampler poisson-disk --sampler fpo --sampler bnot \
     --integrand gaussian:sigma=0.0625 --integrand disk:radius=0.25 -n 16,64,256,1024,4096 -m 40 --shifts 10 \
-    --quiet -o variance.csv --plot "$images/p15_figure4_variance.png"
+    --quiet -o variance.csv --plot "$images/p15_figure6_torus.png"
 "$pointspec" variance --sampler white-sphere --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere \
     --integrand harmonic:degree=4 --integrand cap -n 12,48,192,768 -m 200 \
-    --quiet -o variance.csv --plot "$images/p15_figure5_variance.png"
+    --quiet -o variance.csv --plot "$images/p15_figure6_sphere.png"
 
 # Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"

@@ -157,13 +157,14 @@ static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
     const double bottom = 1 - (where->y + where->height) / where->page_height;
     /* gnuplot takes letters for wider than they are: it would have one column where there is room
      * for two */
-    const size_t long_label = 20;
-    const bool is_narrow = where->width < PS_SCRIPT_WIDTH && find_longest(panel) > long_label;
+    const int long_label = 20;
+    const int longest = (int)find_longest(panel);
+    const bool is_narrow = where->width < PS_SCRIPT_WIDTH && longest > long_label;
     fprintf(stream,
             "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
             "samplen 2 spacing %g width %d\n",
             middle, bottom + 7 / where->page_height, count_key_columns(panel, where),
-            1.05 * find_row_height(panel) / KEY_ROW, is_narrow ? -4 : 0);
+            1.05 * find_row_height(panel) / KEY_ROW, is_narrow ? long_label - 1 - longest : 0);
 }
 
 /* ---- series ---------------------------------------------------------------------------------- */

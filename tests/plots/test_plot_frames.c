@@ -159,6 +159,19 @@ static void draws_frames(void **state) {
     assert_true(script_contains(&plot, "set terminal svg enhanced size 1000,700 "));
 }
 
+/* gnuplot takes letters for wider than they are, and the longer a label, the more so. */
+static void long_labels_of_a_frame(void **state) {
+    (void)state;
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panels[] = {{"1", NUM_LOOKS, series}, {"2", NUM_LOOKS, series}};
+    const ps_figure plot = {
+        .form = PS_FIGURE_FRAME, .title = "", .num_panels = 2, .panels = panels};
+    assert_true(script_contains(&plot, " maxcols 2 samplen 2 width 0\n"));
+    series[0].label = "best bound: slope -12.6751"; /* 26 letters */
+    assert_true(script_contains(&plot, " maxcols 2 samplen 2 width -7\n"));
+}
+
 /* A panel may have axes of its own: a plane has the same unit on both. */
 static void planes_of_a_frame(void **state) {
     (void)state;
@@ -240,6 +253,7 @@ int main(void) {
         cmocka_unit_test(looks_of_a_frame),
         cmocka_unit_test(ends_of_a_logarithmic_axis),
         cmocka_unit_test(single_places_of_a_frame),
+        cmocka_unit_test(long_labels_of_a_frame),
         cmocka_unit_test(planes_of_a_frame),
         cmocka_unit_test(keys_of_looks),
         cmocka_unit_test(slopes),

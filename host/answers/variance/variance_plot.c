@@ -180,8 +180,11 @@ static pspec_status name_series(ps_series *series, ps_text *label, ps_uncertain 
     return ps_text_check(label, error);
 }
 
-/* A line without a label; none where no bound was asked for, or there is no such. */
-static void add_bound(picture *self, size_t curve, size_t panel, quantity which) {
+/* Where there is one sampler the key has its bounds, too; none where no bound was asked for, or
+ * there is no such. */
+static pspec_status add_bound(picture *self, size_t curve, size_t panel, quantity which,
+                              ps_error *error) {
+    ps_text *const label = &self->labels[self->num_series];
     ps_series *const line = add_series(self, curve, panel, which, PS_LOOK_BOUND);
     size_t num = 0;
     for (size_t i = 0; i < line->num; i++) {
@@ -189,7 +192,13 @@ static void add_bound(picture *self, size_t curve, size_t panel, quantity which)
     }
     if (num == 0) {
         self->num_series--;
+        return PSPEC_OK;
     }
+    if (self->num_curves > 1) {
+        return PSPEC_OK;
+    }
+    ps_text_append(label, "%s bound", which == BEST_BOUND ? "best" : "worst");
+    return name_series(line, label, (ps_uncertain){NAN, NAN}, error);
 }
 
 static ps_uncertain find_rate(const picture *self, size_t curve, size_t panel) {
@@ -213,8 +222,8 @@ static pspec_status add_curve(picture *self, size_t curve, size_t panel, ps_erro
     line->high = gather(self, curve, panel, UPPER, &line->num);
     ps_series *const marks = add_series(self, curve, panel, MEASURED, PS_LOOK_MARKS);
     marks->error = gather(self, curve, panel, MEASURED_ERROR, &marks->num);
-    add_bound(self, curve, panel, BEST_BOUND);
-    add_bound(self, curve, panel, WORST_BOUND);
+    PS_TRY(add_bound(self, curve, panel, BEST_BOUND, error));
+    PS_TRY(add_bound(self, curve, panel, WORST_BOUND, error));
     ps_text_append(label, "%s%s%s", first->label,
                    first->label[0] != '\0' && first->sampler[0] != '\0' ? ", " : "",
                    first->sampler);

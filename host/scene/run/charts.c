@@ -34,7 +34,11 @@ static pspec_status take_parts(const ps_artist *artist, const ps_picture *what, 
     for (size_t i = 0; i < what->num_curves; i++) {
         ps_text *const label = &self->labels[i];
         ps_label_curve(asked, what, what->curves[i], label);
-        if (label->length == 0 && !names_samplers(artist->result, what->curves[i])) {
+        const bool has_names = names_samplers(artist->result, what->curves[i]);
+        if (label->length == 0 && !has_names) {
+            ps_name_sampler(asked, what->curves[i], label);
+        }
+        if (label->length == 0 && !has_names) { /* files */
             ps_run_label(artist->result, what->curves[i], label);
         }
         PS_TRY(ps_text_check(label, artist->error));

@@ -37,6 +37,8 @@ pspec_status ps_draw_scatter(const ps_artist *artist, const ps_picture *what) PS
 /* What tells the curve of a question from the others of its panel. */
 void ps_label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
                     ps_text *out);
+/* The sampler, and what else varies but the number of points, which pictures say themselves. */
+void ps_name_sampler(const ps_scene_result *asked, size_t question, ps_text *out);
 /* How far apart are questions that differ in that entry alone, by one value? */
 size_t ps_question_step(const ps_scene_result *asked, size_t entry);
 

@@ -12,8 +12,7 @@ static ps_sampler_domain find_domain(const ps_table *table) {
                                              : PS_SAMPLES_TORUS;
 }
 
-/* The sampler, and what else varies but the number of points, which a panel says itself. */
-static void name_set(const ps_scene_result *asked, size_t question, ps_text *out) {
+void ps_name_sampler(const ps_scene_result *asked, size_t question, ps_text *out) {
     for (size_t i = 0; i < asked->num_entries; i++) {
         const ps_scene_entry *const entry = &asked->entries[i];
         const char *const text = ps_scene_value_of(asked, question, i)->originals[0];
@@ -30,7 +29,7 @@ static void name_set(const ps_scene_result *asked, size_t question, ps_text *out
 static pspec_status add_set(const ps_artist *artist, size_t question, ps_points_picture *picture) {
     const ps_answer *const answer = &artist->result->questions[question].answer;
     ps_text name = {0};
-    name_set(artist->result->asked, question, &name);
+    ps_name_sampler(artist->result->asked, question, &name);
     const ps_drawn_set set = {ps_text_string(&name), find_domain(answer->table),
                               (unsigned)answer->shape[2], answer->shape[1], answer->array};
     pspec_status status = ps_text_check(&name, artist->error);
@@ -45,7 +44,7 @@ static pspec_status add_set(const ps_artist *artist, size_t question, ps_points_
 static void describe(const ps_artist *artist, const ps_picture *what,
                      const ps_points_picture *picture, ps_text *out) {
     if (what->num_curves == 1) {
-        name_set(artist->result->asked, what->curves[0], out);
+        ps_name_sampler(artist->result->asked, what->curves[0], out);
         ps_text_append(out, ", N = %zu", picture->num_points);
     }
 }

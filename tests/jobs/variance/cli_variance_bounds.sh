@@ -112,6 +112,18 @@ printf 'scene: 1\nresults:\n  - {result: variance, name: one, samplers: jittered
 command=run
 runs 0 scene.yaml -o folder
 grep -q ',best_bound,worst_bound' folder/one.csv || complain 'a scene has no bounds'
+# The key names one sampler, not its first N, and both bounds with their slopes; of several it has the samplers alone.
+if command -v gnuplot >/dev/null; then
+    sed -i 's/points: 64/points: [64, 256]/; s/0.5..2/"0.5,1,2..2,1,2"/' scene.yaml
+    runs 0 scene.yaml -o single
+    for text in 'jittered: slope -' 'best bound: slope -1.' 'worst bound: slope -1.'; do
+        grep -q ">$text" single/one.svg || complain "the key of one sampler has no $text: $(grep -o '>[^<]*slope[^<]*' single/one.svg)"
+    done
+    sed -i 's/samplers: jittered/samplers: [jittered, white]/' scene.yaml
+    runs 0 scene.yaml -o several
+    grep -q '>jittered: slope' several/one.svg || complain 'the key of several samplers has none'
+    ! grep -q 'bound: slope' several/one.svg || complain 'the key of several samplers has bounds'
+fi
 command=variance
 for wrong in 1 1,2..3 1,2,3,4..1 much; do
     refuses "--bounds: \"$wrong\" is not one of auto, G,A,B..G,A,B" --sampler white --integrand disk --bounds "$wrong"
