@@ -80,7 +80,8 @@ results:
   - {result: truncation, brdf: diffuse, max-degree: 1, plot: false}
 EOF
     printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml
-    printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, no-self-check: true, sets: {a: [points.txt, more.txt], b: po*.txt}, samplers: white, points: 4, max-frequency: 2, plot: false}\n' >sets.yaml
+    cp points.txt sets.txt
+    printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, no-self-check: true, sets: {a: [sets.txt, sets.txt], b: se*.txt}, samplers: white, points: 4, max-frequency: 2, plot: false}\n' >sets.yaml
     printf 'scene: 1\nresults:\n  - {result: sample, samplers: [white, zphi], points: 8, arrays: true}\n' >sampled.yaml
     printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [zphi, white-sphere], points: 8, max-degree: 2, integrands: [cap, square]}\n' >charted.yaml
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" run points.yaml -o "$scratch/warm" >/dev/null
