@@ -6,6 +6,7 @@
 #include "spectra/file/spectrum_file.h"
 #include "spectra/file/spectrum_format.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -155,7 +156,13 @@ pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *er
     ps_error reason = {0};
     file_kind kind = OTHER;
     *is_one = false;
-    if (strcmp(path, "-") == 0 || stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+    if (strcmp(path, "-") == 0) {
+        return PSPEC_OK;
+    }
+    if (stat(path, &facts) != 0) {
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
+    }
+    if (!S_ISREG(facts.st_mode)) {
         return PSPEC_OK;
     }
     const pspec_status status = find_kind(&kind, &input, path, &reason);
