@@ -68,6 +68,7 @@ add_program_test(cli_run_files) # what scenes read and write
 add_program_test(cli_run_counts) # numbers of points of scenes: lists, means where they vary
 add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, titles
 add_program_test(cli_run_rates) # rates and ranks over all samplers and N of a result
+add_program_test(cli_run_sets)  # files under names beside samplers in scenes
 add_program_test(cli_run_points) # points as a result of a scene
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name

@@ -22,15 +22,19 @@ static pspec_status add_matches(ps_file_list *out, const char *pattern, int flag
 }
 
 /* A name without a pattern is taken as it is: whoever opens the file says what is wrong with it. */
-static pspec_status add_item(ps_file_list *out, const char *item, const char *shown,
-                             ps_error *error) {
+pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *item,
+                              ps_error *error) {
     if (item[0] == '\0' || strcmp(item, "-") == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s", shown,
                        item[0] == '\0' ? "a name of a file is empty"
                                        : "standard input (-) is no file, and a set is of files");
     }
     const bool is_name = strpbrk(item, "*?[") == NULL || access(item, F_OK) == 0;
-    return add_matches(out, item, is_name ? GLOB_NOCHECK | GLOB_NOESCAPE : 0, shown, error);
+    const int flags = is_name ? GLOB_NOCHECK | GLOB_NOESCAPE : 0;
+    const pspec_status status = add_matches(list, item, flags, shown, error);
+    list->num = list->found.gl_pathc;
+    list->paths = (const char *const *)list->found.gl_pathv;
+    return status;
 }
 
 pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
@@ -43,13 +47,11 @@ pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char 
         ps_text_append_bytes(&item, begin, comma != NULL ? (size_t)(comma - begin) : strlen(begin));
         status = ps_text_check(&item, error);
         if (status == PSPEC_OK) {
-            status = add_item(out, ps_text_string(&item), shown, error);
+            status = ps_file_list_add(out, shown, ps_text_string(&item), error);
         }
         ps_text_free(&item);
         begin = comma != NULL ? comma + 1 : NULL;
     }
-    out->num = out->found.gl_pathc;
-    out->paths = (const char *const *)out->found.gl_pathv;
     return status;
 }
 

@@ -18,6 +18,9 @@ typedef struct ps_file_list {
  * also after an error. */
 pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
                                ps_error *error) PS_MUST_CHECK;
+/* One name or pattern more; a comma is a letter of it. */
+pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *item,
+                              ps_error *error) PS_MUST_CHECK;
 void ps_file_list_free(ps_file_list *list);
 
 /* The files that a question is about: those of its set, or those of the request. None: a sampler

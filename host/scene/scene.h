@@ -16,12 +16,13 @@
 #include "answers/kind.h"
 #include "base/text.h"
 
-/* One value of a key: a text; of `files`, the paths that belong together. */
+/* One value of a key: a text; of `files`, and of a set, the paths that belong together. */
 typedef struct ps_scene_value {
     size_t num_texts;
-    const char **texts; /* paths relative to the current folder */
-    /* As the file has them; the first is what tables and pages call the value */
-    const char **originals;
+    const char **texts;     /* paths relative to the current folder */
+    const char **originals; /* as the file has them */
+    const char *label;      /* what tables and pages call the value: the first, or the set's name */
+    bool is_set;            /* one of `sets`, a value beside samplers */
     int line;
 } ps_scene_value;
 
@@ -111,6 +112,10 @@ void ps_scene_question_free(ps_scene_question *question);
 /* The value that question `number` has of an entry. */
 const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t number,
                                         size_t i_entry);
+/* The entry of samplers and sets; NULL: none. */
+const ps_scene_entry *ps_scene_find_sources(const ps_scene_result *result);
+/* How many values of an entry are sets. */
+size_t ps_scene_num_sets(const ps_scene_entry *entry);
 /* The key of an entry, for complaints and names of columns: "points". */
 const char *ps_scene_key(const ps_scene_entry *entry);
 

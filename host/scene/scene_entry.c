@@ -106,6 +106,7 @@ pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene
 
 static void set_text(ps_scene_value *value, size_t index, const char *text) {
     value->texts[index] = value->originals[index] = text;
+    value->label = value->originals[0];
 }
 
 /* The scalars of a node as the texts of one value. */

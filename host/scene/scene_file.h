@@ -72,19 +72,26 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_scene_result *result, int option, const char *key,
                                  const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
 
-/* The kinds that a scene may have results of; ended by NULL. */
-extern const ps_kind *const ps_scene_kinds[];
-
-/* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
- * names none. */
-const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text);
-
 /* What reads a scene. */
 typedef struct ps_scene_reader {
     ps_scene *scene;
     const ps_scene_file *file;
     const ps_scene_node *defaults; /* NULL: none */
 } ps_scene_reader;
+
+/* The values of `sets`, an entry of samplers. */
+pspec_status ps_scene_take_sets(const ps_scene_reader *reader, const ps_scene_node *node,
+                                ps_scene_entry *out) PS_MUST_CHECK;
+/* Makes one entry of `samplers` and `sets`, where a result has both. */
+pspec_status ps_scene_join_sources(const ps_scene_reader *reader,
+                                   ps_scene_result *result) PS_MUST_CHECK;
+
+/* The kinds that a scene may have results of; ended by NULL. */
+extern const ps_kind *const ps_scene_kinds[];
+
+/* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
+ * names none. */
+const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text);
 
 /* A scene asks at most so many questions: pages of more are of no use to anyone, and a record of
  * more could not be read. */

@@ -63,7 +63,9 @@ static pspec_status visit_value(const ps_scene *scene, const ps_scene_result *re
                                 const ps_scene_entry *entry, const ps_scene_value *value,
                                 ps_scene_visit_input *visit, void *payload, ps_error *error) {
     for (size_t i = 0; i < value->num_texts; i++) {
-        const char *const path = ps_scene_find_path(result->kind, entry->option, value->texts[i]);
+        const char *const path =
+            value->is_set ? value->texts[i]
+                          : ps_scene_find_path(result->kind, entry->option, value->texts[i]);
         if (path != NULL) {
             PS_TRY(visit(payload, scene, entry, value, path, error));
         }

@@ -22,7 +22,7 @@ static pspec_status add_limit(ps_scene *scene, ps_scene_result *result, const ch
     ps_scene_value *const value = memory;
     PS_TRY(ps_scene_make_value(scene, 1, result->line, value, error));
     PS_TRY(ps_scene_copy(scene, "", text, &value->texts[0], error));
-    value->originals[0] = value->texts[0];
+    value->label = value->originals[0] = value->texts[0];
     PS_TRY(ps_scene_allocate(scene, num + 1, sizeof *result->entries, &memory, error));
     ps_scene_entry *const entries = memory;
     if (num > 0) {

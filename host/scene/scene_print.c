@@ -51,8 +51,7 @@ void ps_scene_print_text(const char *text, ps_text *out) {
 }
 
 /* Paths as the scene has them: the record says which folder they are relative to. */
-static void print_value(const ps_scene_entry *entry, const ps_scene_value *value, ps_text *out) {
-    const bool is_list = entry->option == PS_SCENE_FILES;
+static void print_value(const ps_scene_value *value, bool is_list, ps_text *out) {
     ps_text_append(out, is_list ? "[" : "");
     for (size_t i = 0; i < value->num_texts; i++) {
         ps_text_append(out, i > 0 ? ", " : "");
@@ -61,13 +60,35 @@ static void print_value(const ps_scene_entry *entry, const ps_scene_value *value
     ps_text_append(out, is_list ? "]" : "");
 }
 
-static void print_entry(const ps_scene_entry *entry, ps_text *out) {
+static void print_values(const ps_scene_entry *entry, size_t num, ps_text *out) {
     ps_text_append(out, ",\n     \"%s\": [", ps_scene_key(entry));
-    for (size_t i = 0; i < entry->num_values; i++) {
+    for (size_t i = 0; i < num; i++) {
         ps_text_append(out, i > 0 ? ", " : "");
-        print_value(entry, &entry->values[i], out);
+        print_value(&entry->values[i], entry->option == PS_SCENE_FILES, out);
     }
     ps_text_append(out, "]");
+}
+
+static void print_sets(const ps_scene_entry *entry, size_t first, ps_text *out) {
+    ps_text_append(out, ",\n     \"sets\": {");
+    for (size_t i = first; i < entry->num_values; i++) {
+        ps_text_append(out, i > first ? ", " : "");
+        ps_scene_print_text(entry->values[i].label, out);
+        ps_text_append(out, ": ");
+        print_value(&entry->values[i], true, out);
+    }
+    ps_text_append(out, "}");
+}
+
+/* Sets stand behind samplers. */
+static void print_entry(const ps_scene_entry *entry, ps_text *out) {
+    const size_t num = entry->num_values - ps_scene_num_sets(entry);
+    if (num > 0) {
+        print_values(entry, num, out);
+    }
+    if (num < entry->num_values) {
+        print_sets(entry, num, out);
+    }
 }
 
 static void print_result(const ps_scene_result *result, ps_text *out) {

@@ -28,9 +28,25 @@ const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t nu
     return &entry->values[number % entry->num_values];
 }
 
+/* Beside sets what is about samplers says nothing to these, and the reverse. */
+static bool is_for_others(const ps_scene_question *question, int option) {
+    const ps_scene_entry *const sources = ps_scene_find_sources(question->result);
+    const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
+    if (num_sets == 0 || num_sets == sources->num_values || option == PS_SCENE_FILES) {
+        return false;
+    }
+    const size_t i = (size_t)(sources - question->result->entries);
+    const bool is_set = ps_scene_value_of(question->result, question->number, i)->is_set;
+    return ps_options[option].source == (is_set ? PS_OF_SAMPLERS : PS_OF_FILES) ||
+           (is_set && option == PS_OPTION_POINTS);
+}
+
 static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *entry,
                                const ps_scene_value *value, ps_error *error) {
-    if (entry->option == PS_SCENE_FILES) {
+    if (is_for_others(out, entry->option)) {
+        return PSPEC_OK;
+    }
+    if (entry->option == PS_SCENE_FILES || value->is_set) {
         out->request.files = value->texts;
         out->request.num_files = value->num_texts;
         return PSPEC_OK;

@@ -13,16 +13,21 @@ void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *kn
     }
 }
 
-static const char *const own_keys[] = {"result", "name",  "title",    "plot",      "pictures",
-                                       "arrays", "files", "samplers", "integrands"};
+static const char *const own_keys[] = {"result", "name",  "title",    "plot", "pictures",
+                                       "arrays", "files", "samplers", "sets", "integrands"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
+
+static const char sets_key[] = "sets";
 
 /* The option that a key of a result means; -1: none. */
 static int find_option(const ps_kind *kind, const char *key) {
     if (strcmp(key, "files") == 0) {
         return ps_kind_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
     }
-    const char *const name = strcmp(key, "samplers") == 0     ? "sampler"
+    if (strcmp(key, sets_key) == 0 && !ps_kind_asks(kind, PS_OPTION_INPUT_FORMAT)) {
+        return -1;
+    }
+    const char *const name = strcmp(key, "samplers") == 0 || strcmp(key, sets_key) == 0 ? "sampler"
                              : strcmp(key, "integrands") == 0 ? "integrand"
                                                               : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
@@ -128,6 +133,14 @@ static pspec_status take_arrays(const ps_scene_reader *reader, const ps_scene_no
                                    kind->has_coefficients ? " or coefficients" : "", text);
 }
 
+static pspec_status take_entry(const ps_scene_reader *reader, ps_scene_result *out, int option,
+                               const char *key, const ps_scene_node *value) {
+    ps_scene_entry *const entry = &out->entries[out->num_entries++];
+    return strcmp(key, sets_key) == 0
+               ? ps_scene_take_sets(reader, value, entry)
+               : ps_scene_take_entry(reader->scene, reader->file, out, option, key, value, entry);
+}
+
 static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *out, const char *key,
                               int line, const ps_scene_node *value) {
     if (strcmp(key, "result") == 0) {
@@ -152,8 +165,7 @@ static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *ou
     if (option < 0) {
         return complain_of_key(reader, out->kind, line, key);
     }
-    return ps_scene_take_entry(reader->scene, reader->file, out, option, key, value,
-                               &out->entries[out->num_entries++]);
+    return take_entry(reader, out, option, key, value);
 }
 
 /* A flag that is said to be off, also in a record, where every value is a list. */
@@ -209,10 +221,18 @@ static bool is_settled(const ps_scene_result *result, int option) {
 
 /* Defaults that are about samplers are not for files, nor the reverse; a kind may leave more. */
 static bool fits_result(const ps_scene_result *result, int option) {
-    const ps_option_source other = has_entry(result, PS_SCENE_FILES) ? PS_OF_SAMPLERS : PS_OF_FILES;
-    return option == PS_SCENE_FILES || (ps_options[option].source != other &&
-                                        (result->kind->leaves_default == NULL ||
-                                         !result->kind->leaves_default((ps_option_id)option)));
+    const ps_scene_entry *const sources = ps_scene_find_sources(result);
+    const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
+    const bool are_files =
+        has_entry(result, PS_SCENE_FILES) || (num_sets > 0 && num_sets == sources->num_values);
+    if (option == PS_SCENE_FILES) {
+        return true;
+    }
+    const ps_option_source source = ps_options[option].source;
+    return !(are_files && source == PS_OF_SAMPLERS) &&
+           !(!are_files && num_sets == 0 && source == PS_OF_FILES) &&
+           (result->kind->leaves_default == NULL ||
+            !result->kind->leaves_default((ps_option_id)option));
 }
 
 static void drop_unfit(ps_scene_result *result, size_t num_own) {
@@ -235,12 +255,12 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
         const int option = find_option(out->kind, key);
         own.num_entries = num_own;
         if (option >= 0 && !is_settled(&own, option)) {
-            PS_TRY(ps_scene_take_entry(reader->scene, reader->file, out, option, key, value,
-                                       &out->entries[out->num_entries++]));
+            PS_TRY(take_entry(reader, out, option, key, value));
         } else if (option < 0 && !is_any_option(key)) {
             return complain_of_key(reader, out->kind, value->line, key);
         }
     }
+    PS_TRY(ps_scene_join_sources(reader, out));
     drop_unfit(out, num_own);
     return PSPEC_OK;
 }
@@ -289,6 +309,30 @@ static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_re
     return PSPEC_OK;
 }
 
+/* Sets are files, and so others have no place beside them; they have their numbers of points. */
+static pspec_status check_entries(const ps_scene_reader *reader, ps_scene_result *result) {
+    PS_TRY(ps_scene_join_sources(reader, result));
+    PS_TRY(check_twice(reader, result));
+    const ps_scene_entry *const sources = ps_scene_find_sources(result);
+    if (result->is_joined && sources != NULL && ps_scene_num_sets(sources) > 0) {
+        return ps_scene_complain(reader->file, sources->line, sets_key,
+                                 "a result that compares samplers has no sets; the command "
+                                 "compares them (--set)");
+    }
+    for (size_t i = 0; sources != NULL && i < result->num_entries; i++) {
+        const ps_scene_entry *const entry = &result->entries[i];
+        const bool are_several = entry->option == PS_OPTION_POINTS && entry->num_values > 1;
+        if (ps_scene_num_sets(sources) > 0 && (entry->option == PS_SCENE_FILES || are_several)) {
+            return ps_scene_complain(reader->file, entry->line, ps_scene_key(entry),
+                                     are_several
+                                         ? "%s have their own, and one number is for samplers"
+                                         : "beside %s files stand under a name, as one of them",
+                                     sets_key);
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status check_questions(const ps_scene_reader *reader, const ps_scene_result *result) {
     double num = 1;
     for (size_t i = 0; i < result->num_entries; i++) {
@@ -312,8 +356,9 @@ pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_
     PS_TRY(find_kind(reader, node, out));
     PS_TRY(find_joining(reader, node, NULL, out));
     PS_TRY(find_joining(reader, reader->defaults, node, out));
-    /* every option, files, and `sampler` beside `samplers`, `integrand` beside `integrands` */
-    PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 3, sizeof *out->entries, &entries,
+    /* every option, files, sets, and `sampler` beside `samplers`, `integrand` beside `integrands`
+     */
+    PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 4, sizeof *out->entries, &entries,
                              reader->file->error));
     out->entries = entries;
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
@@ -322,8 +367,8 @@ pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_
         PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
         PS_TRY(take_pair(reader, out, key, value->line, value));
     }
-    PS_TRY(check_twice(reader, out));
+    PS_TRY(check_entries(reader, out));
     PS_TRY(take_defaults(reader, out));
-    PS_TRY(check_twice(reader, out));
+    PS_TRY(check_entries(reader, out));
     return check_questions(reader, out);
 }

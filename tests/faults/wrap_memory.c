@@ -6,6 +6,7 @@
 
 #include <cJSON.h>
 #include <errno.h>
+#include <glob.h>
 #include <stddef.h>
 #include <xxhash.h>
 #include <yaml.h>
@@ -121,3 +122,20 @@ WRAPPER(yaml_parser_delete, void, (yaml_parser_t * parser)) {
 
 YAML_STEP(yaml_parser_parse, yaml_event_t)
 DEALLOCATION(yaml_event_delete, yaml_event_t *)
+
+/* Names of files that match: the list belongs to who gives it back. */
+WRAPPER(glob64, int,
+        (const char *pattern, int flags, int (*tell)(const char *, int), glob_t *found)) {
+    if (is_refused("glob64")) {
+        return GLOB_NOSPACE;
+    }
+    fault_lose(found->gl_pathv);
+    const int code = __real_glob64(pattern, flags, tell, found);
+    fault_gain(found->gl_pathv, "glob64");
+    return code;
+}
+
+WRAPPER(globfree64, void, (glob_t * found)) {
+    fault_lose(found->gl_pathv);
+    __real_globfree64(found);
+}

@@ -415,6 +415,7 @@ results: [&r {result: power, points: *n, title: "\u2028\x80\N"}, {result: power,
 EOF
 printf '{"scene": "1", "results": [{"result": "power", "name": "a", "plot": "true", "files": [["a", "b"]]}], "record": {"folder": "/x/",
 "device": "d", "pointspec_version": "0", "kind": "k", "questions": [{"seed": "1", "engine": "(host_direct)", "precision": "extended"}], "digests": ["0a", "0b"]}}\n' | seed scene record ''
+printf 'scene: 1\nresults:\n  - {result: power, sets: {a: [b.txt, c.txt], d: e.txt}, samplers: [white, halton], points: 4, wrap: true, seed: 2}\n' | seed scene sets ''
 printf 'scene: 1\nresults: &a\n  - *a\n' | seed scene itself ''
 printf '[[[[[[[[[[[[[[[[[[[[[' | seed scene nest ''
 printf 'scene: 1\nresults:\n  - {result: power, pionts: 3}\n' | seed scene typing ''

@@ -33,9 +33,11 @@ static pspec_status check_domain(const ps_request *request, ps_error *error) {
     return PSPEC_OK;
 }
 
-static bool are_both_saved(const ps_request *request) {
-    return request->against != NULL && request->num_sources == 0 && request->num_files == 1 &&
-           ps_saved_spectrum_is_one(request->files[0]);
+static pspec_status find_both_saved(bool *are_both, const ps_request *request, ps_error *error) {
+    *are_both = false;
+    return request->against != NULL && request->num_sources == 0 && request->num_files == 1
+               ? ps_saved_spectrum_find(are_both, request->files[0], error)
+               : PSPEC_OK;
 }
 
 /* Options about points and how they are computed with. */
@@ -55,6 +57,7 @@ static pspec_status check_both(const ps_request *request, ps_error *error) {
 }
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
+    bool are_both_saved = false;
     if (request->homogeneous) {
         return ps_homogeneity_check(request, error);
     }
@@ -63,7 +66,8 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
                        "--against FILE, the saved spectrum, or --homogeneous is needed");
     }
     PS_TRY(check_domain(request, error));
-    if (are_both_saved(request)) {
+    PS_TRY(find_both_saved(&are_both_saved, request, error));
+    if (are_both_saved) {
         return check_both(request, error);
     }
     PS_TRY(ps_request_check_one_count(request, "and a saved spectrum is of one", error));
@@ -99,11 +103,13 @@ static pspec_status read_other(checked *check, const ps_request *request, ps_err
 /* Reads the saved spectrum and finds out what it asks of the measured side. *out is for discard,
  * also after an error. */
 static pspec_status ask(checked **out, const ps_request *request, ps_error *error) {
+    bool are_both_saved = false;
     PS_TRY(check_question(request, error));
     PS_TRY(PS_NEW(out, 1, "a check", error));
     checked *const check = *out;
     PS_TRY(ps_saved_spectrum_read(&check->saved, request->against, error));
-    if (are_both_saved(request)) {
+    PS_TRY(find_both_saved(&are_both_saved, request, error));
+    if (are_both_saved) {
         return read_other(check, request, error);
     }
     check->own = ps_check_request(request, &check->saved);
@@ -122,7 +128,7 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     }
     pspec_status status = ask(&check, request, error);
     if (status == PSPEC_OK) {
-        status = are_both_saved(request)
+        status = check->list.num == 0
                      ? plan_nothing(planner, error)
                      : ps_spectra_plan_list(planner, &check->own, &check->list, error);
     }

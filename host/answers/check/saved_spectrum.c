@@ -6,6 +6,7 @@
 #include "spectra/file/spectrum_file.h"
 #include "spectra/file/spectrum_format.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -149,17 +150,27 @@ static pspec_status find_kind(file_kind *out, ps_input *input, const char *path,
 }
 
 /* A stream would lose what is looked at, and points may come by one. */
-bool ps_saved_spectrum_is_one(const char *path) {
+pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *error) {
     struct stat facts;
     ps_input input = {0};
     ps_error reason = {0};
     file_kind kind = OTHER;
-    if (strcmp(path, "-") == 0 || stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) {
-        return false;
+    *is_one = false;
+    if (strcmp(path, "-") == 0) {
+        return PSPEC_OK;
+    }
+    if (stat(path, &facts) != 0) {
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
+    }
+    if (!S_ISREG(facts.st_mode)) {
+        return PSPEC_OK;
     }
     const pspec_status status = find_kind(&kind, &input, path, &reason);
     ps_input_close(&input);
-    return status == PSPEC_OK && kind != OTHER;
+    *is_one = status == PSPEC_OK && kind != OTHER;
+    return status == PSPEC_OK || status == PSPEC_ERROR_INPUT
+               ? PSPEC_OK
+               : ps_fail(error, status, "%s", reason.message);
 }
 
 static pspec_status read_either(ps_saved_spectrum *out, ps_input *input, const char *path,

@@ -38,8 +38,9 @@ typedef struct ps_saved_spectrum {
     ps_saved_bin *bins; /* ascending keys */
 } ps_saved_spectrum;
 
-/* Has the file the beginning of a saved spectrum, and is no stream? */
-bool ps_saved_spectrum_is_one(const char *path);
+/* Has the file the beginning of a saved spectrum, and is no stream? What is empty is none: who
+ * reads points of it says so. */
+pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *error) PS_MUST_CHECK;
 
 /* What is no saved spectrum, damaged, or has no rings or degrees, is PSPEC_ERROR_INPUT with path in
  * the sentence. */

@@ -13,7 +13,7 @@ void ps_plot_title(const ps_artist *artist, const ps_picture *picture, const cha
     const ps_scene_result *const asked = artist->result->asked;
     ps_text_append(out, "%s", asked->title != NULL ? asked->title : asked->name);
     if (picture->value != NULL) {
-        ps_text_append(out, ", %s", picture->value->originals[0]);
+        ps_text_append(out, ", %s", picture->value->label);
     }
     if (what[0] != '\0') {
         ps_text_append(out, ": %s", what);

@@ -29,7 +29,7 @@ static size_t find_fastest(const ps_scene_result *asked, const ps_picture *what)
 static void append_value(const ps_scene_result *asked, size_t question, size_t entry,
                          ps_text *out) {
     ps_text_append(out, "%s%s", out->length > 0 ? ", " : "",
-                   ps_scene_value_of(asked, question, entry)->originals[0]);
+                   ps_scene_value_of(asked, question, entry)->label);
 }
 
 static void label_panel(const ps_scene_result *asked, const ps_picture *what, size_t question,

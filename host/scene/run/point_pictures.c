@@ -15,7 +15,7 @@ static ps_sampler_domain find_domain(const ps_table *table) {
 void ps_name_sampler(const ps_scene_result *asked, size_t question, ps_text *out) {
     for (size_t i = 0; i < asked->num_entries; i++) {
         const ps_scene_entry *const entry = &asked->entries[i];
-        const char *const text = ps_scene_value_of(asked, question, i)->originals[0];
+        const char *const text = ps_scene_value_of(asked, question, i)->label;
         const char *const comma = out->length > 0 ? ", " : "";
         if (entry->option == PS_OPTION_SAMPLER) {
             ps_text_append(out, "%s%s", comma, text);

@@ -15,7 +15,7 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
     for (size_t i = 0; i < asked->num_entries; i++) {
         if (ps_run_varies(&asked->entries[i])) {
             ps_text_append(out, "%s%s", is_first ? "" : ", ",
-                           ps_scene_value_of(asked, number, i)->originals[0]);
+                           ps_scene_value_of(asked, number, i)->label);
             is_first = false;
         }
     }
@@ -25,7 +25,7 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
         const bool is_one = option != PS_OPTION_SAMPLER || value->num_texts == 1;
         if (is_one &&
             (option == PS_OPTION_SAMPLER || option == PS_SCENE_FILES || option == PS_OPTION_BRDF)) {
-            ps_text_append(out, "%s", value->originals[0]);
+            ps_text_append(out, "%s", value->label);
             is_first = false;
         }
     }
@@ -49,8 +49,8 @@ static pspec_status begin(ps_table **out, const ps_run *run, const ps_run_result
 static ps_cell value_cell(const ps_scene_value *value) {
     char *end = NULL;
     errno = 0;
-    const long long whole = strtoll(value->originals[0], &end, 10);
-    return *end == '\0' && errno == 0 ? PS_INTEGER(whole) : PS_TEXT(value->originals[0]);
+    const long long whole = strtoll(value->label, &end, 10);
+    return *end == '\0' && errno == 0 ? PS_INTEGER(whole) : PS_TEXT(value->label);
 }
 
 static size_t count_varying(const ps_run_result *result) {

@@ -1,0 +1,164 @@
+/* Sets of files under names, values beside samplers: where points come from is one key. */
+#include "request/file_list.h"
+#include "scene/scene_file.h"
+
+#include <string.h>
+
+/* ---- the files of a set -------------------------------------------------------------------- */
+
+/* The place of a set in the file. */
+typedef struct place {
+    ps_scene *scene;
+    const ps_scene_file *file;
+    const char *name;
+} place;
+
+/* A name or pattern, relative to the folder of the scene. */
+static pspec_status add_path(const place *at, ps_file_list *list, const ps_scene_node *item) {
+    const char *text = NULL;
+    const char *path = NULL;
+    ps_error reason = {0};
+    PS_TRY(ps_scene_take_text(at->file, item, at->name, &text));
+    const bool is_odd = at->scene->folder[0] == '\0' && text[0] == '-' && text[1] != '\0';
+    const char *const before = text[0] == '/' || text[0] == '-' ? "" : at->scene->folder;
+    PS_TRY(ps_scene_copy(at->scene, is_odd ? "./" : before, text, &path, at->file->error));
+    const pspec_status status = ps_file_list_add(list, "sets", path, &reason);
+    if (status == PSPEC_ERROR_MEMORY) {
+        *at->file->error = reason;
+        return status;
+    }
+    return status == PSPEC_OK
+               ? PSPEC_OK
+               : ps_scene_complain(at->file, item->line, at->name, "%s", reason.message);
+}
+
+/* Records name the files that were found, relative to the folder as the scene has them. */
+static pspec_status copy_paths(const place *at, const ps_file_list *list, int line,
+                               ps_scene_value *out) {
+    const size_t length = strlen(at->scene->folder);
+    ps_error *const error = at->file->error;
+    PS_TRY(ps_scene_make_value(at->scene, list->num, line, out, error));
+    for (size_t i = 0; i < list->num; i++) {
+        const char **const text = &out->texts[i];
+        PS_TRY(ps_scene_copy(at->scene, "", list->paths[i], text, error));
+        const bool is_below = strncmp(*text, at->scene->folder, length) == 0;
+        out->originals[i] = *text + (is_below ? length : 0);
+    }
+    out->is_set = true;
+    out->label = at->name;
+    return PSPEC_OK;
+}
+
+static pspec_status take_set(const place *at, const ps_scene_node *node, ps_scene_value *out) {
+    ps_file_list list = {0};
+    pspec_status status = PSPEC_OK;
+    const ps_scene_node *item = ps_scene_first_item(node);
+    if (ps_scene_num_items(node) == 0 || at->name[0] == '\0' ||
+        strlen(at->name) >= PS_SET_NAME_BYTES) {
+        return ps_scene_complain(at->file, node->line, "sets",
+                                 "\"%s\" needs a name of 1 to %d bytes, and files", at->name,
+                                 PS_SET_NAME_BYTES - 1);
+    }
+    for (size_t i = 0; status == PSPEC_OK && i < ps_scene_num_items(node); i++) {
+        status = add_path(at, &list, item);
+        item = item->next;
+    }
+    if (status == PSPEC_OK) {
+        status = copy_paths(at, &list, node->line, out);
+    }
+    ps_file_list_free(&list);
+    return status;
+}
+
+pspec_status ps_scene_take_sets(const ps_scene_reader *reader, const ps_scene_node *node,
+                                ps_scene_entry *out) {
+    void *values = NULL;
+    const size_t num = ps_scene_num_pairs(node);
+    *out = (ps_scene_entry){.option = PS_OPTION_SAMPLER, .line = node->line, .num_values = num};
+    if (node->kind != PS_NODE_MAPPING || num == 0 || num > PS_MAX_SAMPLERS) {
+        return ps_scene_complain(reader->file, node->line, "sets",
+                                 "a mapping is wanted here, of 1 to %d names to files, as in "
+                                 "{mine: [a.txt, b.txt], theirs: c*.txt}",
+                                 PS_MAX_SAMPLERS);
+    }
+    PS_TRY(
+        ps_scene_allocate(reader->scene, num, sizeof *out->values, &values, reader->file->error));
+    out->values = values;
+    for (size_t i = 0; i < num; i++) {
+        place at = {.scene = reader->scene, .file = reader->file};
+        const ps_scene_node *files = NULL;
+        PS_TRY(ps_scene_pair(reader->file, node, i, &at.name, &files));
+        PS_TRY(take_set(&at, files, &out->values[i]));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- beside samplers ----------------------------------------------------------------------- */
+
+const ps_scene_entry *ps_scene_find_sources(const ps_scene_result *result) {
+    size_t i = 0;
+    while (i < result->num_entries && result->entries[i].option != PS_OPTION_SAMPLER) {
+        i++;
+    }
+    return i < result->num_entries ? &result->entries[i] : NULL;
+}
+
+size_t ps_scene_num_sets(const ps_scene_entry *entry) {
+    size_t num = 0;
+    for (size_t i = 0; i < entry->num_values; i++) {
+        num += entry->values[i].is_set;
+    }
+    return num;
+}
+
+static pspec_status check_names(const ps_scene_reader *reader, const ps_scene_entry *samplers,
+                                const ps_scene_entry *sets) {
+    for (size_t i = 0; i < sets->num_values; i++) {
+        for (size_t k = 0; k < samplers->num_values; k++) {
+            if (strcmp(sets->values[i].label, samplers->values[k].label) == 0) {
+                return ps_scene_complain(reader->file, sets->values[i].line, "sets",
+                                         "\"%s\" is the name of a sampler of line %d already",
+                                         sets->values[i].label, samplers->line);
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* Samplers come first, whatever the order in the file: so a record has them. */
+static pspec_status join(const ps_scene_reader *reader, ps_scene_entry *out,
+                         const ps_scene_entry *samplers, const ps_scene_entry *sets) {
+    const size_t num = samplers->num_values + sets->num_values;
+    ps_scene_entry joined = *out;
+    void *values = NULL;
+    PS_TRY(check_names(reader, samplers, sets));
+    PS_TRY(
+        ps_scene_allocate(reader->scene, num, sizeof *joined.values, &values, reader->file->error));
+    joined.values = values;
+    joined.num_values = num;
+    memcpy(joined.values, samplers->values, samplers->num_values * sizeof *joined.values);
+    memcpy(joined.values + samplers->num_values, sets->values,
+           sets->num_values * sizeof *joined.values);
+    *out = joined;
+    return PSPEC_OK;
+}
+
+pspec_status ps_scene_join_sources(const ps_scene_reader *reader, ps_scene_result *result) {
+    ps_scene_entry *sources[2] = {NULL, NULL}; /* samplers, sets */
+    for (size_t i = 0; i < result->num_entries; i++) {
+        ps_scene_entry *const entry = &result->entries[i];
+        if (entry->option == PS_OPTION_SAMPLER) {
+            sources[ps_scene_num_sets(entry) > 0] = entry;
+        }
+    }
+    if (sources[0] == NULL || sources[1] == NULL) {
+        return PSPEC_OK;
+    }
+    ps_scene_entry *const first = sources[0] < sources[1] ? sources[0] : sources[1];
+    ps_scene_entry *const second = sources[0] < sources[1] ? sources[1] : sources[0];
+    PS_TRY(join(reader, first, sources[0], sources[1]));
+    result->num_entries--;
+    memmove(second, second + 1,
+            (size_t)(result->entries + result->num_entries - second) * sizeof *second);
+    return PSPEC_OK;
+}
