@@ -99,12 +99,16 @@ static bool has_bars(const ps_picture *what) {
            (what->form == PS_PICTURE_SPECTRA || what->form == PS_PICTURE_IMAGE);
 }
 
-/* What pure noise comes to, where the table has a level of it, and what is rounding. */
-static void take_limits(ps_series *line, const ps_table *table) {
+/* What pure noise comes to, where the table has a level of it, and what is rounding: of powers the
+ * square of the error of S, of others the error itself, that of pair sums in units of W^2. */
+static void take_limits(ps_series *line, const ps_table *table, bool is_power) {
     const double error = ps_cell_number(ps_table_find_meta(table, "predicted_error"));
+    const double sum = ps_cell_number(ps_table_find_meta(table, "weight_sum"));
     const double level = ps_cell_number(ps_table_find_meta(table, "noise_level_db"));
     const double num = ps_cell_number(ps_table_find_meta(table, "realizations"));
-    line->floor = error > 0 ? error * error : 0;
+    if (error > 0) {
+        line->floor = is_power ? error * error : error * (isfinite(sum) ? sum * sum : 1);
+    }
     line->num_realizations = isfinite(level) ? num : 1;
 }
 
@@ -119,10 +123,10 @@ static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t 
     for (size_t i = 0; i < num_columns; i++) {
         ps_table_read_column(table, names[i], set->numbers[index] + i * num);
     }
+    take_limits(&set->lines[index], table, what->form != PS_PICTURE_COLUMNS);
     if (num_columns == MOST_COLUMNS) {
         set->lines[index].error = set->numbers[index] + 2 * num;
         set->lines[index].anisotropy = set->numbers[index] + 3 * num;
-        take_limits(&set->lines[index], table);
     }
     return PSPEC_OK;
 }
