@@ -77,8 +77,8 @@ static void print_panel(const ps_plot_raster *raster, const ps_script_box *where
             1.4 * beside / where->page_width, (where->bottom - where->top) / where->page_height);
     print_colour_ticks(raster->maximum, stream);
     fputs("set cblabel 'power' offset -0.6,0\nset xtics out nomirror\nset ytics out nomirror\n"
-          "set xlabel 'normalized frequency k₁ N^{-1/2}' offset 0,0.6\n"
-          "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 2,0\n",
+          "set xlabel 'normalized frequency k₁ N^{-1/2}' offset 0,0.2\n"
+          "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1.2,0\n",
           stream);
     fprintf(stream, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent, -extent,
             extent);

@@ -31,9 +31,10 @@ static bool has_places(const ps_figure *figure, const ps_panel *panel) {
     return false;
 }
 
-static void print_look(const ps_figure *figure, const ps_series *series, FILE *stream) {
+static void print_look(const ps_figure *figure, const ps_series *series, double width,
+                       FILE *stream) {
     if (figure->form == PS_FIGURE_PANELS) {
-        fputs("with linespoints pointtype 7 pointsize 0.3 linewidth 1.6 ", stream);
+        fprintf(stream, "with linespoints pointtype 7 pointsize 0.3 linewidth %g ", width);
         ps_script_print_style(series->kind, stream);
         return;
     }
@@ -83,7 +84,7 @@ static void print_panel(const ps_figure *figure, size_t i, FILE *stream) {
     fputs("plot ", stream);
     for (size_t j = 0; j < panel->num_series; j++) {
         fprintf(stream, "%s$data%zu_%zu using 1:2 ", j > 0 ? ", " : "", i, j);
-        print_look(figure, &panel->series[j], stream);
+        print_look(figure, &panel->series[j], ps_script_line_width(figure, panel, j), stream);
         fputs(" notitle", stream);
     }
     putc('\n', stream);
@@ -108,7 +109,7 @@ static void print_key(const ps_figure *figure, FILE *stream) {
             }
             is_done[kind] = true;
             fputs("NaN ", stream);
-            print_look(figure, series, stream);
+            print_look(figure, series, PS_SCRIPT_LINE_WIDTH, stream);
             fputs(" title ", stream);
             ps_script_print_text(series->label, stream);
             fputs(", ", stream);
@@ -117,44 +118,45 @@ static void print_key(const ps_figure *figure, FILE *stream) {
     fputs("NaN notitle\n", stream);
 }
 
-/* What all places of one axis lie in. */
-typedef struct range {
-    double least, most;
-} range;
-
-static void widen(range *places, double value) {
-    places->least = fmin(places->least, value);
-    places->most = fmax(places->most, value);
-}
-
-/* A linear axis begins at 0, unless something is below it; a logarithmic one leaves out what
- * rounding left. */
-static void print_range(const char *axis, range places, bool is_log, FILE *stream) {
-    const double digits = 1e-16;
+/* A linear axis begins at 0, unless something is below it. */
+static void print_range(const char *axis, ps_plot_span places, bool is_log, FILE *stream) {
     const double margin = 1.05;
-    const double low = is_log ? fmax(places.least, places.most * digits) : fmin(places.least, 0);
+    const double low = is_log ? places.least : fmin(places.least, 0);
     if (places.most > low) {
-        fprintf(stream, "set %srange [%.9g:%.9g]\n", axis, is_log ? low / margin : low * margin,
-                places.most * margin);
+        const double end = is_log ? low / margin : low * margin;
+        ps_script_print_span(axis, (ps_plot_span){end, places.most * margin}, stream);
     }
 }
 
-static void print_ranges(const ps_figure *figure, FILE *stream) {
-    range x = {INFINITY, -INFINITY};
-    range y = {INFINITY, -INFINITY};
-    for (size_t i = 0; i < figure->num_panels; i++) {
-        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
-            const ps_series *const series = &figure->panels[i].series[j];
-            for (size_t place = 0; place < series->num; place++) {
-                if (ps_script_is_shown(figure, series, place)) {
-                    widen(&x, series->x[place]);
-                    widen(&y, series->y[place]);
-                }
-            }
+static void widen_by(ps_plot_span *places, ps_plot_span other) {
+    ps_plot_span_widen(places, other.least);
+    ps_plot_span_widen(places, other.most);
+}
+
+static void widen_by_places(const ps_figure *figure, const ps_series *series, ps_plot_span *x,
+                            ps_plot_span *y) {
+    for (size_t place = 0; place < series->num; place++) {
+        if (ps_script_is_shown(figure, series, place)) {
+            ps_plot_span_widen(x, series->x[place]);
+            ps_plot_span_widen(y, series->y[place]);
         }
     }
+}
+
+/* A logarithmic axis of y leaves out what rounding left. */
+static void print_ranges(const ps_figure *figure, FILE *stream) {
+    ps_plot_span x = ps_plot_span_none();
+    ps_plot_span y = ps_plot_span_none();
+    ps_plot_span above = ps_plot_span_none();
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        const ps_panel *const panel = &figure->panels[i];
+        for (size_t j = 0; j < panel->num_series; j++) {
+            widen_by_places(figure, &panel->series[j], &x, &y);
+        }
+        widen_by(&above, ps_plot_span_above(panel));
+    }
     print_range("x", x, figure->is_log_x, stream);
-    print_range("y", y, figure->is_log_y, stream);
+    print_range("y", figure->is_log_y ? above : y, figure->is_log_y, stream);
 }
 
 void ps_script_size_panels(const ps_figure *figure, int *width, int *height) {

@@ -13,7 +13,7 @@ enum {
     IMAGE_WIDTH = 770,
     CURVES_WIDTH = 630,
     TOP = 56,
-    BOTTOM = 630,
+    BOTTOM = 614,
     LEFT = 84,
     RIGHT = 18
 };
@@ -228,7 +228,7 @@ static void print_frequencies(const layout *where, bool is_bottom, FILE *stream)
     const ps_plot_span own = find_frequencies(figure, where->curves);
     print_axis("x", figure->is_log_x, or_asked(own, figure->axes.has_x, figure->axes.x), stream);
     if (is_bottom) {
-        fprintf(stream, "set xlabel '%s' offset 0,0.4\n", where->x_label);
+        fprintf(stream, "set xlabel '%s' offset 0,0.2\n", where->x_label);
     } else {
         fputs("set format x ''\nunset xlabel\n", stream);
     }

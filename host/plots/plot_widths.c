@@ -41,12 +41,11 @@ static bool is_curve(const ps_series *series) {
 }
 
 double ps_script_line_width(const ps_figure *figure, const ps_panel *panel, size_t index) {
-    const double width = 1.6;
     const double more = 2.2; /* of each curve above */
     const ps_series *const own = &panel->series[index];
     size_t num_above = 0;
     for (size_t i = index + 1; is_curve(own) && i < panel->num_series; i++) {
         num_above += is_curve(&panel->series[i]) && do_coincide(figure, own, &panel->series[i]);
     }
-    return width + more * (double)(num_above < MOST_ABOVE ? num_above : MOST_ABOVE);
+    return PS_SCRIPT_LINE_WIDTH + more * (double)(num_above < MOST_ABOVE ? num_above : MOST_ABOVE);
 }

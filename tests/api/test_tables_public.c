@@ -70,18 +70,28 @@ static void tables_are_read(void **state) {
     pspec_context_destroy(context);
 }
 
+static bool is_one_of(const char *name, const char *const *names) {
+    while (*names != NULL && strcmp(name, *names) != 0) {
+        names++;
+    }
+    return *names != NULL;
+}
+
 /* Every kind is found, and every option that it says it takes. */
 static void options_are_listed(void **state) {
     (void)state;
+    static const char *const last_ones[] = {"plot-points", "plot-range", "format", NULL};
+    static const char *const have_points[] = {"power", "angular", NULL};
     pspec_context *const context = pspec_context_create();
     size_t num = 0;
     for (; pspec_answer_kind(num) != NULL; num++) {
         pspec_table *table = NULL;
-        assert_int_equal(pspec_options_table(&table, context, pspec_answer_kind(num)), PSPEC_OK);
+        const char *const kind = pspec_answer_kind(num);
+        assert_int_equal(pspec_options_table(&table, context, kind), PSPEC_OK);
         const size_t rows = pspec_table_num_rows(table);
         assert_true(rows > 3);
-        assert_string_equal(pspec_table_cell(table, rows - 1, 0).text,
-                            strcmp(pspec_answer_kind(num), "check") == 0 ? "format" : "plot-range");
+        const size_t last = is_one_of(kind, have_points) ? 0 : strcmp(kind, "check") == 0 ? 2 : 1;
+        assert_string_equal(pspec_table_cell(table, rows - 1, 0).text, last_ones[last]);
         pspec_table_destroy(table);
     }
     assert_true(num >= 6);

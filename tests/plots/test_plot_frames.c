@@ -99,8 +99,29 @@ static void ends_of_a_logarithmic_axis(void **state) {
     series[0].low = series[0].high = NULL;
     series[0].y = rounding;
     assert_true(script_contains(&plot, "set yrange [1e-06:*]\n"));
+    series[0].floor = 5e-4; /* a hundredth of the least number above it is below it */
+    assert_true(script_contains(&plot, "set yrange [0.0005:*]\n"));
+    series[0].floor = 1; /* nothing is above it */
+    assert_false(script_contains(&plot, "set yrange"));
+    series[0].floor = 0;
     series[0].y = variances;
     assert_false(script_contains(&plot, "set yrange"));
+}
+
+/* All panels have the same axes: those of what is more than rounding. */
+static void axes_of_panels(void **state) {
+    (void)state;
+    const double rounding[] = {1e-2, 1e-3, 1e-12, 1e-15};
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panels[] = {{"1", 1, series}, {"2", 1, series + 1}};
+    const ps_figure plot = {
+        .form = PS_FIGURE_PANELS, .title = "", .is_log_y = true, .num_panels = 2, .panels = panels};
+    series[1].y = rounding;
+    assert_true(script_contains(&plot, "set yrange [9.52380952e-16:0.0105]\n"));
+    series[1].floor = 1e-10;
+    assert_true(script_contains(&plot, "set yrange [9.52380952e-06:0.0105]\n"));
+    assert_true(script_contains(&plot, "set xrange [0:1075.2]\n"));
 }
 
 /* A place that is alone has no line, and a box instead of a band. */
@@ -252,6 +273,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(draws_frames, test_folder_create, test_folder_remove),
         cmocka_unit_test(looks_of_a_frame),
         cmocka_unit_test(ends_of_a_logarithmic_axis),
+        cmocka_unit_test(axes_of_panels),
         cmocka_unit_test(single_places_of_a_frame),
         cmocka_unit_test(long_labels_of_a_frame),
         cmocka_unit_test(planes_of_a_frame),

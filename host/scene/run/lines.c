@@ -99,12 +99,16 @@ static bool has_bars(const ps_picture *what) {
            (what->form == PS_PICTURE_SPECTRA || what->form == PS_PICTURE_IMAGE);
 }
 
-/* What pure noise comes to, where the table has a level of it, and what is rounding. */
-static void take_limits(ps_series *line, const ps_table *table) {
+/* What pure noise comes to, where the table has a level of it, and what is rounding: of powers the
+ * square of the error of S, of others the error itself, that of pair sums in units of W^2. */
+static void take_limits(ps_series *line, const ps_table *table, bool is_power) {
     const double error = ps_cell_number(ps_table_find_meta(table, "predicted_error"));
+    const double sum = ps_cell_number(ps_table_find_meta(table, "weight_sum"));
     const double level = ps_cell_number(ps_table_find_meta(table, "noise_level_db"));
     const double num = ps_cell_number(ps_table_find_meta(table, "realizations"));
-    line->floor = error > 0 ? error * error : 0;
+    if (error > 0) {
+        line->floor = is_power ? error * error : error * (isfinite(sum) ? sum * sum : 1);
+    }
     line->num_realizations = isfinite(level) ? num : 1;
 }
 
@@ -131,11 +135,11 @@ static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t 
         ps_table_read_column(table, names[i], set->numbers[index] + i * num);
     }
     ps_series *const line = &set->lines[index];
+    take_limits(line, table, what->form != PS_PICTURE_COLUMNS);
     const double *const more = set->numbers[index] + LINE_COLUMNS * num;
     if (num_columns >= BARS_COLUMNS) {
         line->error = more;
         line->anisotropy = more + num;
-        take_limits(line, table);
     }
     if (num_columns == SHAPE_COLUMNS) {
         line->low = more + 2 * num;
