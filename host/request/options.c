@@ -3,44 +3,13 @@
 #include "frequencies/frequency_sample.h"
 #include "points/points.h"
 #include "request/option_inputs.h"
-#include "request/option_setters.h"
-
-/* ---- the table ----------------------------------------------------------------------------- */
-
-#define NAMED(dashed, shortened, value) .name = dashed, .letter = shortened, .metavar = value
-#define OF(kinds, others) .questions = kinds, .commands = others
-#define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
-#define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
-#define FILE_OUT(field) TEXT(field), .is_output = true
-#define TEXTS(field, most)                                                                         \
-    .set = ps_add_text, .offset = offsetof(ps_request, field),                                     \
-    .offset_of_number = offsetof(ps_request, num_##field), .maximum = most
-#define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
-#define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_request, field)
-#define POSITIVE(field) .set = ps_set_positive, .offset = offsetof(ps_request, field)
-#define SHARE(field) .set = ps_set_share, .offset = offsetof(ps_request, field)
-#define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
+#include "request/option_rows.h"
 
 /* 10^10 points of the plane are 160 GB. */
 #define MOST_POINTS UINT64_C(10000000000)
 /* A set has so many trials at most: their moves are in memory. */
 #define MOST_SHIFTS UINT64_C(1000000)
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
-
-/* Sets of verbs that many options have: kinds of spectra, those of them on the sphere, kinds that
- * look at point sets, all that read them from files, those that have a curve for each of several,
- * and kinds that have a lobe; commands that try engines, and those whose output is a table. */
-#define BIT PS_VERB_BIT
-#define SPHERES (BIT(angular) | BIT(pairs))
-#define SPECTRA (BIT(power) | SPHERES)
-#define SETS (SPECTRA | BIT(quadrature) | BIT(check))
-#define READERS (SETS | BIT(variance))
-#define LOBES (BIT(quadrature) | BIT(truncation))
-#define SERIES (SPECTRA | BIT(quadrature) | BIT(variance))
-#define ENGINES READERS
-#define PICTURES (SPECTRA | LOBES | BIT(variance))
-#define SUITES (BIT(bench) | BIT(stress))
-#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
 
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
  * one counts, but for --sampler, --set and --integrand. */

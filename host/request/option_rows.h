@@ -1,0 +1,39 @@
+/* How the rows of options.c are written: fields of their setters, and sets of verbs. Private to
+ * host/request. */
+#ifndef PS_REQUEST_OPTION_ROWS_H
+#define PS_REQUEST_OPTION_ROWS_H
+
+#include "request/option_setters.h"
+
+#include <stddef.h>
+
+#define NAMED(dashed, shortened, value) .name = dashed, .letter = shortened, .metavar = value
+#define OF(kinds, others) .questions = kinds, .commands = others
+#define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
+#define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
+#define FILE_OUT(field) TEXT(field), .is_output = true
+#define TEXTS(field, most)                                                                         \
+    .set = ps_add_text, .offset = offsetof(ps_request, field),                                     \
+    .offset_of_number = offsetof(ps_request, num_##field), .maximum = most
+#define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
+#define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_request, field)
+#define POSITIVE(field) .set = ps_set_positive, .offset = offsetof(ps_request, field)
+#define SHARE(field) .set = ps_set_share, .offset = offsetof(ps_request, field)
+#define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
+
+/* Sets of verbs that many options have: kinds of spectra, those of them on the sphere, kinds that
+ * look at point sets, all that read them from files, those that have a curve for each of several,
+ * and kinds that have a lobe; commands that try engines, and those whose output is a table. */
+#define BIT PS_VERB_BIT
+#define SPHERES (BIT(angular) | BIT(pairs))
+#define SPECTRA (BIT(power) | SPHERES)
+#define SETS (SPECTRA | BIT(quadrature) | BIT(check))
+#define READERS (SETS | BIT(variance))
+#define LOBES (BIT(quadrature) | BIT(truncation))
+#define SERIES (SPECTRA | BIT(quadrature) | BIT(variance))
+#define ENGINES READERS
+#define PICTURES (SPECTRA | LOBES | BIT(variance))
+#define SUITES (BIT(bench) | BIT(stress))
+#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
+
+#endif
