@@ -62,8 +62,8 @@ static void print_page(const char *title, const char *terminal, int width, int h
                 strcmp(terminal, "svg") == 0 ? "sans-serif,16" : "Sans,12");
     }
     fputs("set encoding utf8\n", stream);
-    /* marks of bars would blank out what is below them */
-    fputs("set pointintervalbox 0\n", stream);
+    /* Bars would blank out what is below their middle; 0 is as if nothing was said. */
+    fputs("set pointintervalbox 0.01\n", stream);
     fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
     fputs("set multiplot\nset label 1 ", stream);
     ps_script_print_text(title, stream);

@@ -180,7 +180,7 @@ static void lines_that_coincide(void **state) {
     data.curves[1].look = PS_LOOK_MARKS;
     assert_true(ps_script_line_width(&data.plot, &data.panel, 1) ==
                 ps_script_line_width(&data.plot, &data.panel, 2));
-    assert_int_equal(count(&data.plot, "\nset pointintervalbox 0\n"), 1);
+    assert_int_equal(count(&data.plot, "\nset pointintervalbox 0.01\n"), 1);
 }
 
 /* White noise is the middle of the colours, wherever the scale ends. */
