@@ -188,9 +188,9 @@ static void long_labels_of_a_frame(void **state) {
     const ps_panel panels[] = {{"1", NUM_LOOKS, series}, {"2", NUM_LOOKS, series}};
     const ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .num_panels = 2, .panels = panels};
-    assert_true(script_contains(&plot, " maxcols 2 samplen 2 width 0\n"));
+    assert_true(script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width 0\n"));
     series[0].label = "best bound: slope -12.6751"; /* 26 letters */
-    assert_true(script_contains(&plot, " maxcols 2 samplen 2 width -7\n"));
+    assert_true(script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width -7\n"));
 }
 
 /* A panel may have axes of its own: a plane has the same unit on both. */

@@ -58,7 +58,7 @@ fi
 # ---- refused with its line, before any work ----
 command=run
 printf 'scene: 1\nresults:\n  - {result: variance, samplers: [white], points: 64, integrands: [disk], realizations: 8, rank: true}\n' >one.yaml
-refuses 'one.yaml:3: variance-1: rank compares samplers, which takes several sampler' one.yaml -o none
+refuses 'one.yaml:3: variance-1: rank compares samplers and sets, which takes two of them' one.yaml -o none
 printf 'scene: 1\nresults:\n  - {result: variance, samplers: [white], points: 64..256, integrands: [disk], realizations: 2, rates: auto}\n' >few.yaml
 refuses 'few.yaml:3: variance-1: rates has errors, which need 8 realizations' few.yaml -o none
 finish

@@ -53,7 +53,7 @@ refuses '--scatter: 0.5 is not a whole number' --sampler white -n 16 --scatter 0
 refuses '--scatter: S(0) is the sum of weights' --sampler white -n 16 --scatter 0,0
 refuses '--scatter: a frequency has 6 numbers at most' --sampler white -n 16 --scatter 1,2,3,4,5,6,7
 refuses '--scatter' --sampler white -n 16 --scatter 1,
-refuses 'does not go with several samplers: a picture shows the sets of one' --sampler white --sampler jittered -n 16 --scatter 1,1 --plot a.svg
+refuses 'does not go with several samplers or sets: a picture shows the sets of one' --sampler white --sampler jittered -n 16 --scatter 1,1 --plot a.svg
 refuses 'does not go with --per-ring' --sampler white -n 16 --scatter 1,1 --per-ring 8
 refuses 'does not go with --standard-error' --sampler white -n 16 --scatter 1,1 --standard-error 0.1
 

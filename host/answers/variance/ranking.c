@@ -108,10 +108,8 @@ static pspec_status check(const ps_request *request, ps_error *error) {
     return request->num_sources > 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s compares samplers and sets, which takes several %s or %s",
-                         ps_option_show(request, PS_OPTION_RANK).text,
-                         ps_option_show(request, PS_OPTION_SAMPLER).text,
-                         ps_option_show(request, PS_OPTION_SET).text);
+                         "%s compares samplers and sets, which takes two of them",
+                         ps_option_show(request, PS_OPTION_RANK).text);
 }
 
 /* ---- sentences ----------------------------------------------------------------------------- */

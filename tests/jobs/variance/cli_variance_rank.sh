@@ -59,7 +59,7 @@ assert all["meta"]["ranking_points"] == [64] and len(all["meta"]["ranking"]) == 
 assert sorted(row["rank"] for row in all["rows"]) == [1, 2]
 assert {row["sampler"]: row["white_score"] for row in all["rows"]}["halton"] is None
 END
-refuses '--rank compares samplers and sets, which takes several --sampler or --set' --sampler white --integrand disk -m 8 --rank
+refuses '--rank compares samplers and sets, which takes two of them' --sampler white --integrand disk -m 8 --rank
 refuses '--rank has errors, which need 8 realizations or more (--realizations), not 7' \
     --sampler white --sampler jittered --integrand disk -m 7 --rank
 finish
