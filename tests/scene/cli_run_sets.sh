@@ -87,6 +87,7 @@ refused 'files: beside sets files stand under a name' <<<'  - {result: power, fi
 refused 'points: sets have their own, and one number is for samplers' <<<'  - {result: power, samplers: white, points: [64, 128], sets: {a: data/j1.txt}}'
 refused 'sets: not a key of this result' <<<'  - {result: truncation, brdf: diffuse, sets: {a: data/j1.txt}}'
 refused 'sets: not a key of this result' <<<'  - {result: sample, samplers: white, points: 4, sets: {a: data/j1.txt}}'
+refused 'sets: a result that compares samplers has no sets' <<<'  - {result: variance, integrand: disk, samplers: white, rank: true, sets: {a: data/j1.txt}}'
 refused 'realizations does not go with point files' <<<'  - {result: power, realizations: 4, sets: {a: data/j1.txt}}'
 scene <<<'  - {result: power, sets: {a: [data/j1.txt, none.txt]}}'
 runs 1 scene.yaml -o folder
