@@ -22,7 +22,7 @@ typedef struct ps_scene_value {
     const char **texts;     /* paths relative to the current folder */
     const char **originals; /* as the file has them */
     const char *label;      /* what tables and pages call the value: the first, or the set's name */
-    bool is_set;            /* one of `sets`, a value beside samplers */
+    const char *set;        /* NULL, or one of `sets`, a value beside samplers: as --set has it */
     int line;
 } ps_scene_value;
 
@@ -32,7 +32,8 @@ typedef struct ps_scene_entry {
     int option; /* a ps_option_id, or PS_SCENE_FILES */
     int line;
     size_t num_values;
-    ps_scene_value *values;
+    size_t num_more;        /* sets that the one question of a joined result has besides */
+    ps_scene_value *values; /* [num_values + num_more] */
 } ps_scene_entry;
 
 typedef struct ps_scene_result {
@@ -114,8 +115,9 @@ const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t nu
                                         size_t i_entry);
 /* The entry of samplers and sets; NULL: none. */
 const ps_scene_entry *ps_scene_find_sources(const ps_scene_result *result);
-/* How many values of an entry are sets. */
+/* How many values of an entry are sets; of sets alone all are. */
 size_t ps_scene_num_sets(const ps_scene_entry *entry);
+bool ps_scene_are_sets(const ps_scene_entry *entry);
 /* The key of an entry, for complaints and names of columns: "points". */
 const char *ps_scene_key(const ps_scene_entry *entry);
 

@@ -64,8 +64,8 @@ static pspec_status visit_value(const ps_scene *scene, const ps_scene_result *re
                                 ps_scene_visit_input *visit, void *payload, ps_error *error) {
     for (size_t i = 0; i < value->num_texts; i++) {
         const char *const path =
-            value->is_set ? value->texts[i]
-                          : ps_scene_find_path(result->kind, entry->option, value->texts[i]);
+            value->set != NULL ? value->texts[i]
+                               : ps_scene_find_path(result->kind, entry->option, value->texts[i]);
         if (path != NULL) {
             PS_TRY(visit(payload, scene, entry, value, path, error));
         }
@@ -79,7 +79,7 @@ pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *
         const ps_scene_result *const result = &scene->results[r];
         for (size_t e = 0; e < result->num_entries; e++) {
             const ps_scene_entry *const entry = &result->entries[e];
-            for (size_t v = 0; v < entry->num_values; v++) {
+            for (size_t v = 0; v < entry->num_values + entry->num_more; v++) {
                 PS_TRY(visit_value(scene, result, entry, &entry->values[v], visit, payload, error));
             }
         }

@@ -71,7 +71,7 @@ static void print_values(const ps_scene_entry *entry, size_t num, ps_text *out) 
 
 static void print_sets(const ps_scene_entry *entry, size_t first, ps_text *out) {
     ps_text_append(out, ",\n     \"sets\": {");
-    for (size_t i = first; i < entry->num_values; i++) {
+    for (size_t i = first; i < entry->num_values + entry->num_more; i++) {
         ps_text_append(out, i > first ? ", " : "");
         ps_scene_print_text(entry->values[i].label, out);
         ps_text_append(out, ": ");
@@ -82,11 +82,12 @@ static void print_sets(const ps_scene_entry *entry, size_t first, ps_text *out) 
 
 /* Sets stand behind samplers. */
 static void print_entry(const ps_scene_entry *entry, ps_text *out) {
-    const size_t num = entry->num_values - ps_scene_num_sets(entry);
+    const size_t num_all = entry->num_values + entry->num_more;
+    const size_t num = num_all - ps_scene_num_sets(entry);
     if (num > 0) {
         print_values(entry, num, out);
     }
-    if (num < entry->num_values) {
+    if (num < num_all) {
         print_sets(entry, num, out);
     }
 }

@@ -32,13 +32,20 @@ const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t nu
 static bool is_for_others(const ps_scene_question *question, int option) {
     const ps_scene_entry *const sources = ps_scene_find_sources(question->result);
     const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
-    if (num_sets == 0 || num_sets == sources->num_values || option == PS_SCENE_FILES) {
+    if (num_sets == 0 || ps_scene_are_sets(sources) || sources->num_more > 0 ||
+        option == PS_SCENE_FILES) {
         return false;
     }
     const size_t i = (size_t)(sources - question->result->entries);
-    const bool is_set = ps_scene_value_of(question->result, question->number, i)->is_set;
+    const bool is_set = ps_scene_value_of(question->result, question->number, i)->set != NULL;
     return ps_options[option].source == (is_set ? PS_OF_SAMPLERS : PS_OF_FILES) ||
            (is_set && option == PS_OPTION_POINTS);
+}
+
+static pspec_status take_text(ps_scene_question *out, ps_option_id id, const char *text,
+                              ps_error *error) {
+    ps_option_append(&out->command, id, text);
+    return ps_option_apply(&out->request, id, ps_kind_words(out->result->kind, id), text, error);
 }
 
 static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *entry,
@@ -46,16 +53,16 @@ static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *ent
     if (is_for_others(out, entry->option)) {
         return PSPEC_OK;
     }
-    if (entry->option == PS_SCENE_FILES || value->is_set) {
+    if (value->set != NULL && out->result->is_joined) {
+        return take_text(out, PS_OPTION_SET, value->set, error);
+    }
+    if (entry->option == PS_SCENE_FILES || value->set != NULL) {
         out->request.files = value->texts;
         out->request.num_files = value->num_texts;
         return PSPEC_OK;
     }
-    const ps_option_id id = (ps_option_id)entry->option;
     for (size_t i = 0; i < value->num_texts; i++) { /* several of an option that may be repeated */
-        ps_option_append(&out->command, id, value->texts[i]);
-        PS_TRY(ps_option_apply(&out->request, id, ps_kind_words(out->result->kind, id),
-                               value->texts[i], error));
+        PS_TRY(take_text(out, (ps_option_id)entry->option, value->texts[i], error));
     }
     return PSPEC_OK;
 }
@@ -65,7 +72,11 @@ pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_resul
     *out = (ps_scene_question){.result = result, .number = number, .request = ps_request_default};
     ps_text_append(&out->command, "pointspec %s", result->kind->name);
     for (size_t i = 0; i < result->num_entries; i++) {
-        PS_TRY(take_value(out, &result->entries[i], ps_scene_value_of(result, number, i), error));
+        const ps_scene_entry *const entry = &result->entries[i];
+        PS_TRY(take_value(out, entry, ps_scene_value_of(result, number, i), error));
+        for (size_t k = 0; k < entry->num_more; k++) {
+            PS_TRY(take_value(out, entry, &entry->values[entry->num_values + k], error));
+        }
     }
     for (size_t i = 0; i < out->request.num_files; i++) {
         ps_text_append_word(&out->command, out->request.files[i]);

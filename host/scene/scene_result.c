@@ -224,7 +224,7 @@ static bool fits_result(const ps_scene_result *result, int option) {
     const ps_scene_entry *const sources = ps_scene_find_sources(result);
     const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
     const bool are_files =
-        has_entry(result, PS_SCENE_FILES) || (num_sets > 0 && num_sets == sources->num_values);
+        has_entry(result, PS_SCENE_FILES) || (num_sets > 0 && ps_scene_are_sets(sources));
     if (option == PS_SCENE_FILES) {
         return true;
     }
@@ -314,11 +314,6 @@ static pspec_status check_entries(const ps_scene_reader *reader, ps_scene_result
     PS_TRY(ps_scene_join_sources(reader, result));
     PS_TRY(check_twice(reader, result));
     const ps_scene_entry *const sources = ps_scene_find_sources(result);
-    if (result->is_joined && sources != NULL && ps_scene_num_sets(sources) > 0) {
-        return ps_scene_complain(reader->file, sources->line, sets_key,
-                                 "a result that compares samplers has no sets; the command "
-                                 "compares them (--set)");
-    }
     for (size_t i = 0; sources != NULL && i < result->num_entries; i++) {
         const ps_scene_entry *const entry = &result->entries[i];
         const bool are_several = entry->option == PS_OPTION_POINTS && entry->num_values > 1;

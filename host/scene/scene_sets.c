@@ -32,6 +32,21 @@ static pspec_status add_path(const place *at, ps_file_list *list, const ps_scene
                : ps_scene_complain(at->file, item->line, at->name, "%s", reason.message);
 }
 
+/* "NAME=a.txt,b.txt", for questions that have several sets. */
+static pspec_status write_option(const place *at, ps_scene_value *out) {
+    ps_text text = {0};
+    ps_text_append(&text, "%s=", at->name);
+    for (size_t i = 0; i < out->num_texts; i++) {
+        ps_text_append(&text, "%s%s", i > 0 ? "," : "", out->texts[i]);
+    }
+    pspec_status status = ps_text_check(&text, at->file->error);
+    if (status == PSPEC_OK) {
+        status = ps_scene_copy(at->scene, "", ps_text_string(&text), &out->set, at->file->error);
+    }
+    ps_text_free(&text);
+    return status;
+}
+
 /* Records name the files that were found, relative to the folder as the scene has them. */
 static pspec_status copy_paths(const place *at, const ps_file_list *list, int line,
                                ps_scene_value *out) {
@@ -44,9 +59,8 @@ static pspec_status copy_paths(const place *at, const ps_file_list *list, int li
         const bool is_below = strncmp(*text, at->scene->folder, length) == 0;
         out->originals[i] = *text + (is_below ? length : 0);
     }
-    out->is_set = true;
     out->label = at->name;
-    return PSPEC_OK;
+    return write_option(at, out);
 }
 
 static pspec_status take_set(const place *at, const ps_scene_node *node, ps_scene_value *out) {
@@ -105,10 +119,14 @@ const ps_scene_entry *ps_scene_find_sources(const ps_scene_result *result) {
 
 size_t ps_scene_num_sets(const ps_scene_entry *entry) {
     size_t num = 0;
-    for (size_t i = 0; i < entry->num_values; i++) {
-        num += entry->values[i].is_set;
+    for (size_t i = 0; i < entry->num_values + entry->num_more; i++) {
+        num += entry->values[i].set != NULL;
     }
     return num;
+}
+
+bool ps_scene_are_sets(const ps_scene_entry *entry) {
+    return ps_scene_num_sets(entry) == entry->num_values + entry->num_more;
 }
 
 static pspec_status check_names(const ps_scene_reader *reader, const ps_scene_entry *samplers,
@@ -136,10 +154,32 @@ static pspec_status join(const ps_scene_reader *reader, ps_scene_entry *out,
         ps_scene_allocate(reader->scene, num, sizeof *joined.values, &values, reader->file->error));
     joined.values = values;
     joined.num_values = num;
+    joined.num_more = 0;
     memcpy(joined.values, samplers->values, samplers->num_values * sizeof *joined.values);
     memcpy(joined.values + samplers->num_values, sets->values,
            sets->num_values * sizeof *joined.values);
     *out = joined;
+    return PSPEC_OK;
+}
+
+/* Of a result that compares them, all of them are of one question, in the words of --set. */
+static pspec_status gather(const ps_scene_reader *reader, const ps_scene_result *result,
+                           ps_scene_entry *sources) {
+    const size_t num = result->is_joined && sources != NULL ? sources->num_values : 0;
+    for (size_t i = 0; i < num; i++) {
+        const ps_scene_value *const value = &sources->values[i];
+        for (size_t k = 0; value->set != NULL && k < value->num_texts; k++) {
+            if (strchr(value->texts[k], ',') != NULL) {
+                return ps_scene_complain(reader->file, value->line, value->label,
+                                         "\"%s\" has a comma, which stands between files here",
+                                         value->texts[k]);
+            }
+        }
+    }
+    if (num > 0) {
+        sources->num_more += num - 1;
+        sources->num_values = 1;
+    }
     return PSPEC_OK;
 }
 
@@ -152,11 +192,12 @@ pspec_status ps_scene_join_sources(const ps_scene_reader *reader, ps_scene_resul
         }
     }
     if (sources[0] == NULL || sources[1] == NULL) {
-        return PSPEC_OK;
+        return gather(reader, result, sources[1]);
     }
     ps_scene_entry *const first = sources[0] < sources[1] ? sources[0] : sources[1];
     ps_scene_entry *const second = sources[0] < sources[1] ? sources[1] : sources[0];
     PS_TRY(join(reader, first, sources[0], sources[1]));
+    PS_TRY(gather(reader, result, first));
     result->num_entries--;
     memmove(second, second + 1,
             (size_t)(result->entries + result->num_entries - second) * sizeof *second);

@@ -73,6 +73,19 @@ rm -rf folder
 runs 0 scene.yaml -o folder --cache 0
 [[ $(values both) == "white a" && $(values own) == "regular halton" ]] || complain "defaults: $(values both); $(values own)"
 
+# ---- ranks are of all samplers and sets of a result, also from its record ----
+scene <<'END'
+  - {result: variance, name: ranked, integrand: disk, max-frequency: 8, shifts: 0, rank: true, sets: {jit: data/j*.txt, lhs: [data/l1.txt, data/l2.txt]}, samplers: [white, halton], points: 64, realizations: 9}
+  - {result: variance, name: alone, integrand: disk, max-frequency: 8, rank: true, shifts: 0, sets: {jit: data/j*.txt, lhs: data/l1.txt}}
+END
+runs 0 scene.yaml -o folder --cache 0
+"$program" variance --integrand disk -k 8 --shifts 0 --rank --sampler white --sampler halton -n 64 -m 9 -s 3 --set 'jit=data/j*.txt' --set lhs=data/l1.txt,data/l2.txt \
+    --engine host_direct --no-self-check >ranked.csv 2>err || complain "rank: $(<err)"
+diff <(rows folder/ranked.csv) <(rows ranked.csv) >differences || complain "ranked: $(<differences)"
+[[ $(rows folder/alone.csv | cut -d, -f1 | paste -sd' ') == "jit lhs" ]] || complain "alone: $(<folder/alone.csv)"
+runs 0 folder/record.json -o again --cache 0
+diff <(rows folder/ranked.csv) <(rows again/ranked.csv) >differences || complain "the record ranks otherwise"
+
 # ---- what is refused, with its line ----
 refused() { # SENTENCE: of the scene on standard input
     scene
@@ -87,7 +100,8 @@ refused 'files: beside sets files stand under a name' <<<'  - {result: power, fi
 refused 'points: sets have their own, and one number is for samplers' <<<'  - {result: power, samplers: white, points: [64, 128], sets: {a: data/j1.txt}}'
 refused 'sets: not a key of this result' <<<'  - {result: truncation, brdf: diffuse, sets: {a: data/j1.txt}}'
 refused 'sets: not a key of this result' <<<'  - {result: sample, samplers: white, points: 4, sets: {a: data/j1.txt}}'
-refused 'sets: a result that compares samplers has no sets' <<<'  - {result: variance, integrand: disk, samplers: white, rank: true, sets: {a: data/j1.txt}}'
+refused 'scene.yaml:4: a: "data/a,b.txt" has a comma' <<<'  - {result: variance, integrand: disk, samplers: white, rank: true, sets: {a: "data/a,b.txt"}}'
+refused 'rank compares samplers and sets, which takes two of them' <<<'  - {result: variance, integrand: disk, rank: true, sets: {a: data/j1.txt}}'
 refused 'realizations does not go with point files' <<<'  - {result: power, realizations: 4, sets: {a: data/j1.txt}}'
 scene <<<'  - {result: power, sets: {a: [data/j1.txt, none.txt]}}'
 runs 1 scene.yaml -o folder
