@@ -104,13 +104,18 @@ static void print_plane_range(const ps_panel *panel, double width, double height
     }
 }
 
-/* gnuplot would go on to whole powers of ten, where few points are. */
-static void print_log_range(const ps_panel *panel, FILE *stream) {
+/* gnuplot would go on to whole powers of ten, where few points are, and has no ticks between them.
+ */
+static void print_log_range(const ps_figure *figure, const ps_panel *panel, FILE *stream) {
     const double margin = 1.15;
+    const double *const asked = figure->axes.x;
     const ps_plot_span places = ps_plot_span_places(panel);
-    if (places.most > places.least) {
-        ps_script_print_span("x", (ps_plot_span){places.least / margin, places.most * margin},
-                             stream);
+    if (figure->axes.has_x) {
+        ps_script_print_log_ticks("x", (ps_plot_span){asked[0], asked[1]}, stream);
+    } else if (!ps_plot_span_is_empty(places)) {
+        const ps_plot_span shown = {places.least / margin, places.most * margin};
+        ps_script_print_log_ticks("x", shown, stream);
+        ps_script_print_span("x", shown, stream);
     }
 }
 
@@ -274,7 +279,7 @@ static void print_margins(const cell *where, double key_height, FILE *stream) {
 static void print_ranges(const ps_figure *figure, const ps_panel *panel, double bottom,
                          FILE *stream) {
     if (figure->is_log_x) {
-        print_log_range(panel, stream);
+        print_log_range(figure, panel, stream);
     }
     if (bottom > 0 && goes_below(panel, bottom)) {
         fprintf(stream, "set yrange [%.3g:*]\n", bottom);

@@ -108,6 +108,23 @@ static void ends_of_a_logarithmic_axis(void **state) {
     assert_false(script_contains(&plot, "set yrange"));
 }
 
+/* Within two decades a place has a tick that says its number; where it is asked for, there. */
+static void ticks_of_few_places(void **state) {
+    (void)state;
+    const double points[] = {49, 64, 56, 60};
+    ps_series series[NUM_LOOKS];
+    make_looks(series);
+    const ps_panel panel = {"none", 1, series};
+    ps_figure plot = {
+        .form = PS_FIGURE_FRAME, .title = "", .is_log_x = true, .num_panels = 1, .panels = &panel};
+    series[0].x = points;
+    assert_true(script_contains(&plot, "set xtics in mirror (50, 60, 70)\nset xrange [42.6"));
+    plot.axes = (ps_plot_axes){.has_x = true, .x = {10, 1000}};
+    assert_true(script_contains(&plot, "set xtics in mirror (10, 20, 50, 100, 200, 500, 1000)\n"));
+    plot.axes.x[1] = 2000;
+    assert_true(script_contains(&plot, "set xtics in mirror autofreq\nset format x '10^{%T}'\n"));
+}
+
 /* All panels have the same axes: those of what is more than rounding. */
 static void axes_of_panels(void **state) {
     (void)state;
@@ -273,6 +290,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(draws_frames, test_folder_create, test_folder_remove),
         cmocka_unit_test(looks_of_a_frame),
         cmocka_unit_test(ends_of_a_logarithmic_axis),
+        cmocka_unit_test(ticks_of_few_places),
         cmocka_unit_test(axes_of_panels),
         cmocka_unit_test(single_places_of_a_frame),
         cmocka_unit_test(long_labels_of_a_frame),
