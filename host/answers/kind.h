@@ -52,7 +52,7 @@ void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PR
 void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence);
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 
-enum { PS_ANSWER_RANK = PS_MAX_TORUS_DIMENSION + 1 };
+enum { PS_ANSWER_RANK = PS_MAX_DIMENSION + 1 };
 
 typedef struct ps_answer {
     ps_table *table;

@@ -95,9 +95,9 @@ static pspec_status check_power(const pspec_power_request *request, ps_error *er
     }
     PS_TRY(ps_public_check_size(request->struct_size, sizeof *request, "PSPEC_POWER_REQUEST_INIT",
                                 error));
-    if (request->dimension < 1 || request->dimension > PS_MAX_TORUS_DIMENSION) {
+    if (request->dimension < 1 || request->dimension > PS_MAX_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
-                       request->dimension, PS_MAX_TORUS_DIMENSION);
+                       request->dimension, PS_MAX_DIMENSION);
     }
     if (request->frequencies != NULL &&
         (request->bins != NULL || request->rings_only != 0 || request->per_ring != 0)) {

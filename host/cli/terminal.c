@@ -10,31 +10,44 @@
 /* What people see of a header, the first of these that there are: what the answer is in a sentence,
  * what makes it doubtful, what it is of, and how right it is. */
 static const char *const seen_first[] = {
-    "verdict", "different", "tail_verdict", "ranking", "rates", "crossing", "fit", "features",
-    "convergence", "worst_case_error",
+    "verdict", "different", "tail_verdict", "ranking", "crossing", "rates", "convergence", "fit",
+    "features", "worst_case_error",
     /* doubts */
     "empty", "different_points", "dropped_below_horizon", "duplicates", "vectors", "planned_twice",
     "relative_standard_error", "standard_error",
     /* of what */
-    "seconds", "sampler", "input_columns", "integrand", "brdf", "points", "realizations",
+    "seconds", "input", "sampler", "input_columns", "integrand", "brdf", "points", "realizations",
     /* how right */
     "self_check", "predicted_error", "device", NULL};
 
-enum { MOST_LINES = 4, USUAL_WIDTH = 80, LEAST_WIDTH = 40 };
+enum { MOST_LINES = 4, USUAL_WIDTH = 80, LEAST_WIDTH = 40, MOST_WIDTH = 10000 };
 
 /* Columns of the terminal: COLUMNS, what the terminal says, or those that most have. */
 static size_t find_width(void) {
     const char *const said = getenv("COLUMNS");
     char *end = NULL;
-    const unsigned long columns = said != NULL ? strtoul(said, &end, 10) : 0;
+    const long columns = said != NULL ? strtol(said, &end, 10) : 0;
     struct winsize size = {0};
     size_t width = USUAL_WIDTH;
-    if (columns > 0 && *end == '\0') {
-        width = columns;
+    if (columns > 0 && columns <= MOST_WIDTH && *end == '\0') {
+        width = (size_t)columns;
     } else if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
         width = size.ws_col;
     }
     return width > LEAST_WIDTH ? width : LEAST_WIDTH;
+}
+
+/* Is it one of the words, "csv|json|text"? */
+static bool offers(const char *words, const char *word) {
+    const size_t length = strlen(word);
+    for (const char *at = words; *at != '\0';) {
+        const size_t own = strcspn(at, "|");
+        if (own == length && strncmp(at, word, length) == 0) {
+            return true;
+        }
+        at += own + (at[own] == '|');
+    }
+    return false;
 }
 
 void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
@@ -48,7 +61,7 @@ void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
     if (!is_terminal) {
         return;
     }
-    if (arguments->format == NULL && strstr(words, text) != NULL) {
+    if (arguments->format == NULL && offers(words, text)) {
         arguments->format = text;
     }
     arguments->view = (ps_text_view){.width = find_width(),

@@ -62,7 +62,7 @@ static int32_t largest_allowed(unsigned dimension) {
 }
 
 bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency) {
-    return dimension > 1 && dimension <= PS_MAX_TORUS_DIMENSION && max_frequency >= 1 &&
+    return dimension > 1 && dimension <= PS_MAX_DIMENSION && max_frequency >= 1 &&
            max_frequency <= PS_MAX_SAMPLED_RING &&
            ps_lattice_estimate(dimension, max_frequency * (max_frequency + 1)).most <
                (double)UINT64_MAX;
@@ -104,9 +104,9 @@ pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_
     *out = (ps_frequencies){.kind = is_ball ? PS_FREQUENCIES_BALL : PS_FREQUENCIES_BOX,
                             .dimension = dimension,
                             .max_frequency = max_frequency};
-    if (dimension < 1 || dimension > PS_MAX_TORUS_DIMENSION) {
+    if (dimension < 1 || dimension > PS_MAX_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
-                       dimension, PS_MAX_TORUS_DIMENSION);
+                       dimension, PS_MAX_DIMENSION);
     }
     const int32_t largest = largest_allowed(dimension);
     if (max_frequency < 1 || max_frequency > largest) {
@@ -185,7 +185,7 @@ static bool advance(int32_t *k, unsigned dimension, int32_t max_frequency) {
 
 /* Walks through the half lattice after DC; stores vectors where out is not NULL. */
 static size_t walk_half_lattice(const ps_frequencies *set, int32_t *out) {
-    int32_t k[PS_MAX_TORUS_DIMENSION] = {0};
+    int32_t k[PS_MAX_DIMENSION] = {0};
     size_t count = 0;
     while (advance(k, set->dimension, set->max_frequency)) {
         if (set->kind == PS_FREQUENCIES_BALL &&

@@ -16,12 +16,11 @@
 
 #include "base/status.h"
 #include "frequencies/bin_rule.h"
+#include "math/dimension.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-enum { PS_MAX_TORUS_DIMENSION = 6 };
 
 /* Largest |k_i|: fixed-point phases in float stay exact to a few units below it (torus/phase.h:
  * the sum over six axes must stay below 2^31). */

@@ -15,7 +15,7 @@ typedef struct ps_frequencies_spec {
     ps_bin_rule bins;      /* relative widths are resolved when N is known */
     /* One of a grid whose S(k) are shown, and how many numbers it has; 0: none */
     unsigned num_shown;
-    int32_t shown[PS_MAX_TORUS_DIMENSION];
+    int32_t shown[PS_MAX_DIMENSION];
 } ps_frequencies_spec;
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-_Static_assert((int)PS_LATTICE_MAX_DIMENSION == (int)PS_MAX_TORUS_DIMENSION,
+_Static_assert((int)PS_LATTICE_MAX_DIMENSION == (int)PS_MAX_DIMENSION,
                "lattices are counted in as many dimensions as there are");
 
 /* The |k|^2 of one ring or shell. */
@@ -191,9 +191,9 @@ static pspec_status refuse_soon(const ps_frequency_sample *sample, ps_error *err
 }
 
 static pspec_status check(const ps_frequency_sample *sample, ps_error *error) {
-    if (sample->dimension < 1 || sample->dimension > PS_MAX_TORUS_DIMENSION) {
+    if (sample->dimension < 1 || sample->dimension > PS_MAX_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
-                       sample->dimension, PS_MAX_TORUS_DIMENSION);
+                       sample->dimension, PS_MAX_DIMENSION);
     }
     if (sample->per_ring < PS_MIN_PER_RING) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

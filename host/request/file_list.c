@@ -4,37 +4,85 @@
 #include "base/text.h"
 #include "request/options.h"
 
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static pspec_status add_matches(ps_file_list *out, const char *pattern, int flags,
-                                const char *shown, ps_error *error) {
-    const int appends = out->found.gl_pathc > 0 ? GLOB_APPEND : 0;
-    const int code = glob(pattern, flags | appends, NULL, &out->found);
-    if (code == GLOB_NOSPACE) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for the names of files of %s", shown);
-    }
-    return code == 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: no file matches \"%s\"", shown, pattern);
+static const char magic[] = "*?[\\";
+
+static pspec_status add_path(ps_file_list *list, const char *path, ps_error *error) {
+    void *grown = list->owned;
+    char *copy = NULL;
+    const size_t bytes = strlen(path) + 1;
+    const pspec_status status = ps_grow(&grown, &list->capacity, list->num + 1, sizeof *list->owned,
+                                        "names of files", error);
+    list->owned = grown;
+    list->paths = (const char *const *)grown;
+    PS_TRY(status);
+    PS_TRY(PS_NEW(&copy, bytes, "the name of a file", error));
+    memcpy(copy, path, bytes);
+    list->owned[list->num++] = copy;
+    return PSPEC_OK;
 }
 
-/* A name without a pattern is taken as it is: whoever opens the file says what is wrong with it. */
-pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *item,
-                              ps_error *error) {
-    if (item[0] == '\0' || strcmp(item, "-") == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s", shown,
-                       item[0] == '\0' ? "a name of a file is empty"
-                                       : "standard input (-) is no file, and a set is of files");
+static pspec_status add_matches(ps_file_list *list, const char *pattern, const char *shown,
+                                const char *said, ps_error *error) {
+    glob_t found = {0};
+    pspec_status status = PSPEC_OK;
+    const int code = glob(pattern, 0, NULL, &found);
+    if (code != 0) {
+        status = code == GLOB_NOSPACE
+                     ? ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for the names of files of %s",
+                               shown)
+                     : ps_fail(error, PSPEC_ERROR_INPUT, "%s: no file matches \"%s\"", shown, said);
     }
-    const bool is_name = strpbrk(item, "*?[") == NULL || access(item, F_OK) == 0;
-    const int flags = is_name ? GLOB_NOCHECK | GLOB_NOESCAPE : 0;
-    const pspec_status status = add_matches(list, item, flags, shown, error);
-    list->num = list->found.gl_pathc;
-    list->paths = (const char *const *)list->found.gl_pathv;
+    for (size_t i = 0; status == PSPEC_OK && i < found.gl_pathc; i++) {
+        status = add_path(list, found.gl_pathv[i], error);
+    }
+    globfree(&found);
     return status;
+}
+
+/* Letters of a folder stand for themselves. */
+static void append_escaped(ps_text *out, const char *text) {
+    for (; *text != '\0'; text++) {
+        ps_text_append(out, strchr(magic, *text) != NULL ? "\\%c" : "%c", *text);
+    }
+}
+
+/* A name without a pattern, or of a file that is there, is taken as it is: whoever opens the file
+ * says what is wrong with it. */
+static pspec_status add_item(ps_file_list *list, const char *shown, const char *folder,
+                             const char *item, ps_error *error) {
+    ps_text path = {0};
+    ps_text pattern = {0};
+    ps_text_append(&path, "%s%s", folder, item);
+    append_escaped(&pattern, folder);
+    ps_text_append(&pattern, "%s", item);
+    pspec_status status = ps_text_check(&path, error);
+    if (status == PSPEC_OK) {
+        status = ps_text_check(&pattern, error);
+    }
+    if (status == PSPEC_OK) {
+        const char *const name = ps_text_string(&path);
+        status = strpbrk(item, magic) == NULL || access(name, F_OK) == 0
+                     ? add_path(list, name, error)
+                     : add_matches(list, ps_text_string(&pattern), shown, name, error);
+    }
+    ps_text_free(&path);
+    ps_text_free(&pattern);
+    return status;
+}
+
+pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *folder,
+                              const char *item, ps_error *error) {
+    return item[0] != '\0' && strcmp(item, "-") != 0
+               ? add_item(list, shown, folder, item, error)
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s", shown,
+                         item[0] == '\0' ? "a name of a file is empty"
+                                         : "standard input (-) is no file, and a set is of files");
 }
 
 pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
@@ -47,7 +95,7 @@ pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char 
         ps_text_append_bytes(&item, begin, comma != NULL ? (size_t)(comma - begin) : strlen(begin));
         status = ps_text_check(&item, error);
         if (status == PSPEC_OK) {
-            status = ps_file_list_add(out, shown, ps_text_string(&item), error);
+            status = ps_file_list_add(out, shown, "", ps_text_string(&item), error);
         }
         ps_text_free(&item);
         begin = comma != NULL ? comma + 1 : NULL;
@@ -56,7 +104,10 @@ pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char 
 }
 
 void ps_file_list_free(ps_file_list *list) {
-    globfree(&list->found);
+    for (size_t i = 0; list->owned != NULL && i < list->num; i++) {
+        free(list->owned[i]);
+    }
+    free(list->owned);
     *list = (ps_file_list){0};
 }
 

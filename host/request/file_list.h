@@ -4,13 +4,12 @@
 
 #include "request/request.h"
 
-#include <glob.h>
-
 /* {0}: none. */
 typedef struct ps_file_list {
     size_t num;
     const char *const *paths;
-    glob_t found; /* what owns them; {0}: they are borrowed */
+    char **owned; /* [capacity], the paths; NULL: they are borrowed */
+    size_t capacity;
 } ps_file_list;
 
 /* A pattern with *, ? or [..] stands for the files that match it, in the order of their names; a
@@ -18,9 +17,9 @@ typedef struct ps_file_list {
  * also after an error. */
 pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
                                ps_error *error) PS_MUST_CHECK;
-/* One name or pattern more; a comma is a letter of it. */
-pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *item,
-                              ps_error *error) PS_MUST_CHECK;
+/* One name or pattern more, in a folder, "" or with its /; a comma is a letter of it. */
+pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *folder,
+                              const char *item, ps_error *error) PS_MUST_CHECK;
 void ps_file_list_free(ps_file_list *list);
 
 /* The files that a question is about: those of its set, or those of the request. None: a sampler

@@ -248,14 +248,14 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
 /* "3" or "3,-4": whole numbers, as many as dimensions, not all 0. */
 pspec_status ps_set_scatter(const ps_said *said, ps_error *error) {
     ps_frequencies_spec *const spec = &said->request->frequencies;
-    double numbers[PS_MAX_TORUS_DIMENSION];
+    double numbers[PS_MAX_DIMENSION];
     size_t num = 0;
     bool is_zero = true;
-    PS_TRY(parse_numbers(said, numbers, PS_MAX_TORUS_DIMENSION, PS_MAX_FREQUENCY, &num, error));
-    if (num > PS_MAX_TORUS_DIMENSION) {
+    PS_TRY(parse_numbers(said, numbers, PS_MAX_DIMENSION, PS_MAX_FREQUENCY, &num, error));
+    if (num > PS_MAX_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: a frequency has %d numbers at most, and \"%s\" has %zu", said->shown,
-                       PS_MAX_TORUS_DIMENSION, said->text, num);
+                       PS_MAX_DIMENSION, said->text, num);
     }
     for (size_t i = 0; i < num; i++) {
         if (numbers[i] != floor(numbers[i])) {

@@ -12,7 +12,7 @@
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
- * one counts, but for --sampler, --set and --integrand. */
+ * one counts, but for --sampler, --set, --integrand and --bounds. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
         {NAMED("points", 'n', "N"), OF(ENGINES | BIT(sample), BIT(convert)),

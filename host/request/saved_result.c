@@ -96,9 +96,9 @@ static pspec_status refuse_table(const header *self, const char *path, const cha
                                  const char *why, const char *command, ps_error *error) {
     char sampler[VALUE_BYTES];
     char points[VALUE_BYTES];
-    /* of files under a name there is no sampler to be asked again */
+    /* what `sampler` names may be a set of files, and no sampler to be asked again */
     const bool has_sampler =
-        !find_value(self, "input_format", points) && find_value(self, "sampler", sampler);
+        strstr(self->text, " --set ") == NULL && find_value(self, "sampler", sampler);
     const bool has_points = find_value(self, "points", points);
     return ps_fail(
         error, PSPEC_ERROR_INPUT,

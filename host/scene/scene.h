@@ -113,8 +113,8 @@ void ps_scene_question_free(ps_scene_question *question);
 /* The value that question `number` has of an entry. */
 const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t number,
                                         size_t i_entry);
-/* The entry of samplers and sets; NULL: none. */
-const ps_scene_entry *ps_scene_find_sources(const ps_scene_result *result);
+/* The entry of an option, of PS_OPTION_SAMPLER that of samplers and sets; NULL: none. */
+const ps_scene_entry *ps_scene_find_entry(const ps_scene_result *result, int option);
 /* How many values of an entry are sets; of sets alone all are. */
 size_t ps_scene_num_sets(const ps_scene_entry *entry);
 bool ps_scene_are_sets(const ps_scene_entry *entry);

@@ -10,6 +10,14 @@ const char *ps_scene_key(const ps_scene_entry *entry) {
     return entry->option == PS_SCENE_FILES ? "files" : ps_options[entry->option].name;
 }
 
+const ps_scene_entry *ps_scene_find_entry(const ps_scene_result *result, int option) {
+    size_t i = 0;
+    while (i < result->num_entries && result->entries[i].option != option) {
+        i++;
+    }
+    return i < result->num_entries ? &result->entries[i] : NULL;
+}
+
 size_t ps_scene_num_questions(const ps_scene_result *result) {
     size_t num = 1;
     for (size_t i = 0; i < result->num_entries; i++) {
@@ -28,9 +36,15 @@ const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t nu
     return &entry->values[number % entry->num_values];
 }
 
+/* Trials of variances, and subsets of rings, are drawn by a seed, too. */
+static bool is_seed_of_files(const ps_scene_result *result, int option) {
+    return option == PS_OPTION_SEED && (ps_scene_find_entry(result, PS_OPTION_PER_RING) != NULL ||
+                                        ps_scene_find_entry(result, PS_OPTION_INTEGRAND) != NULL);
+}
+
 /* Beside sets what is about samplers says nothing to these, and the reverse. */
 static bool is_for_others(const ps_scene_question *question, int option) {
-    const ps_scene_entry *const sources = ps_scene_find_sources(question->result);
+    const ps_scene_entry *const sources = ps_scene_find_entry(question->result, PS_OPTION_SAMPLER);
     const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
     if (num_sets == 0 || ps_scene_are_sets(sources) || sources->num_more > 0 ||
         option == PS_SCENE_FILES) {
@@ -38,8 +52,10 @@ static bool is_for_others(const ps_scene_question *question, int option) {
     }
     const size_t i = (size_t)(sources - question->result->entries);
     const bool is_set = ps_scene_value_of(question->result, question->number, i)->set != NULL;
-    return ps_options[option].source == (is_set ? PS_OF_SAMPLERS : PS_OF_FILES) ||
-           (is_set && option == PS_OPTION_POINTS);
+    const bool is_of_others =
+        ps_options[option].source == (is_set ? PS_OF_SAMPLERS : PS_OF_FILES) &&
+        !(is_set && is_seed_of_files(question->result, option));
+    return is_of_others || (is_set && option == PS_OPTION_POINTS);
 }
 
 static pspec_status take_text(ps_scene_question *out, ps_option_id id, const char *text,
@@ -53,10 +69,10 @@ static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *ent
     if (is_for_others(out, entry->option)) {
         return PSPEC_OK;
     }
-    if (value->set != NULL && out->result->is_joined) {
+    if (value->set != NULL) {
         return take_text(out, PS_OPTION_SET, value->set, error);
     }
-    if (entry->option == PS_SCENE_FILES || value->set != NULL) {
+    if (entry->option == PS_SCENE_FILES) {
         out->request.files = value->texts;
         out->request.num_files = value->num_texts;
         return PSPEC_OK;

@@ -24,7 +24,7 @@ static int find_option(const ps_kind *kind, const char *key) {
     if (strcmp(key, "files") == 0) {
         return ps_kind_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
     }
-    if (strcmp(key, sets_key) == 0 && !ps_kind_asks(kind, PS_OPTION_INPUT_FORMAT)) {
+    if (strcmp(key, sets_key) == 0 && (ps_options[PS_OPTION_SET].commands & kind->bit) == 0) {
         return -1;
     }
     const char *const name = strcmp(key, "samplers") == 0 || strcmp(key, sets_key) == 0 ? "sampler"
@@ -203,28 +203,19 @@ static pspec_status find_joining(const ps_scene_reader *reader, const ps_scene_n
     return PSPEC_OK;
 }
 
-static bool has_entry(const ps_scene_result *result, int option) {
-    for (size_t i = 0; i < result->num_entries; i++) {
-        if (result->entries[i].option == option) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Points come from a sampler or from files: the defaults' one gives way to the result's other. */
 static bool is_settled(const ps_scene_result *result, int option) {
-    return has_entry(result, option) ||
-           (option == PS_OPTION_SAMPLER && has_entry(result, PS_SCENE_FILES)) ||
-           (option == PS_SCENE_FILES && has_entry(result, PS_OPTION_SAMPLER));
+    return ps_scene_find_entry(result, option) != NULL ||
+           (option == PS_OPTION_SAMPLER && ps_scene_find_entry(result, PS_SCENE_FILES) != NULL) ||
+           (option == PS_SCENE_FILES && ps_scene_find_entry(result, PS_OPTION_SAMPLER) != NULL);
 }
 
 /* Defaults that are about samplers are not for files, nor the reverse; a kind may leave more. */
 static bool fits_result(const ps_scene_result *result, int option) {
-    const ps_scene_entry *const sources = ps_scene_find_sources(result);
+    const ps_scene_entry *const sources = ps_scene_find_entry(result, PS_OPTION_SAMPLER);
     const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
-    const bool are_files =
-        has_entry(result, PS_SCENE_FILES) || (num_sets > 0 && ps_scene_are_sets(sources));
+    const bool are_files = ps_scene_find_entry(result, PS_SCENE_FILES) != NULL ||
+                           (num_sets > 0 && ps_scene_are_sets(sources));
     if (option == PS_SCENE_FILES) {
         return true;
     }
@@ -313,7 +304,7 @@ static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_re
 static pspec_status check_entries(const ps_scene_reader *reader, ps_scene_result *result) {
     PS_TRY(ps_scene_join_sources(reader, result));
     PS_TRY(check_twice(reader, result));
-    const ps_scene_entry *const sources = ps_scene_find_sources(result);
+    const ps_scene_entry *const sources = ps_scene_find_entry(result, PS_OPTION_SAMPLER);
     for (size_t i = 0; sources != NULL && i < result->num_entries; i++) {
         const ps_scene_entry *const entry = &result->entries[i];
         const bool are_several = entry->option == PS_OPTION_POINTS && entry->num_values > 1;

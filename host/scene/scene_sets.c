@@ -16,13 +16,11 @@ typedef struct place {
 /* A name or pattern, relative to the folder of the scene. */
 static pspec_status add_path(const place *at, ps_file_list *list, const ps_scene_node *item) {
     const char *text = NULL;
-    const char *path = NULL;
     ps_error reason = {0};
     PS_TRY(ps_scene_take_text(at->file, item, at->name, &text));
-    const bool is_odd = at->scene->folder[0] == '\0' && text[0] == '-' && text[1] != '\0';
-    const char *const before = text[0] == '/' || text[0] == '-' ? "" : at->scene->folder;
-    PS_TRY(ps_scene_copy(at->scene, is_odd ? "./" : before, text, &path, at->file->error));
-    const pspec_status status = ps_file_list_add(list, "sets", path, &reason);
+    const bool is_absolute = text[0] == '/';
+    const char *const folder = is_absolute ? "" : at->scene->folder;
+    const pspec_status status = ps_file_list_add(list, "sets", folder, text, &reason);
     if (status == PSPEC_ERROR_MEMORY) {
         *at->file->error = reason;
         return status;
@@ -32,11 +30,17 @@ static pspec_status add_path(const place *at, ps_file_list *list, const ps_scene
                : ps_scene_complain(at->file, item->line, at->name, "%s", reason.message);
 }
 
-/* "NAME=a.txt,b.txt", for questions that have several sets. */
+/* "NAME=a.txt,b.txt" */
 static pspec_status write_option(const place *at, ps_scene_value *out) {
     ps_text text = {0};
     ps_text_append(&text, "%s=", at->name);
     for (size_t i = 0; i < out->num_texts; i++) {
+        if (strchr(out->texts[i], ',') != NULL) {
+            ps_text_free(&text);
+            return ps_scene_complain(at->file, out->line, at->name,
+                                     "\"%s\" has a comma, which stands between files here",
+                                     out->texts[i]);
+        }
         ps_text_append(&text, "%s%s", i > 0 ? "," : "", out->texts[i]);
     }
     pspec_status status = ps_text_check(&text, at->file->error);
@@ -68,10 +72,10 @@ static pspec_status take_set(const place *at, const ps_scene_node *node, ps_scen
     pspec_status status = PSPEC_OK;
     const ps_scene_node *item = ps_scene_first_item(node);
     if (ps_scene_num_items(node) == 0 || at->name[0] == '\0' ||
-        strlen(at->name) >= PS_SET_NAME_BYTES) {
+        strlen(at->name) >= PS_SET_NAME_BYTES || strchr(at->name, '=') != NULL) {
         return ps_scene_complain(at->file, node->line, "sets",
-                                 "\"%s\" needs a name of 1 to %d bytes, and files", at->name,
-                                 PS_SET_NAME_BYTES - 1);
+                                 "\"%s\" needs a name of 1 to %d bytes without =, and files",
+                                 at->name, PS_SET_NAME_BYTES - 1);
     }
     for (size_t i = 0; status == PSPEC_OK && i < ps_scene_num_items(node); i++) {
         status = add_path(at, &list, item);
@@ -108,14 +112,6 @@ pspec_status ps_scene_take_sets(const ps_scene_reader *reader, const ps_scene_no
 }
 
 /* ---- beside samplers ----------------------------------------------------------------------- */
-
-const ps_scene_entry *ps_scene_find_sources(const ps_scene_result *result) {
-    size_t i = 0;
-    while (i < result->num_entries && result->entries[i].option != PS_OPTION_SAMPLER) {
-        i++;
-    }
-    return i < result->num_entries ? &result->entries[i] : NULL;
-}
 
 size_t ps_scene_num_sets(const ps_scene_entry *entry) {
     size_t num = 0;
@@ -162,25 +158,12 @@ static pspec_status join(const ps_scene_reader *reader, ps_scene_entry *out,
     return PSPEC_OK;
 }
 
-/* Of a result that compares them, all of them are of one question, in the words of --set. */
-static pspec_status gather(const ps_scene_reader *reader, const ps_scene_result *result,
-                           ps_scene_entry *sources) {
-    const size_t num = result->is_joined && sources != NULL ? sources->num_values : 0;
-    for (size_t i = 0; i < num; i++) {
-        const ps_scene_value *const value = &sources->values[i];
-        for (size_t k = 0; value->set != NULL && k < value->num_texts; k++) {
-            if (strchr(value->texts[k], ',') != NULL) {
-                return ps_scene_complain(reader->file, value->line, value->label,
-                                         "\"%s\" has a comma, which stands between files here",
-                                         value->texts[k]);
-            }
-        }
-    }
-    if (num > 0) {
-        sources->num_more += num - 1;
+/* Of a result that compares them, all of them are of one question. */
+static void gather(const ps_scene_result *result, ps_scene_entry *sources) {
+    if (result->is_joined && sources != NULL) {
+        sources->num_more += sources->num_values - 1;
         sources->num_values = 1;
     }
-    return PSPEC_OK;
 }
 
 pspec_status ps_scene_join_sources(const ps_scene_reader *reader, ps_scene_result *result) {
@@ -192,12 +175,13 @@ pspec_status ps_scene_join_sources(const ps_scene_reader *reader, ps_scene_resul
         }
     }
     if (sources[0] == NULL || sources[1] == NULL) {
-        return gather(reader, result, sources[1]);
+        gather(result, sources[1]);
+        return PSPEC_OK;
     }
     ps_scene_entry *const first = sources[0] < sources[1] ? sources[0] : sources[1];
     ps_scene_entry *const second = sources[0] < sources[1] ? sources[1] : sources[0];
     PS_TRY(join(reader, first, sources[0], sources[1]));
-    PS_TRY(gather(reader, result, first));
+    gather(result, first);
     result->num_entries--;
     memmove(second, second + 1,
             (size_t)(result->entries + result->num_entries - second) * sizeof *second);

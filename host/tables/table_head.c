@@ -109,12 +109,14 @@ static void append_line(ps_text *line, const ps_table *table, const char *key, s
     }
 }
 
+/* A long sentence takes no more than half of the lines that are left, for others come after it. */
 static pspec_status print_line(ps_text *line, const ps_text_view *view, size_t *left, FILE *stream,
                                ps_error *error) {
     enum { INDENT = 2 };
     const pspec_status status = ps_text_check(line, error);
     if (status == PSPEC_OK && line->length > 0) {
-        *left -= ps_places_wrap(ps_text_string(line), 0, INDENT, view->width, *left, stream);
+        const size_t most = (*left + 1) / 2;
+        *left -= ps_places_wrap(ps_text_string(line), 0, INDENT, view->width, most, stream);
     }
     ps_text_free(line);
     return status;

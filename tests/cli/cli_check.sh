@@ -146,6 +146,9 @@ refuses 'rings by floor of the torus in 2 dimensions' --against saved.json floor
 "$program" power "${host[@]}" --sampler white -d 4 -n 32 -m 20 -k 5 --per-ring 8 -s 6 -o other_subset.json
 refuses '8 of every ring by the seed 6' --against subset.json other_subset.json
 runs 0 --against subset.json subset.json
+modes=$(grep -v '^#' out)
+runs 0 "${host[@]}" --against subset.json --sampler white -m 20 -s 5
+[[ $(grep -v '^#' out) == "$modes" ]] || complain "a subset that is saved has other errors than one that is measured"
 refuses 'even degrees of the hemisphere' --against sphere.json even.json
 "$program" power "${host[@]}" --sampler jittered -n 81 -m 9 -k 12 -o larger.json
 refuses 'the sets of "larger.json" have 81 points, those of "saved.json" have 64; spectra change' --against saved.json larger.json
@@ -154,6 +157,8 @@ refuses '"bad.json" and "saved.json" do not have the same rings: the first that 
 refuses '-m does not go with two saved spectra' --against saved.json again.json -m 4
 refuses '--box does not go with two saved spectra' --against saved.json again.json --box 0,1
 refuses '--engine does not go with two saved spectra' "${host[@]}" --against saved.json again.json
+refuses '--tol does not go with two saved spectra' --against saved.json again.json --tol 1e-3
+refuses '--precision does not go with two saved spectra' --against saved.json again.json --precision double
 head -c 300 again.json >bad.json
 refuses 'no JSON at byte' --against saved.json bad.json
 

@@ -32,9 +32,19 @@ on_terminal power --sampler jittered -n 64,256 -m 1 -k 2 --engine host_direct --
 on_terminal quadrature --brdf diffuse --sampler white-hemisphere --sampler fibonacci-hemisphere -n 64 -l 2 --engine host_direct --quiet >shown
 [[ $(head -1 shown) =~ ^'worst_case_error: '[0-9.]+'; '[0-9.]+$ && $(head -4 shown) == *$'\nbrdf: diffuse\npoints: 64'* ]] || complain "two samplers: $(<shown)"
 on_terminal power --sampler jittered -n 1024 -m 8 -k 40 --fit auto --quiet >shown
-[[ $(sed '/^$/,$d' shown | wc -l) == 4 && $(head -1 shown) == 'fit: '* ]] || complain "sentences are not cut to four lines: $(<shown)"
+[[ $(sed '/^$/,$d' shown | wc -l) == 4 && $(cut -d: -f1 shown | head -4 | grep -c '^[a-z]') == 3 && $(head -1 shown) == 'convergence: '* ]] || complain "sentences are not cut to four lines: $(<shown)"
 on_terminal truncation --brdf glossy:n=30 -l 4 --verbose >shown
 [[ $(head -1 shown) == pointspec_version* && $(grep -c more shown) == 0 ]] || complain "truncation --verbose: $(<shown)"
+
+# points are points, also there
+"$program" sample --sampler jittered -n 4 --quiet >points.txt
+on_terminal sample --sampler jittered -n 4 --quiet >shown
+cmp -s shown points.txt || complain "sample: $(<shown)"
+on_terminal convert points.txt --quiet >shown
+[[ $(grep -vc '^#' shown) == 4 ]] || complain "convert: $(<shown)"
+"$program" sample --sampler jittered -n 64 -m 6 --quiet -o one.txt
+on_terminal power one.txt points.txt -k 4 --engine host_direct --quiet >shown
+grep -q '^input: 2 files, 7 realizations, one average$' shown || complain "files: $(<shown)"
 
 # no line is wider than the terminal, and no column and no number is lost
 for width in 40 50 64 80 100 130; do

@@ -73,7 +73,7 @@ static void check_lattice(unsigned dimension, int32_t max_frequency, bool is_bal
 
 static void lattices(void **state) {
     (void)state;
-    for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
         for (int32_t k = 1; k <= largest_to_try[dimension - 1]; k++) {
             check_lattice(dimension, k, false);
             check_lattice(dimension, k, true);
@@ -100,12 +100,12 @@ static void promised_size_of_balls(void **state) {
 static void half_lattice(void **state) {
     (void)state;
     uint64_t seed = 6;
-    const int32_t zero[PS_MAX_TORUS_DIMENSION] = {0};
-    for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    const int32_t zero[PS_MAX_DIMENSION] = {0};
+    for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
         assert_false(ps_frequency_is_in_half_lattice(zero, dimension));
         for (int i = 0; i < 1000; i++) {
-            int32_t k[PS_MAX_TORUS_DIMENSION];
-            int32_t minus[PS_MAX_TORUS_DIMENSION];
+            int32_t k[PS_MAX_DIMENSION];
+            int32_t minus[PS_MAX_DIMENSION];
             for (unsigned axis = 0; axis < dimension; axis++) {
                 k[axis] = (int32_t)(3 * test_uniform(&seed)) - 1;
                 minus[axis] = -k[axis];
@@ -129,7 +129,7 @@ static void norms_do_not_overflow(void **state) {
 /* The largest K that the message names is accepted, the next one is not. */
 static void largest_lattices(void **state) {
     (void)state;
-    for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
         ps_frequencies set = {0};
         ps_error said = {0};
         long largest = 0;

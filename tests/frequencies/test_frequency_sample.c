@@ -135,7 +135,7 @@ static void rings_and_shells_of_every_dimension(void **state) {
                                          {PS_BINS_WIDTH, 3, 2, 0, 0},
                                          {PS_BINS_WIDTH, 5, 8, 0, 0},
                                          {PS_BINS_RELATIVE, 2, 3, 0, 0}};
-    for (unsigned dimension = 2; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    for (unsigned dimension = 2; dimension <= PS_MAX_DIMENSION; dimension++) {
         for (uint64_t per_ring = 2; per_ring <= 8; per_ring += 3) {
             check_against_ball(dimension, most[dimension - 1], &rings, per_ring);
             check_against_ball(dimension, most[dimension - 1], &shells, per_ring > 4 ? 3 : 2);

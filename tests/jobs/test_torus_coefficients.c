@@ -122,7 +122,7 @@ static void check_set(const ps_frequencies *set, size_t num_points, bool has_wei
 static void grids(void **state) {
     (void)state;
     static const int32_t largest[] = {40, 9, 4, 2, 1, 1};
-    for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
         for (int is_ball = 0; is_ball < 2; is_ball++) {
             ps_frequencies set = {0};
             assert_ok(ps_frequencies_lattice(&set, dimension, largest[dimension - 1], is_ball != 0,

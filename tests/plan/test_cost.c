@@ -102,7 +102,7 @@ static void cost_grows_with_the_problem(void **state) {
     const ps_device_limits limits[] = {test_cpu(), test_gpu(true)};
     static const int32_t largest[] = {30000, 1000, 60, 12, 6, 4};
     for (size_t l = 0; l < 2; l++) {
-        for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+        for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
             for (int32_t k = 1; k < largest[dimension - 1]; k += 1 + k / 8) {
                 const ps_frequencies small = test_lattice(dimension, k);
                 const ps_frequencies large = test_lattice(dimension, 2 * k);

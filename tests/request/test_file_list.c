@@ -4,6 +4,8 @@
 #include "request/file_list.h"
 #include "request/option_text.h"
 
+#include <sys/stat.h>
+
 // clang-format off
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +13,8 @@
 // clang-format on
 
 static void write_files(const test_folder *folder) {
-    static const char *const names[] = {"b2.txt", "b1.txt", "b10.txt", "a[1].txt", "c.dat"};
+    static const char *const names[] = {"b2.txt",   "b1.txt", "b10.txt",
+                                        "a[1].txt", "a1.txt", "c.dat"};
     char path[TEST_PATH_BYTES];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         assert_true(test_write_file(test_path(folder, names[i], path), "0.5 0.5\n", 8));
@@ -55,7 +58,9 @@ static void names_and_patterns_make_a_list(void **state) {
     must_be(folder, "b*.txt", "b1.txt b10.txt b2.txt");
     must_be(folder, "c.dat,b?.txt", "c.dat b1.txt b2.txt");
     must_be(folder, "b[12].txt", "b1.txt b2.txt");
-    /* a file of that very name, and one that is not there: who opens it says so */
+    must_be(folder, "a\\[1].txt", "a[1].txt");
+    /* a file of that very name beside one that it matches, and one that is not there: who opens it
+     * says so */
     must_be(folder, "a[1].txt", "a[1].txt");
     must_be(folder, "none.txt", "none.txt");
 }
@@ -74,6 +79,28 @@ static void what_is_no_list_is_refused(void **state) {
                          PSPEC_ERROR_INVALID_ARGUMENT);
         ps_file_list_free(&list);
     }
+}
+
+/* Letters of a folder are no pattern. */
+static void folders_stand_for_themselves(void **state) {
+    const test_folder *const folder = *state;
+    char path[TEST_PATH_BYTES];
+    char inside[TEST_PATH_BYTES];
+    ps_file_list list = {0};
+    ps_error error;
+    assert_int_equal(mkdir(test_path(folder, "d[1]", path), 0700), 0);
+    snprintf(inside, sizeof inside, "%.200s/a1.txt", path);
+    assert_true(test_write_file(inside, "0.5 0.5\n", 8));
+    snprintf(path, sizeof path, "%.200s/d[1]/", folder->path);
+    assert_int_equal(ps_file_list_add(&list, "sets", path, "a*.txt", &error), PSPEC_OK);
+    assert_int_equal(ps_file_list_add(&list, "sets", path, "none.txt", &error), PSPEC_OK);
+    assert_int_equal(list.num, 2);
+    assert_string_equal(list.paths[0], inside);
+    assert_non_null(strstr(list.paths[1], "/d[1]/none.txt"));
+    ps_file_list_free(&list);
+    remove(inside);
+    path[strlen(path) - 1] = '\0';
+    remove(path);
 }
 
 /* ---- sources ------------------------------------------------------------------------------- */
@@ -134,6 +161,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(names_and_patterns_make_a_list, test_folder_create,
                                         test_folder_remove),
         cmocka_unit_test_setup_teardown(what_is_no_list_is_refused, test_folder_create,
+                                        test_folder_remove),
+        cmocka_unit_test_setup_teardown(folders_stand_for_themselves, test_folder_create,
                                         test_folder_remove),
         cmocka_unit_test(sources_are_in_the_order_in_which_they_were_said),
         cmocka_unit_test(names_tell_sources_apart),

@@ -35,6 +35,7 @@ scene <<'END'
     max-frequency: 4
   - {result: variance, name: errors, sets: {jit: data/j*.txt, one: [data/l1.txt]}, integrand: [disk, gaussian], max-frequency: 8}
   - {result: power, name: single, sets: {jit: data/j1.txt}, max-frequency: 3, pictures: true}
+  - {result: power, name: chosen, sets: {jit: data/j1.txt}, samplers: white, points: 64, max-frequency: 12, per-ring: 4, seed: 9}
 END
 runs 0 scene.yaml -o folder --cache 0
 [[ $(values spectra) == "white regular jit lhs" ]] || complain "order: $(<folder/spectra.summary.csv)"
@@ -42,8 +43,9 @@ diff <(rows folder/spectra.csv) <(alone white power -k 4 --sampler white -n 64 -
     alone regular power -k 4 --sampler regular -n 64 -m 5 -s 3
     alone jit power -k 4 data/j1.txt data/j2.txt
     alone lhs power -k 4 data/l1.txt data/l2.txt) >differences || complain "rows: $(<differences)"
-diff <(rows folder/errors.csv | cut -d, -f1-5) <("$program" variance --engine host_direct --no-self-check -k 8 --integrand disk --integrand gaussian \
-    --set 'jit=data/j*.txt' --set one=data/l1.txt | grep -v '^#' | sed 1d | cut -d, -f1-5) >differences || complain "variances: $(<differences)"
+diff <(rows folder/errors.csv) <("$program" variance --engine host_direct --no-self-check -k 8 --integrand disk --integrand gaussian \
+    --set 'jit=data/j*.txt' --set one=data/l1.txt | grep -v '^#' | sed 1d) >differences || complain "variances: $(<differences)"
+diff <(rows folder/chosen.csv | grep '^jit') <(alone jit power -k 12 --per-ring 4 -s 9 data/j1.txt) >differences || complain "a subset of rings by the seed: $(<differences)"
 if command -v gnuplot >/dev/null; then
     for label in white regular jit lhs; do
         grep -q ">$label<" folder/spectra.svg || complain "the picture lacks $label"
@@ -57,7 +59,7 @@ runs 0 folder/record.json -o again --cache 0
 diff <(rows folder/spectra.csv) <(rows again/spectra.csv) >differences || complain "the record asks otherwise"
 rm data/j3.txt
 "$program" plan run scene.yaml >planned.txt 2>err || complain "plan: $(<err)"
-[[ $(grep -c ',chosen,' planned.txt) == 7 ]] || complain "plan: $(<planned.txt)"
+[[ $(grep -c ',chosen,' planned.txt) == 9 ]] || complain "plan: $(<planned.txt)"
 
 # ---- what is about samplers or files is for those; a key of the other order; defaults ----
 awk '/^#/ { print; next } { printf "%.17g %.17g\n", $1 * 8, $2 * 8 }' data/j1.txt >wide.txt
@@ -94,7 +96,9 @@ refused() { # SENTENCE: of the scene on standard input
 refused 'scene.yaml:4: sets: a mapping is wanted here' <<<'  - {result: power, sets: [data/j1.txt]}'
 refused 'scene.yaml:4: a: sets: no file matches "none*.txt"' <<<'  - {result: power, sets: {a: "none*.txt"}}'
 refused 'scene.yaml:4: a: sets: standard input (-) is no file' <<<'  - {result: power, sets: {a: "-"}}'
-refused 'needs a name of 1 to 63 bytes, and files' <<<'  - {result: power, sets: {a: []}}'
+refused 'needs a name of 1 to 63 bytes without =, and files' <<<'  - {result: power, sets: {a: []}}'
+refused 'scene.yaml:4: sets: "a=b" needs a name' <<<'  - {result: power, sets: {"a=b": data/j1.txt}}'
+refused 'sets: not a key of this result' <<<'  - {result: check, against: saved.json, sets: {a: data/j1.txt}}'
 refused '"white" is the name of a sampler of line 4 already' <<<'  - {result: power, samplers: white, sets: {white: data/j1.txt}}'
 refused 'files: beside sets files stand under a name' <<<'  - {result: power, files: data/j2.txt, sets: {a: data/j1.txt}}'
 refused 'points: sets have their own, and one number is for samplers' <<<'  - {result: power, samplers: white, points: [64, 128], sets: {a: data/j1.txt}}'

@@ -47,12 +47,13 @@ runs 0 --sampler jittered -n 16 -m 9 -k 4 --engine torus_direct --scatter 1,1
 diff -q <(cut -d, -f1-4 without) <(sed '/^#/d' out | cut -d, -f1-4) >/dev/null || complain "other rows"
 
 # ---- what is refused ----
-refuses 'the frequency of the scatter has 1 numbers, and points have 2' --sampler white -n 16 -m 3 --scatter 3
+refuses 'the frequency of the scatter has 1 number, and points have 2' --sampler white -n 16 -m 3 --scatter 3
 refuses 'has the number 9, and the largest frequency (-k) is 8' --sampler white -n 16 -m 3 -k 8 --scatter 3,9
 refuses '--scatter: 0.5 is not a whole number' --sampler white -n 16 --scatter 0.5,1
 refuses '--scatter: S(0) is the sum of weights' --sampler white -n 16 --scatter 0,0
 refuses '--scatter: a frequency has 6 numbers at most' --sampler white -n 16 --scatter 1,2,3,4,5,6,7
 refuses '--scatter' --sampler white -n 16 --scatter 1,
+refuses '--scatter does not go with --plot-log: coefficients have both signs' --sampler white -n 16 --scatter 1,1 --plot a.svg --plot-log xy
 refuses 'does not go with several samplers or sets: a picture shows the sets of one' --sampler white --sampler jittered -n 16 --scatter 1,1 --plot a.svg
 refuses 'does not go with --per-ring' --sampler white -n 16 --scatter 1,1 --per-ring 8
 refuses 'does not go with --standard-error' --sampler white -n 16 --scatter 1,1 --standard-error 0.1

@@ -150,7 +150,7 @@ static void bins_of_lattices(void **state) {
                                         {PS_BINS_WIDTH, 1, 1, 0, 0},  {PS_BINS_WIDTH, 2, 1, 0, 0},
                                         {PS_BINS_WIDTH, 1, 3, 0, 0},  {PS_BINS_WIDTH, 7, 5, 0, 0},
                                         {PS_BINS_WIDTH, 13, 9, 0, 0}, {PS_BINS_WIDTH, 1, 64, 0, 0}};
-    for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
         for (int32_t k = 1; k <= frequencies[dimension - 1]; k++) {
             for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
                 check_bins(dimension, k, false, &rules[i]);

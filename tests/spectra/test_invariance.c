@@ -33,7 +33,7 @@ static void find_waves(double x, int32_t most, double (*out)[2]) {
 static void find_amplitudes(const ps_frequencies *set, const double *points, size_t num,
                             double *out) {
     enum { MOST = 128 };
-    static double waves[PS_MAX_TORUS_DIMENSION][2 * MOST + 1][2];
+    static double waves[PS_MAX_DIMENSION][2 * MOST + 1][2];
     const int32_t most = set->max_frequency;
     assert_true(most <= MOST);
     for (size_t i = 0; i < 2 * (1 + set->num); i++) {

@@ -37,7 +37,7 @@ static void amplitude(const ps_frequencies *box, const ps_shift_family *family,
 /* Z(h) over the whole box; returns the sum of |S'(k)|^2. */
 static double sum_products(const ps_frequencies *box, const ps_shift_family *family,
                            const double *values, const int32_t *h, double out[2]) {
-    int32_t k[PS_MAX_TORUS_DIMENSION];
+    int32_t k[PS_MAX_DIMENSION];
     const int32_t side = 2 * box->max_frequency + 1;
     const int64_t cells = (int64_t)pow(side, box->dimension);
     double norm2 = 0;
@@ -45,7 +45,7 @@ static double sum_products(const ps_frequencies *box, const ps_shift_family *fam
     for (int64_t cell = 0; cell < cells; cell++) {
         double a[2];
         double b[2];
-        int32_t shifted[PS_MAX_TORUS_DIMENSION];
+        int32_t shifted[PS_MAX_DIMENSION];
         int64_t rest = cell;
         for (unsigned axis = 0; axis < box->dimension; axis++) {
             k[axis] = (int32_t)(rest % side) - box->max_frequency;
@@ -73,7 +73,7 @@ static void check_family(const ps_frequencies *box, const ps_shift_family *famil
                          const double *found, double norm) {
     const size_t stride = 2 * box->num;
     for (size_t i = 0; i < family->num; i += 1 + family->num / 10) {
-        int32_t h[PS_MAX_TORUS_DIMENSION];
+        int32_t h[PS_MAX_DIMENSION];
         double norm2 = 0;
         ps_shift_family_shift(family, i, h);
         for (size_t r = 0; r < num_sets; r++) {

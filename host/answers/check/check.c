@@ -40,11 +40,13 @@ static pspec_status find_both_saved(bool *are_both, const ps_request *request, p
                : PSPEC_OK;
 }
 
-/* Options about points and how they are computed with. */
+/* Options about points, and about how they are computed with, have no place here. */
 static pspec_status check_both(const ps_request *request, ps_error *error) {
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         const bool is_of_points = ps_options[id].source != PS_OF_BOTH || id == PS_OPTION_POINTS ||
-                                  id == PS_OPTION_WEIGHTS || id == PS_OPTION_ENGINE;
+                                  id == PS_OPTION_WEIGHTS || id == PS_OPTION_ENGINE ||
+                                  id == PS_OPTION_TOLERANCE || id == PS_OPTION_PRECISION ||
+                                  id == PS_OPTION_PROFILE;
         if (request->is_given[id] && is_of_points) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                            "%s does not go with two saved spectra, \"%s\" and \"%s\": nothing is "

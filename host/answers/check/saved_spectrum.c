@@ -111,10 +111,12 @@ static void complete(ps_saved_spectrum *out) {
                                 .degree_step = out->on_hemisphere ? 2 : 1};
     const uint64_t most = out->per_ring > 0 ? 2 * out->per_ring : UINT64_MAX;
     out->sample_size = out->mean_points;
-    out->modes = ps_compared_modes(&set);
+    /* a subset has those of its rings */
+    out->modes = out->per_ring > 0 ? 0 : ps_compared_modes(&set);
     for (size_t b = 0; b < out->num_bins; b++) {
         ps_saved_bin *const bin = &out->bins[b];
         bin->num_computed = bin->count < most ? bin->count : most;
+        out->modes += out->per_ring > 0 ? (double)bin->num_computed : 0;
     }
 }
 

@@ -145,7 +145,7 @@ static pspec_status read_domain(const reader *source) {
         out->dimension = PS_SPHERE_DIMENSION;
         PS_TRY(need_whole(source, "max_degree", PS_MAX_DEGREE, &number));
     } else {
-        PS_TRY(need_whole(source, "dimension", PS_MAX_TORUS_DIMENSION, &number));
+        PS_TRY(need_whole(source, "dimension", PS_MAX_DIMENSION, &number));
         out->dimension = (unsigned)number;
         PS_TRY(need_whole(source, "max_frequency", PS_MAX_FREQUENCY, &number));
         PS_TRY(read_bins(source));

@@ -22,7 +22,7 @@ static pspec_status write_array(const char *path, const ps_request *arguments,
                                 const ps_spectrum *spectrum, int which, ps_error *error) {
     double *array = NULL;
     size_t num_entries = 0;
-    size_t shape[PS_MAX_TORUS_DIMENSION];
+    size_t shape[PS_MAX_DIMENSION];
     const ps_frequencies *set = &spectrum->frequencies;
     for (unsigned axis = 0; axis < set->dimension; axis++) {
         shape[axis] = 2 * (size_t)set->max_frequency + 1;

@@ -21,7 +21,7 @@ pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job
  * list; without the first axis where there is one set. */
 typedef struct ps_complex_shape {
     unsigned rank;
-    size_t shape[PS_MAX_TORUS_DIMENSION + 1];
+    size_t shape[PS_MAX_DIMENSION + 1];
     size_t num_entries; /* of a set */
 } ps_complex_shape;
 /* The same in memory, pairs of doubles, freed by the caller. */

@@ -53,7 +53,8 @@ static pspec_status check_several(const ps_request *arguments, ps_error *error) 
     return arguments->plot == NULL || num <= PS_MAX_CURVES
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "--plot: %zu samplers with %zu numbers of points are %zu curves, and a "
+                         "--plot: %zu samplers and sets with %zu numbers of points are %zu curves, "
+                         "and a "
                          "picture has %d at most; pointspec run deals them out to panels",
                          arguments->num_sources, arguments->num_counts, num, PS_MAX_CURVES);
 }
@@ -97,6 +98,9 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
         {PS_OPTION_SCATTER, PS_OPTION_STANDARD_ERROR,
          "coefficients are of sets whose number is known before"},
         {PS_OPTION_SCATTER, PS_OPTION_PER_RING, "a subset may not have the frequency"},
+        {PS_OPTION_SCATTER, PS_OPTION_PLOT_LOG, "coefficients have both signs"},
+        {PS_OPTION_SCATTER, PS_OPTION_PLOT_RANGE, "its panels have axes of their own"},
+        {PS_OPTION_SCATTER, PS_OPTION_PLOT_POINTS, "its picture has none"},
         {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {

@@ -101,7 +101,7 @@ static place find_place(const ps_split *split, const int32_t *k) {
     }
     const unsigned right_axes = split->dimension - split->left_axes;
     const int32_t *right = k + split->left_axes;
-    int32_t mirrored[PS_MAX_TORUS_DIMENSION] = {0};
+    int32_t mirrored[PS_MAX_DIMENSION] = {0};
     place found = {0};
     if (ps_frequency_is_in_half_lattice(k, split->left_axes)) {
         found.left = half_lattice_index(k, split->left_axes, split->max_frequency) + 1;

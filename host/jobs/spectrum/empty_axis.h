@@ -13,7 +13,7 @@ enum { PS_AXIS_CELLS = 256 };
 typedef struct ps_axis_cells {
     unsigned dimension;
     uint64_t num_points;
-    bool has_point[PS_MAX_TORUS_DIMENSION][PS_AXIS_CELLS];
+    bool has_point[PS_MAX_DIMENSION][PS_AXIS_CELLS];
 } ps_axis_cells;
 
 /* A piece of an axis from `begin` to `end`, which is below `begin` where it goes on at 0. */

@@ -63,8 +63,8 @@ static pspec_status check_shown(const ps_frequencies_spec *spec, unsigned dimens
                                 int32_t max_frequency, ps_error *error) {
     if (spec->num_shown != 0 && spec->num_shown != dimension) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "the frequency of the scatter has %u numbers, and points have %u",
-                       spec->num_shown, dimension);
+                       "the frequency of the scatter has %u number%s, and points have %u",
+                       spec->num_shown, spec->num_shown == 1 ? "" : "s", dimension);
     }
     for (unsigned axis = 0; axis < spec->num_shown; axis++) {
         if (abs(spec->shown[axis]) > max_frequency) {

@@ -78,7 +78,7 @@ static bool step(int32_t *k, unsigned dimension, unsigned axis, int32_t size) {
  * before: the faces of all axes are half of the surface of the box. */
 static pspec_status add_face(shell *self, unsigned axis, int32_t size, ps_error *error) {
     const unsigned dimension = self->tails->integrand->place.dimension;
-    int32_t k[PS_MAX_TORUS_DIMENSION];
+    int32_t k[PS_MAX_DIMENSION];
     bool has_more = true;
     for (unsigned i = 0; i < dimension; i++) {
         k[i] = i == axis ? size : i < axis ? 1 - size : -size;

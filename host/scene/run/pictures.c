@@ -259,14 +259,6 @@ static pspec_status add_singles(ps_pictures *out, const ps_scene_result *asked,
     return PSPEC_OK;
 }
 
-static bool has_entry(const ps_scene_result *asked, ps_option_id id) {
-    size_t i = 0;
-    while (i < asked->num_entries && asked->entries[i].option != (int)id) {
-        i++;
-    }
-    return i < asked->num_entries;
-}
-
 static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
     const layout how = find_layout(asked, asked->num_entries, true);
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
@@ -275,7 +267,7 @@ static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked,
     if (asked->wants_pictures) {
         PS_TRY(add_singles(out, asked, PS_PICTURE_IMAGE, "picture", error));
     }
-    return has_entry(asked, PS_OPTION_SCATTER)
+    return ps_scene_find_entry(asked, PS_OPTION_SCATTER) != NULL
                ? add_singles(out, asked, PS_PICTURE_SCATTER, "scatter", error)
                : PSPEC_OK;
 }

@@ -23,19 +23,24 @@ static bool begin_alike(const char *a, const char *b) {
 }
 
 /* A question of several samplers and numbers of points has such an entry for each of them: nothing
- * unless all name the same. */
+ * unless all name the same, and the name alone where the rest differs. */
 static void print_common(const ps_table *table, const char *wanted, ps_text *out) {
     const char *const first = meta_text(table, wanted);
     bool is_common = first[0] != '\0';
+    bool is_same = true;
     for (size_t i = 0; i < ps_table_num_meta(table); i++) {
         const char *key = NULL;
         const ps_cell cell = ps_table_meta(table, i, &key);
-        is_common = is_common && (strcmp(key, wanted) != 0 || cell.kind != PS_CELL_TEXT ||
-                                  begin_alike(cell.text, first));
+        if (strcmp(key, wanted) == 0 && cell.kind == PS_CELL_TEXT) {
+            is_common = is_common && begin_alike(cell.text, first);
+            is_same = is_same && strcmp(cell.text, first) == 0;
+        }
     }
-    if (is_common) {
+    if (is_common && is_same) {
         ps_text_append(out, ", \"%s\": ", wanted);
         ps_scene_print_text(first, out);
+    } else if (is_common) { /* "(torus_nufft precision=single ..)" */
+        ps_text_append(out, ", \"%s\": \"%.*s)\"", wanted, (int)strcspn(first, " )"), first);
     }
 }
 

@@ -22,7 +22,9 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
     for (size_t i = 0; i < asked->num_entries && is_first; i++) {
         const int option = asked->entries[i].option;
         const ps_scene_value *const value = &asked->entries[i].values[0];
-        const bool is_one = option != PS_OPTION_SAMPLER || value->num_texts == 1;
+        const bool is_one =
+            asked->entries[i].num_more == 0 &&
+            (option != PS_OPTION_SAMPLER || value->set != NULL || value->num_texts == 1);
         if (is_one &&
             (option == PS_OPTION_SAMPLER || option == PS_SCENE_FILES || option == PS_OPTION_BRDF)) {
             ps_text_append(out, "%s", value->label);

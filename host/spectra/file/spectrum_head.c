@@ -167,7 +167,7 @@ pspec_status ps_spectrum_read_head(ps_spectrum_reader *in, ps_spectrum_head *out
     const char *value = NULL;
     PS_TRY(read_magic(in, out));
     PS_TRY(read_value(in, "pointspec_version", line, &value));
-    PS_TRY(read_count(in, "dimension", 1, PS_MAX_TORUS_DIMENSION, &out->dimension));
+    PS_TRY(read_count(in, "dimension", 1, PS_MAX_DIMENSION, &out->dimension));
     PS_TRY(read_word(in, "frequencies", ps_spectrum_kinds, PS_SPECTRUM_NUM_KINDS, &out->kind));
     if (out->kind == PS_SPECTRUM_SAMPLE) {
         PS_TRY(read_count(in, "per_ring", PS_MIN_PER_RING, PS_MAX_NUM_FREQUENCIES, &out->per_ring));

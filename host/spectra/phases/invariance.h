@@ -8,11 +8,11 @@
 
 /* What a test is of. */
 typedef struct ps_phase_label {
-    int32_t k[PS_MAX_TORUS_DIMENSION]; /* frequency or shift; degree and order */
-    bool is_turned;                    /* on the sphere: about the x axis instead of z */
-    bool is_product;                   /* of sums of products instead of amplitudes */
-    unsigned axes;                     /* of products on the torus: bits of ps_shift_family */
-    int32_t reach;                     /* of products on the torus */
+    int32_t k[PS_MAX_DIMENSION]; /* frequency or shift; degree and order */
+    bool is_turned;              /* on the sphere: about the x axis instead of z */
+    bool is_product;             /* of sums of products instead of amplitudes */
+    unsigned axes;               /* of products on the torus: bits of ps_shift_family */
+    int32_t reach;               /* of products on the torus */
 } ps_phase_label;
 
 typedef struct ps_invariance ps_invariance;

@@ -104,10 +104,9 @@ size_t ps_shift_family_cell(const ps_shift_family *family, const int32_t *k, int
     return cell;
 }
 
-void ps_shift_family_shift(const ps_shift_family *family, size_t i,
-                           int32_t out[PS_MAX_TORUS_DIMENSION]) {
+void ps_shift_family_shift(const ps_shift_family *family, size_t i, int32_t out[PS_MAX_DIMENSION]) {
     const int32_t *from = family->shifts.vectors + i * family->dimension;
-    for (unsigned axis = 0; axis < PS_MAX_TORUS_DIMENSION; axis++) {
+    for (unsigned axis = 0; axis < PS_MAX_DIMENSION; axis++) {
         out[axis] = (family->axes >> axis & 1) != 0 ? *from++ : 0;
     }
 }

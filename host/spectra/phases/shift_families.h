@@ -53,8 +53,7 @@ void ps_shift_families_free(ps_shift_family *families, size_t num);
 /* Numbers of a grid of side^dimension; it may be too many to index. */
 double ps_shift_family_cells(const ps_shift_family *family);
 /* Shift number i: |h_i| <= 2q on the axes, 0 on the others. */
-void ps_shift_family_shift(const ps_shift_family *family, size_t i,
-                           int32_t out[PS_MAX_TORUS_DIMENSION]);
+void ps_shift_family_shift(const ps_shift_family *family, size_t i, int32_t out[PS_MAX_DIMENSION]);
 /* The place of k in the grid, which is 0 but on the axes; sign -1: that of -k. */
 size_t ps_shift_family_cell(const ps_shift_family *family, const int32_t *k, int sign);
 

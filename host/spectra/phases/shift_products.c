@@ -125,7 +125,7 @@ static void square(ps_shift_products *self, size_t cells) {
 /* Of F = Z_1 + i Z_2, where Z(-h) is the conjugate of Z(h). */
 static void pick(const ps_shift_products *self, const ps_shift_family *family, size_t num_sets,
                  double *out) {
-    int32_t h[PS_MAX_TORUS_DIMENSION];
+    int32_t h[PS_MAX_DIMENSION];
     for (size_t i = 0; i < family->num; i++) {
         ps_shift_family_shift(family, i, h);
         const double *const there = self->grid + 2 * ps_shift_family_cell(family, h, 1);

@@ -39,7 +39,7 @@ static void check_slots(const ps_split *split, const ps_frequencies *lattice, bo
     bool *is_taken = calloc(stride, sizeof *is_taken);
     assert_non_null(is_taken);
     for (size_t i = 0; i < lattice->num; i++) {
-        int32_t found[PS_MAX_TORUS_DIMENSION];
+        int32_t found[PS_MAX_DIMENSION];
         const int32_t *k = lattice->vectors + i * lattice->dimension;
         const size_t slot = ps_split_slot(split, k);
         assert_true(slot < stride && !is_taken[slot]);
@@ -95,9 +95,9 @@ static void check_split(unsigned dimension, int32_t max_frequency, bool is_ball,
 static void slots_of_lattices(void **state) {
     (void)state;
     static const unsigned lanes[] = {1, 2, 4, 8, 16};
-    static const int32_t frequencies[PS_MAX_TORUS_DIMENSION][4] = {
+    static const int32_t frequencies[PS_MAX_DIMENSION][4] = {
         {1, 2, 17, 1000}, {1, 2, 5, 33}, {1, 2, 3, 9}, {1, 2, 3, 4}, {1, 1, 2, 2}, {1, 1, 2, 2}};
-    for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+    for (unsigned dimension = 1; dimension <= PS_MAX_DIMENSION; dimension++) {
         for (size_t i = 0; i < 4; i++) {
             for (size_t j = 0; j < sizeof lanes / sizeof lanes[0]; j++) {
                 check_split(dimension, frequencies[dimension - 1][i], false, lanes[j]);
