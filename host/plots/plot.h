@@ -33,16 +33,20 @@ typedef struct ps_series {
     const double *anisotropy; /* of spectra, in dB; else NULL */
     double num_realizations;  /* of spectra, that are averaged: 10 log10 of it is how far the
                                  anisotropy of pure noise is below 0 dB; below 2: nothing is said */
-    /* Positive y from here down are rounding, to which no logarithmic axis is stretched; what is
-     * below 1e-16 of the largest is so, too */
+    /* Positive y from here down are rounding, to which no logarithmic axis is stretched, and which
+     * have no slope */
     double floor;
     const double *low, *high; /* the band of a curve, lines about a spectrum; NULL: none */
     const double *fit;        /* of spectra, what goes through them; NULL: none */
     ps_look look;
 } ps_series;
 
+/* Where rounding begins: at the floor of the series, or at 1e-16 of the largest number beside which
+ * it stands, as squares have it of numbers whose rounding is 1e-8 of the largest one at best. */
+double ps_series_floor(const ps_series *series, double most);
+
 /* Appends the slope of a line whose axes are logarithmic to its label, "label: slope -0.5"; nothing
- * where it has none, as of a single place. */
+ * where it has none, as of a single place, or of two of which others are rounding. */
 void ps_series_say_slope(const ps_series *series, ps_text *label);
 
 typedef struct ps_panel {

@@ -15,9 +15,11 @@ enum {
     RIGHT = 15,
     ABOVE = 56,
     ABOVE_AMONG_OTHERS = 30,
-    BELOW = 77 /* numbers and label of the axis */
+    BELOW = 84 /* numbers and label of the axis, and what is between it and the key */
 };
-static const double KEY_ROW = 23.1, FORMULA_ROW = 29;
+/* Lines of keys: pixels of one as gnuplot makes them, and in how many of them a label and a formula
+ * stand. */
+static const double KEY_LINE = 23.8, LABEL_LINES = 1.05, FORMULA_LINES = 1.32;
 
 /* ---- where things are ------------------------------------------------------------------------ */
 
@@ -148,13 +150,13 @@ static size_t count_key_columns(const ps_panel *panel, const cell *where) {
     return (double)find_longest(panel) * letter > where->width ? 1 : 2;
 }
 
-/* In pixels. */
-static double find_row_height(const ps_panel *panel) {
+/* Of a row of the key, in lines. */
+static double find_spacing(const ps_panel *panel) {
     size_t i = 0;
     while (i < panel->num_series && panel->series[i].formula == NULL) {
         i++;
     }
-    return i < panel->num_series ? FORMULA_ROW : KEY_ROW;
+    return i < panel->num_series ? FORMULA_LINES : LABEL_LINES;
 }
 
 static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
@@ -169,7 +171,7 @@ static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
             "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
             "samplen 2 spacing %g width %d\n",
             middle, bottom + 7 / where->page_height, count_key_columns(panel, where),
-            1.05 * find_row_height(panel) / KEY_ROW, is_narrow ? long_label - 1 - longest : 0);
+            find_spacing(panel), is_narrow ? long_label - 1 - longest : 0);
 }
 
 /* ---- series ---------------------------------------------------------------------------------- */
@@ -192,7 +194,7 @@ static void print_raised(const char *column, double bottom, FILE *stream) {
     }
 }
 
-/* data: its name. Around a single place the band is a box. */
+/* Around a single place the band is a box. */
 static void print_band(const char *data, const ps_series *series, double bottom, FILE *stream) {
     fprintf(stream, "%s using 1:%s", data, series->num > 1 ? "" : "2:($1*0.985):($1*1.015):");
     print_raised("$5", bottom, stream);
@@ -211,34 +213,59 @@ static void print_bars(const char *data, const ps_series *series, double bottom,
     fputs(" notitle, ", stream);
 }
 
-static void print_series(const char *data, const ps_series *series, double width, double bottom,
-                         FILE *stream) {
+/* The name of its data; the width of its line, and what its marks are larger; the end of a logarithmic
+ * axis, 0 of a linear one. */
+typedef struct drawn {
+    const char *data;
+    double width, more, bottom;
+} drawn;
+
+static void print_curve(const drawn *what, const ps_series *series, FILE *stream) {
+    if (series->low != NULL && series->high != NULL) {
+        print_band(what->data, series, what->bottom, stream);
+    }
+    fprintf(stream, "%s using 1:2 with ", what->data);
+    if (series->num > 1) {
+        fputs("lines", stream);
+    } else { /* no line goes through a single place; the ring leaves room for a mark in it */
+        fprintf(stream, "points pointtype 6 pointsize %g", 1.4 + what->more);
+    }
+    fprintf(stream, " linewidth %g ", series->num > 1 ? what->width : PS_SCRIPT_LINE_WIDTH);
+    ps_script_print_style(series->kind, stream);
+}
+
+static void print_bound(const drawn *what, const ps_series *series, FILE *stream) {
+    fprintf(stream, "%s using 1:2 with ", what->data);
+    if (series->num > 1) {
+        fputs("lines", stream);
+    } else {
+        fprintf(stream, "points pointtype 2 pointsize %g", 1 + what->more);
+    }
+    fputs(" linewidth 1.2 dashtype 3 ", stream);
+    ps_script_print_colour(series->kind, stream);
+}
+
+static void print_series(const drawn *what, const ps_series *series, FILE *stream) {
+    const char *const data = what->data;
     switch (series->look) {
     case PS_LOOK_LINE:
         fprintf(stream, "%s using 1:2 with linespoints pointtype 7 pointsize 0.4 linewidth %g ",
-                data, width);
+                data, what->width);
         ps_script_print_style(series->kind, stream);
         break;
     case PS_LOOK_CURVE:
-        if (series->low != NULL && series->high != NULL) {
-            print_band(data, series, bottom, stream);
-        }
-        /* No line goes through a single place; the ring leaves room for a mark in it. */
-        fprintf(stream, "%s using 1:2 with %s linewidth %g ", data,
-                series->num > 1 ? "lines" : "points pointtype 6 pointsize 1.4", width);
-        ps_script_print_style(series->kind, stream);
+        print_curve(what, series, stream);
         break;
     case PS_LOOK_MARKS:
         if (series->error != NULL) {
-            print_bars(data, series, bottom, stream);
+            print_bars(data, series, what->bottom, stream);
         }
-        fprintf(stream, "%s using 1:2 with points pointtype 7 pointsize 0.6 ", data);
+        fprintf(stream, "%s using 1:2 with points pointtype 7 pointsize %g ", data,
+                0.6 + what->more);
         ps_script_print_colour(series->kind, stream);
         break;
     case PS_LOOK_BOUND:
-        fprintf(stream, "%s using 1:2 with %s linewidth 1.2 dashtype 3 ", data,
-                series->num > 1 ? "lines" : "points pointtype 2 pointsize 1");
-        ps_script_print_colour(series->kind, stream);
+        print_bound(what, series, stream);
         break;
     case PS_LOOK_CLOUD:
         fprintf(stream,
@@ -294,8 +321,9 @@ static void print_all_series(const ps_figure *figure, size_t index, double botto
     for (size_t i = 0; i < panel->num_series; i++) {
         char data[DATA_BYTES];
         snprintf(data, sizeof data, "$data%zu_%zu", index, i);
-        print_series(data, &panel->series[i], ps_script_line_width(figure, panel, i), bottom,
-                     stream);
+        print_series(&(drawn){data, ps_script_line_width(figure, panel, i),
+                              ps_script_more_size(figure, panel, i), bottom},
+                     &panel->series[i], stream);
         fputs(i + 1 < panel->num_series ? ", " : "\n", stream);
     }
 }
@@ -314,7 +342,7 @@ static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     const bool has_key = panel->num_series > 1;
     const size_t num_rows = has_key ? (count_named(panel) + columns - 1) / columns : 0;
     const double bottom = figure->is_log_y ? find_bottom(panel) : 0;
-    const double key_height = find_row_height(panel) * (double)num_rows;
+    const double key_height = KEY_LINE * find_spacing(panel) * (double)num_rows;
     print_margins(&where, key_height, stream);
     print_labels(figure, index, stream);
     if (figure->num_panels > 1) {

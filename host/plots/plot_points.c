@@ -106,14 +106,24 @@ static void print_look(const ps_script_points *what, FILE *stream) {
             point_size(what->terminal, pixels));
 }
 
-static void print_marks(const ps_script_points *what, FILE *stream) {
-    if (num_points(what->panel) == 0) {
-        fputs("plot NaN notitle\n", stream); /* gnuplot makes no axes for nothing */
-        return;
+/* What points stand in front of: the circle, as a curve, for SVG has circles that are objects in
+ * white; else nothing, but gnuplot makes no axes for nothing. */
+static void print_ground(const ps_point_frame *frame, FILE *stream) {
+    if (frame->form == PS_FRAME_DISC) {
+        fprintf(stream,
+                "plot sample [t=0:%.9g] '+' using (cos(t)):(sin(t)) with lines linecolor rgb "
+                "'#404040' linewidth 0.8 notitle",
+                PS_TWO_PI);
+    } else {
+        fputs("plot NaN notitle", stream);
     }
-    fputs("plot ", stream);
-    for (size_t j = 0; j < what->panel->num_series; j++) {
-        fprintf(stream, "%s%s_%zu ", j > 0 ? ", " : "", what->data, j);
+}
+
+static void print_marks(const ps_script_points *what, FILE *stream) {
+    const size_t num_series = num_points(what->panel) > 0 ? what->panel->num_series : 0;
+    print_ground(what->frame, stream);
+    for (size_t j = 0; j < num_series; j++) {
+        fprintf(stream, ", %s_%zu ", what->data, j);
         print_look(what, stream);
         fputs("linecolor rgb '#101010' notitle", stream);
     }
@@ -161,9 +171,7 @@ static void print_disc(const ps_script_box *where, const ps_point_frame *frame, 
     print_x_range(frame, -disc_reach, disc_reach, stream);
     fprintf(stream,
             "unset border\nunset xtics\nunset ytics\n"
-            "set yrange [%.9g:%.9g]\n"
-            "set object 1 circle at first 0,0 size first 1 back fillstyle empty border linecolor "
-            "rgb '#404040' linewidth 0.8\nset label 2 ",
+            "set yrange [%.9g:%.9g]\nset label 2 ",
             -disc_reach, disc_reach);
     ps_script_print_text(frame->x_label, stream);
     fprintf(stream, " at first %g,0 center\nset label 3 ", beside);
@@ -193,7 +201,7 @@ void ps_script_print_beside(const ps_script_points *what, FILE *stream) {
     }
     fputs("unset key\n", stream);
     print_panel(&own, stream);
-    fputs("unset title\nunset label\nunset object\nset border 31 linewidth 0.8 linecolor "
+    fputs("unset title\nunset label\nset border 31 linewidth 0.8 linecolor "
           "'#404040'\nset xtics scale default autofreq\nset ytics scale default autofreq\n",
           stream);
 }
@@ -215,7 +223,7 @@ void ps_script_print_points(const ps_figure *figure, const char *terminal, FILE 
         char name[NAME_BYTES];
         snprintf(name, sizeof name, "$data%zu", i);
         if (i > 0) {
-            fputs("unset label\nunset object\n", stream); /* the page has its title */
+            fputs("unset label\n", stream); /* the page has its title */
         }
         print_panel(&(ps_script_points){&figure->panels[i], &figure->frames[i],
                                         find_cell(figure, i), name, terminal},

@@ -61,9 +61,11 @@ typedef struct ps_script_points {
 
 /* Beside panels of other things, and before them: it takes the page's own title away. */
 void ps_script_print_beside(const ps_script_points *what, FILE *stream);
-/* Of a curve of a panel: PS_SCRIPT_LINE_WIDTH, larger where others that come later lie on it. */
+/* Of a curve of a panel: PS_SCRIPT_LINE_WIDTH, larger where others that come later lie on it; and
+ * what marks, and rings that are curves of a single place, are larger for the same reason. */
 #define PS_SCRIPT_LINE_WIDTH 1.6
 double ps_script_line_width(const ps_figure *figure, const ps_panel *panel, size_t index);
+double ps_script_more_size(const ps_figure *figure, const ps_panel *panel, size_t index);
 
 /* ---- what axes cover ------------------------------------------------------------------------- */
 

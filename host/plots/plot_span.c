@@ -40,18 +40,12 @@ static double find_most(const ps_panel *panel) {
     return all.most;
 }
 
-/* Squares of numbers whose rounding is 1e-8 of the largest one at best are such as these. */
-static double find_floor(const ps_series *series, double most) {
-    const double digits = 1e-16;
-    return fmax(series->floor, digits * most);
-}
-
 ps_plot_span ps_plot_span_above(const ps_panel *panel) {
     const double most = find_most(panel);
     ps_plot_span out = ps_plot_span_none();
     for (size_t i = 0; i < panel->num_series; i++) {
         const ps_series *const series = &panel->series[i];
-        const double floor = find_floor(series, most);
+        const double floor = ps_series_floor(series, most);
         for (size_t k = 0; k < series->num; k++) {
             ps_plot_span_widen(&out, series->y[k] > floor ? series->y[k] : (double)NAN);
         }
@@ -63,7 +57,7 @@ double ps_plot_least_floor(const ps_panel *panel) {
     const double most = find_most(panel);
     ps_plot_span floors = ps_plot_span_none();
     for (size_t i = 0; i < panel->num_series; i++) {
-        ps_plot_span_widen(&floors, find_floor(&panel->series[i], most));
+        ps_plot_span_widen(&floors, ps_series_floor(&panel->series[i], most));
     }
     return ps_plot_span_is_empty(floors) ? 0 : floors.least;
 }

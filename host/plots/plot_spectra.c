@@ -1,7 +1,5 @@
 /* The gnuplot script of spectra: image, powers, and what stands below them. */
-#include "plots/plot_script.h"
-
-#include <math.h>
+#include "plots/spectra_axes.h"
 
 enum { MAX_BARS = 200 };
 
@@ -52,104 +50,8 @@ static void place(layout *out) {
     out->points = (ps_script_box){LEFT / 2, TOP, LEFT / 2 + side, BOTTOM, width, height};
 }
 
-/* ---- numbers --------------------------------------------------------------------------------- */
-
-typedef double take_number(const ps_series *series, size_t bin);
-
-/* With its bar. */
-static double take_top(const ps_series *series, size_t bin) {
-    return series->y[bin] + (isfinite(series->error[bin]) ? series->error[bin] : 0);
-}
-
-static double take_error(const ps_series *series, size_t bin) {
-    return series->error[bin];
-}
-
-static double take_anisotropy(const ps_series *series, size_t bin) {
-    return series->anisotropy[bin];
-}
-
-/* In dB, of pure noise beside which the anisotropy of the curve stands; nan: there is none. */
-static double take_level(const ps_series *curve, size_t bin) {
-    (void)bin;
-    return curve->num_realizations >= 2 ? -10 * log10(curve->num_realizations) : (double)NAN;
-}
-
-static ps_plot_span find_span(const ps_panel *curves, take_number *take) {
-    ps_plot_span all = ps_plot_span_none();
-    for (size_t i = 0; i < curves->num_series; i++) {
-        for (size_t bin = 0; bin < curves->series[i].num; bin++) {
-            ps_plot_span_widen(&all, take(&curves->series[i], bin));
-        }
-    }
-    return all;
-}
-
-static bool has_any(const ps_panel *curves, take_number *take) {
-    return !ps_plot_span_is_empty(find_span(curves, take));
-}
-
-/* In parts of the height of the panel: a line of the key, which must not lie on the curves, and the
- * most that it may have. */
-static const double KEY_LINE = 0.075, MOST_KEY = 0.4;
-
-static double find_top(const ps_series *curve) {
-    double top = 0;
-    for (size_t bin = 0; bin < curve->num; bin++) {
-        const double power = take_top(curve, bin);
-        top = isfinite(power) ? fmax(top, power) : top;
-    }
-    return top;
-}
-
-/* The largest power with its bar, but for curves that are louder than all others by more than LOUD
- * times, which would flatten these: peaks of lattices beside noise. White noise stays in sight. */
-static double find_most(const ps_panel *curves) {
-    const double loud = 5;
-    const double least = 1.2;
-    double most = least;
-    bool is_wider = true;
-    while (is_wider) { /* as long as another curve is not loud beside what is in sight */
-        is_wider = false;
-        for (size_t i = 0; i < curves->num_series; i++) {
-            const double top = find_top(&curves->series[i]);
-            if (top > most && (top <= loud * most || curves->num_series == 1)) {
-                most = top;
-                is_wider = true;
-            }
-        }
-    }
-    return most;
-}
-
-/* The part of the height that the key has. */
-static double find_key(const ps_panel *curves) {
-    const double num = (double)curves->num_series;
-    return num > 1 ? fmin(KEY_LINE * num, MOST_KEY) : 0;
-}
-
-/* What the axis of powers shows unless something else was asked for, with room for the key. */
-static ps_plot_span find_powers(const ps_figure *figure, const ps_panel *curves, double key_part) {
-    const double margin = figure->is_log_y ? 1.4 : 1.05;
-    const double room = 1 - key_part;
-    if (!figure->is_log_y) {
-        return (ps_plot_span){0, margin * find_most(curves) / room};
-    }
-    ps_plot_span all = ps_plot_span_above(curves);
-    ps_plot_span_widen(&all, find_span(curves, take_top).most);
-    ps_plot_span_widen(&all, 1); /* white noise */
-    const double least = all.least / margin;
-    return (ps_plot_span){least, least * pow(all.most * margin / least, 1 / room)};
-}
-
-static ps_plot_span find_frequencies(const ps_figure *figure, const ps_panel *curves) {
-    const double margin = 1.1;
-    const ps_plot_span places = ps_plot_span_places(curves);
-    if (ps_plot_span_is_empty(places)) {
-        return (ps_plot_span){figure->is_log_x ? 1 / margin : 0, margin};
-    }
-    return figure->is_log_x ? (ps_plot_span){places.least / margin, places.most * margin}
-                            : (ps_plot_span){0, places.most};
+static double height_of(const ps_script_box *where) {
+    return where->bottom - where->top;
 }
 
 static ps_plot_span or_asked(ps_plot_span own, bool is_asked, const double *asked) {
@@ -225,7 +127,7 @@ static void print_axis(const char *axis, bool is_log, ps_plot_span shown, FILE *
 /* Panels with the same axis say what it is once, at the bottom. */
 static void print_frequencies(const layout *where, bool is_bottom, FILE *stream) {
     const ps_figure *const figure = where->figure;
-    const ps_plot_span own = find_frequencies(figure, where->curves);
+    const ps_plot_span own = ps_spectra_frequencies(figure, where->curves);
     print_axis("x", figure->is_log_x, or_asked(own, figure->axes.has_x, figure->axes.x), stream);
     if (is_bottom) {
         fprintf(stream, "set xlabel '%s' offset 0,0.2\n", where->x_label);
@@ -247,7 +149,8 @@ static void print_white(ps_plot_span shown, FILE *stream) {
 
 /* Does a curve go beyond what is shown, though nobody asked for that? */
 static bool is_cut(const ps_figure *figure, const ps_series *curve) {
-    return !figure->is_log_y && !figure->axes.has_y && find_top(curve) > find_most(figure->panels);
+    return !figure->is_log_y && !figure->axes.has_y &&
+           ps_spectra_find_top(curve) > ps_spectra_find_most(figure->panels);
 }
 
 static void print_powers(const layout *where, FILE *stream) {
@@ -263,7 +166,7 @@ static void print_powers(const layout *where, FILE *stream) {
         fputs(" title ", stream);
         ps_script_print_text(curve->label, stream);
         if (is_cut(where->figure, curve)) {
-            fprintf(stream, ".\" (to %.3g)\"", find_top(curve));
+            fprintf(stream, ".\" (to %.3g)\"", ps_spectra_find_top(curve));
         }
         fputs(i + 1 < curves->num_series ? ", " : "", stream);
     }
@@ -273,14 +176,16 @@ static void print_powers(const layout *where, FILE *stream) {
 static void print_power_panel(const layout *where, FILE *stream) {
     const ps_figure *const figure = where->figure;
     const ps_panel *const curves = where->curves;
+    const double key_part = ps_spectra_key_part(curves->num_series > 1 ? curves->num_series : 0,
+                                                height_of(&where->upper));
     const ps_plot_span powers =
-        or_asked(find_powers(figure, curves, find_key(curves)), figure->axes.has_y, figure->axes.y);
+        or_asked(ps_spectra_powers(figure, curves, key_part), figure->axes.has_y, figure->axes.y);
     ps_script_print_margins(&where->upper, stream);
     fputs(ps_script_ticks, stream);
     print_axis("y", figure->is_log_y, powers, stream);
     print_frequencies(where, !where->has_lower || figure->on_sphere, stream);
     fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
-            has_any(curves, take_error) ? " ± standard error" : "");
+            ps_spectra_has(curves, ps_spectra_error) ? " ± standard error" : "");
     fputs(curves->num_series > 1 ? key : "unset key\n", stream);
     print_white(powers, stream);
     fputs("plot ", stream);
@@ -316,34 +221,29 @@ static void print_levels(const ps_panel *curves, FILE *stream) {
             continue;
         }
         const ps_series *const curve = &curves->series[i];
-        fprintf(stream, "%.9g with lines dashtype 2 linewidth 1.2 ", take_level(curve, 0));
+        fprintf(stream, "%.9g with lines dashtype 2 linewidth 1.2 ", ps_spectra_level(curve, 0));
         if (num_levels == 1) {
             fprintf(stream, "linecolor rgb '#707070' title 'pure noise, %.1f dB', ",
-                    take_level(curve, 0));
+                    ps_spectra_level(curve, 0));
         } else {
             ps_script_print_colour(curve->kind, stream);
             fprintf(stream, " title 'pure noise of M = %.0f, %.1f dB', ", curve->num_realizations,
-                    take_level(curve, 0));
+                    ps_spectra_level(curve, 0));
         }
     }
 }
 
-/* Few enough ticks for a low panel. */
-static double find_tick_step(const ps_panel *curves) {
-    ps_plot_span all = find_span(curves, take_anisotropy);
-    ps_plot_span_widen(&all, find_span(curves, take_level).least);
-    ps_plot_span_widen(&all, find_span(curves, take_level).most);
-    return ps_script_tick_step(all);
-}
-
 static void print_anisotropy_panel(const layout *where, FILE *stream) {
     const ps_panel *const curves = where->curves;
+    const ps_plot_span shown = ps_spectra_anisotropies(
+        curves, ps_spectra_key_part(count_levels(curves), height_of(&where->lower)));
     ps_script_print_margins(&where->lower, stream);
     print_frequencies(where, true, stream);
     fprintf(stream,
             "unset logscale y\nset format y '%%g'\nset ylabel 'anisotropy / dB' offset 0,0\n"
-            "set yrange [*:*]\nset ytics %g in mirror\n",
-            find_tick_step(curves));
+            "set ytics %g in mirror\n",
+            ps_script_tick_step(shown)); /* few enough for a low panel */
+    ps_script_print_span("y", shown, stream);
     /* The key holds levels of noise alone; without them, it would be an empty box. */
     fprintf(stream, "%splot ", count_levels(curves) > 0 ? key : "unset key\n");
     print_levels(curves, stream);
@@ -360,7 +260,7 @@ static void print_logarithmic_panel(const layout *where, FILE *stream) {
     own.figure = &figure;
     ps_script_print_margins(&where->lower, stream);
     print_frequencies(&own, true, stream);
-    print_axis("y", true, find_powers(&figure, where->curves, 0), stream);
+    print_axis("y", true, ps_spectra_powers(&figure, where->curves, 0), stream);
     fputs("set ylabel 'power' offset 1,0\nunset key\nplot ", stream);
     print_curves(&own, "1:($2 > 0 ? $2 : NaN)", NULL, stream);
     print_profiles(where->curves, stream);
@@ -372,7 +272,7 @@ pspec_status ps_script_print_spectra(const ps_figure *figure, const char *termin
     layout where = {.figure = figure,
                     .curves = figure->panels,
                     .has_lower = on_sphere ? !(figure->is_log_x && figure->is_log_y)
-                                           : has_any(figure->panels, take_anisotropy),
+                                           : ps_spectra_has(figure->panels, ps_spectra_anisotropy),
                     .x_label = on_sphere ? "normalized degree l N^{-1/2}"
                                          : "normalized frequency |k| N^{-1/d}",
                     .y_label = on_sphere ? "power" : "radial mean power"};

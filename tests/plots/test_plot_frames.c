@@ -228,8 +228,8 @@ static void planes_of_a_frame(void **state) {
     plot.panel_axes = axes;
     assert_true(script_contains(&plot, "set xlabel \"k\" offset 0,0\nset ylabel \"y\" "));
     assert_true(script_contains(&plot, "set xlabel \"real\" offset 0,0\nset ylabel \"imaginary\""));
-    /* 4.2 up and down in 533 pixels, so much more in 601 */
-    assert_true(script_contains(&plot, "set xrange [-4.73583"));
+    /* 4.2 up and down in 526 pixels, so much more in 601 */
+    assert_true(script_contains(&plot, "set xrange [-4.79885"));
     assert_true(script_contains(&plot, "set yrange [-4.2:4.2]\n"));
     assert_true(script_contains(&plot, "with points pointtype 7 pointsize 0.3 linecolor rgb '#b"));
     ps_text with = {0};
@@ -271,6 +271,7 @@ static void keys_of_looks(void **state) {
 static void slopes(void **state) {
     (void)state;
     const double zero[NUM_COUNTS] = {0};
+    const double fallen[NUM_COUNTS] = {6e-6, 2e-10, 3e-24, 0};
     ps_series series = {.num = NUM_COUNTS, .x = counts, .y = variances};
     ps_text label = {0};
     ps_series_say_slope(&series, &label);
@@ -279,10 +280,69 @@ static void slopes(void **state) {
     ps_text_append(&label, "a");
     series.num = 1;
     ps_series_say_slope(&series, &label);
+    series.num = NUM_COUNTS;
+    series.floor = 1e-4; /* two places are above it: they would have any slope */
+    ps_series_say_slope(&series, &label);
+    series.y = fallen;
+    series.floor = 0;
+    ps_series_say_slope(&series, &label);
     series = (ps_series){.num = NUM_COUNTS, .x = counts, .y = zero};
     ps_series_say_slope(&series, &label);
     assert_string_equal(ps_text_string(&label), "a");
+    series = (ps_series){.num = NUM_COUNTS, .x = counts, .y = variances, .floor = 1e-5};
+    ps_series_say_slope(&series, &label); /* of the first three */
+    assert_string_equal(ps_text_string(&label), "a: slope -1.661");
     ps_text_free(&label);
+}
+
+/* Marks of the same place have different sizes, the last one the least; what is elsewhere hides
+ * nothing. */
+static void marks_that_coincide(void **state) {
+    (void)state;
+    const double near[] = {1.05e-2};
+    const double far[] = {2e-2};
+    ps_series series[] = {{.look = PS_LOOK_CURVE, .num = 1, .x = counts, .y = variances},
+                          {.look = PS_LOOK_MARKS, .num = 1, .x = counts, .y = near},
+                          {.look = PS_LOOK_CURVE, .num = 1, .x = counts, .y = near},
+                          {.look = PS_LOOK_MARKS, .num = 1, .x = counts, .y = variances},
+                          {.look = PS_LOOK_CURVE, .num = 1, .x = counts, .y = far}};
+    const ps_panel panel = {"none", sizeof series / sizeof series[0], series};
+    const ps_figure plot = {.form = PS_FIGURE_FRAME,
+                            .title = "",
+                            .is_log_x = true,
+                            .is_log_y = true,
+                            .num_panels = 1,
+                            .panels = &panel};
+    assert_true(
+        script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 pointsize 1.75"));
+    assert_true(
+        script_contains(&plot, "$data0_1 using 1:2 with points pointtype 7 pointsize 0.95"));
+    assert_true(
+        script_contains(&plot, "$data0_2 using 1:2 with points pointtype 6 pointsize 1.4 "));
+    assert_true(
+        script_contains(&plot, "$data0_3 using 1:2 with points pointtype 7 pointsize 0.6 "));
+    assert_true(
+        script_contains(&plot, "$data0_4 using 1:2 with points pointtype 6 pointsize 1.4 "));
+}
+
+/* Rows of the key end where the label of the axis begins, however many there are. */
+static void keys_leave_room_for_the_axis(void **state) {
+    (void)state;
+    ps_series series[6];
+    const ps_panel panel = {"none", 6, series};
+    const ps_figure plot = {
+        .form = PS_FIGURE_FRAME, .title = "", .num_panels = 1, .panels = &panel};
+    make_looks(series);
+    for (size_t i = 0; i < 6; i++) {
+        series[i] = series[0];
+        series[i].label = "a name that is so long that there is one column alone";
+    }
+    /* 84 and 6 rows of 25 pixels, measured in pictures, of 700 */
+    assert_true(script_contains(&plot, "set bmargin at screen 0.3342"));
+    assert_true(script_contains(&plot, "maxcols 1 samplen 2 spacing 1.05 "));
+    series[0].formula = "d_l^2"; /* rows of 31.4 */
+    assert_true(script_contains(&plot, "set bmargin at screen 0.3893"));
+    assert_true(script_contains(&plot, "spacing 1.32 "));
 }
 
 int main(void) {
@@ -297,6 +357,8 @@ int main(void) {
         cmocka_unit_test(planes_of_a_frame),
         cmocka_unit_test(keys_of_looks),
         cmocka_unit_test(slopes),
+        cmocka_unit_test(marks_that_coincide),
+        cmocka_unit_test(keys_leave_room_for_the_axis),
     };
     return cmocka_run_group_tests_name("plot_frames", tests, NULL, NULL);
 }

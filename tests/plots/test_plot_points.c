@@ -54,8 +54,11 @@ static void asks_for_frames_and_points(void **state) {
                                         "set xtics (0, 0.5) out",
                                         "set xrange [-1.12:1.12]\n",
                                         "set xrange [1.12:-1.12]\n", /* x runs to the left */
-                                        "set object 1 circle at first 0,0 size first 1 ",
-                                        "plot NaN notitle"};
+                                        "\nplot NaN notitle, $data0_0 using ",
+                                        "'+' using (cos(t)):(sin(t)) with lines linecolor rgb "
+                                        "'#404040' linewidth 0.8 notitle, $data1_0 using ",
+                                        "(sin(t)) with lines linecolor rgb '#404040' linewidth 0.8 "
+                                        "notitle\n"}; /* without points */
     example data;
     (void)state;
     make_example(&data, PS_FRAME_SQUARE);

@@ -62,19 +62,35 @@ static size_t count(const ps_figure *plot, const char *what) {
     return num;
 }
 
-/* The first range of this axis. */
-static ps_plot_span find_range(const ps_figure *plot, const char *axis) {
-    char *const script = write_script(plot);
-    char begin[32];
+/* Behind `at`, in a script. */
+static ps_plot_span read_range(const char *at, const char *begin) {
     ps_plot_span out = {NAN, NAN};
-    snprintf(begin, sizeof begin, "set %srange [", axis);
-    const char *const at = strstr(script, begin);
-    assert_non_null(at);
     char *end = NULL;
+    assert_non_null(at);
     out.least = strtod(at + strlen(begin), &end);
     assert_int_equal(*end, ':');
     out.most = strtod(end + 1, &end);
     assert_int_equal(*end, ']');
+    return out;
+}
+
+/* The first range of this axis. */
+static ps_plot_span find_range(const ps_figure *plot, const char *axis) {
+    char *const script = write_script(plot);
+    char begin[32];
+    snprintf(begin, sizeof begin, "set %srange [", axis);
+    const ps_plot_span out = read_range(strstr(script, begin), begin);
+    free(script);
+    return out;
+}
+
+/* That of the panel below the powers. */
+static ps_plot_span find_lower_range(const ps_figure *plot) {
+    static const char begin[] = "set yrange [";
+    char *const script = write_script(plot);
+    const char *const panel = strstr(script, "anisotropy / dB");
+    assert_non_null(panel);
+    const ps_plot_span out = read_range(strstr(panel, begin), begin);
     free(script);
     return out;
 }
@@ -160,6 +176,44 @@ static void levels_of_noise(void **state) {
     assert_int_equal(count(&data.plot, "pure noise"), 0);
 }
 
+/* So many pixels of a panel are above all that is in it. */
+static double find_room(ps_plot_span shown, double most, double height) {
+    return (shown.most - most) / (shown.most - shown.least) * height;
+}
+
+/* Keys have lines of 24 pixels, and lie on no curve: neither in the low panels of the sphere nor
+ * beside anisotropies. */
+static void keys_lie_on_no_curve(void **state) {
+    (void)state;
+    const double row = 24;
+    const double most = 1.2; /* the least that is shown of powers */
+    example data;
+    make_example(&data, 3);
+    data.plot.axes = (ps_plot_axes){0};
+    assert_true(find_room(find_range(&data.plot, "y"), most, 344) > 3 * row);
+    assert_true(find_room(find_lower_range(&data.plot), -11, 193) > row);
+    data.curves[1].num_realizations = 1000;
+    assert_true(find_room(find_lower_range(&data.plot), -11, 193) > 2 * row);
+    data.plot.on_sphere = true;
+    assert_true(find_room(find_range(&data.plot, "y"), most, 244) > 3 * row);
+    data.panel.num_series = 1; /* no key, and no room for one */
+    assert_true(find_room(find_range(&data.plot, "y"), most, 244) < row);
+}
+
+/* Curves of noise alone, and a panel of a single number. */
+static void anisotropies_have_a_range(void **state) {
+    (void)state;
+    const double same[NUM] = {-3, -3, -3, -3, -3, -3};
+    example data;
+    make_example(&data, 1);
+    data.curves[0].anisotropy = same;
+    data.curves[0].num_realizations = 1;
+    const ps_plot_span alone = find_lower_range(&data.plot);
+    assert_true(alone.least < -3 && alone.most > -3);
+    data.curves[0].num_realizations = 100; /* whose level is in sight, too */
+    assert_true(find_lower_range(&data.plot).least < -20);
+}
+
 /* Of lines that lie on each other the lower ones are wider; marks blank nothing out. */
 static void lines_that_coincide(void **state) {
     (void)state;
@@ -223,9 +277,9 @@ static void points_beside_spectra(void **state) {
         const ps_point_frame frame = {forms[i], 0, 1, "x", "y", false};
         data.plot.frames = &frame;
         assert_int_equal(count(&data.plot, "$points_0 << EOD\n 0 0\n"), 1); /* 0 is no gap */
-        assert_int_equal(count(&data.plot, "plot $points_0 using "), 1);
+        assert_int_equal(count(&data.plot, ", $points_0 using "), 1);
         assert_int_equal(count(&data.plot, "set terminal svg enhanced size 1650,700 "), 1);
-        assert_int_equal(count(&data.plot, "\nunset object\nset border 31 "), 1);
+        assert_int_equal(count(&data.plot, "\nunset label\nset border 31 "), 1);
         ps_figure_add_key(&second, &data.plot);
         assert_true(second.length > first.length);
     }
@@ -240,6 +294,8 @@ int main(void) {
         cmocka_unit_test(ticks_of_short_axes),
         cmocka_unit_test(the_sphere_has_one_panel_of_logarithms),
         cmocka_unit_test(levels_of_noise),
+        cmocka_unit_test(keys_lie_on_no_curve),
+        cmocka_unit_test(anisotropies_have_a_range),
         cmocka_unit_test(lines_that_coincide),
         cmocka_unit_test(white_noise_is_neutral),
         cmocka_unit_test(points_beside_spectra),

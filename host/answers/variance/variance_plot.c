@@ -46,6 +46,7 @@ typedef struct picture {
     ps_series *series; /* those of a panel together */
     ps_text *labels;   /* [num_series] */
     double *numbers;   /* of all series */
+    double *floors;    /* [num_panels] */
     ps_panel *plots;   /* [num_panels] */
 } picture;
 
@@ -59,6 +60,7 @@ static void release(picture *self) {
     free(self->series);
     free(self->labels);
     free(self->numbers);
+    free(self->floors);
     free(self->plots);
 }
 
@@ -157,11 +159,20 @@ static const double *gather(picture *self, size_t curve, size_t panel, quantity 
     return out;
 }
 
+/* Variances are sums of what comes to that of white noise: so much of it is rounding. */
+static void find_floors(picture *self) {
+    for (size_t i = 0; i < self->num_rows; i++) {
+        const row *const one = &self->rows[i];
+        const double floor = ps_series_floor(&(ps_series){0}, one->numbers[WHITE]);
+        self->floors[one->panel] = fmax(self->floors[one->panel], floor);
+    }
+}
+
 /* Without a label, and without places where there is no such curve in the panel. */
 static ps_series *add_series(picture *self, size_t curve, size_t panel, quantity which,
                              ps_look look) {
     ps_series *const series = &self->series[self->num_series++];
-    *series = (ps_series){.kind = curve, .look = look};
+    *series = (ps_series){.kind = curve, .look = look, .floor = self->floors[panel]};
     series->x = gather(self, curve, panel, POINTS, &series->num);
     series->y = gather(self, curve, panel, which, &series->num);
     return series;
@@ -180,17 +191,22 @@ static pspec_status name_series(ps_series *series, ps_text *label, ps_uncertain 
     return ps_text_check(label, error);
 }
 
+/* Is a line or a mark of it drawn? No line goes through a single place among others. */
+static bool is_drawn(const ps_series *series) {
+    size_t num = 0;
+    for (size_t i = 0; i < series->num; i++) {
+        num += isfinite(series->y[i]) && series->y[i] > series->floor ? 1 : 0;
+    }
+    return num > 1 || (num == 1 && (series->num == 1 || series->look == PS_LOOK_MARKS));
+}
+
 /* Where there is one sampler the key has its bounds, too; none where no bound was asked for, or
  * there is no such. */
 static pspec_status add_bound(picture *self, size_t curve, size_t panel, quantity which,
                               ps_error *error) {
     ps_text *const label = &self->labels[self->num_series];
     ps_series *const line = add_series(self, curve, panel, which, PS_LOOK_BOUND);
-    size_t num = 0;
-    for (size_t i = 0; i < line->num; i++) {
-        num += isfinite(line->y[i]) ? 1 : 0;
-    }
-    if (num == 0) {
+    if (!is_drawn(line)) {
         self->num_series--;
         return PSPEC_OK;
     }
@@ -258,23 +274,63 @@ static pspec_status add_all(picture *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->labels, most, "a picture", error));
     PS_TRY(PS_NEW(&self->numbers, most_of_row * self->num_rows, "a picture", error));
     PS_TRY(PS_NEW(&self->plots, self->num_panels, "a picture", error));
+    PS_TRY(PS_NEW(&self->floors, self->num_panels, "a picture", error));
+    find_floors(self);
     for (size_t panel = 0; panel < self->num_panels; panel++) {
         PS_TRY(add_panel(self, panel, error));
     }
     return PSPEC_OK;
 }
 
+/* ---- words ----------------------------------------------------------------------------------- */
+
+/* What the axis says of the series of a look: how it is drawn, "" where nothing is. */
+static const char *find_form(const picture *self, ps_look look, const char *of_one,
+                             const char *of_several) {
+    const char *form = "";
+    for (size_t i = 0; i < self->num_series; i++) {
+        const ps_series *const series = &self->series[i];
+        if (series->look == look && is_drawn(series) && form != of_several) {
+            form = series->num > 1 ? of_several : of_one;
+        }
+    }
+    return form;
+}
+
+/* The label of the axis: what is drawn, and how. */
+static pspec_status write_label(const picture *self, ps_text *out, ps_error *error) {
+    static const struct {
+        ps_look look;
+        const char *of_one, *of_several, *what;
+    } parts[] = {{PS_LOOK_CURVE, "rings", "lines", "predicted"},
+                 {PS_LOOK_MARKS, "marks", "marks", "measured"},
+                 {PS_LOOK_BOUND, "crosses", "dots", "bounds"}};
+    const char *before = ": ";
+    ps_text_append(out, "variance");
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        const char *const form =
+            find_form(self, parts[i].look, parts[i].of_one, parts[i].of_several);
+        if (form[0] != '\0') {
+            ps_text_append(out, "%s%s %s", before, form, parts[i].what);
+            before = ", ";
+        }
+    }
+    return ps_text_check(out, error);
+}
+
 /* ---- all ------------------------------------------------------------------------------------- */
 
 pspec_status ps_variance_chart(const ps_chart *chart, ps_error *error) {
     picture self = {0};
+    ps_text label = {0};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, take_rows(&self, chart, error));
     PS_TRY_OUT(status, add_all(&self, error));
+    PS_TRY_OUT(status, write_label(&self, &label, error));
     const ps_figure figure = {.form = PS_FIGURE_FRAME,
                               .title = chart->title,
                               .x_label = "points N",
-                              .y_label = "variance: lines predicted, marks measured",
+                              .y_label = ps_text_string(&label),
                               .axes = chart->axes,
                               .is_log_x = true,
                               .is_log_y = true,
@@ -282,6 +338,7 @@ pspec_status ps_variance_chart(const ps_chart *chart, ps_error *error) {
                               .panels = self.plots};
     status = chart->take(chart->payload, &figure, error);
 out:
+    ps_text_free(&label);
     release(&self);
     return status;
 }

@@ -86,6 +86,7 @@ static pspec_status draw(const ps_chart_part *parts, size_t num, look_at *look, 
 
 static pspec_status look_at_two_panels(const ps_figure *figure) {
     assert_int_equal(figure->form, PS_FIGURE_FRAME);
+    assert_string_equal(figure->y_label, "variance: lines predicted, marks measured");
     assert_string_equal(figure->title, "title");
     assert_true(figure->is_log_x && figure->is_log_y);
     assert_int_equal(figure->num_panels, 2);
@@ -170,6 +171,7 @@ static pspec_status look_at_one(const ps_figure *figure) {
     assert_int_equal(figure->panels[0].num_series, 3);
     assert_string_equal(figure->panels[0].series[0].label, "");
     assert_true(isnan(figure->panels[0].series[1].y[0]));
+    assert_string_equal(figure->y_label, "variance: rings predicted");
     return PSPEC_ERROR_IO; /* which becomes that of the chart */
 }
 
@@ -187,12 +189,81 @@ static void one_sampler_and_integrand(void **state) {
     ps_table_destroy(table);
 }
 
+/* ---- bounds ---------------------------------------------------------------------------------- */
+
+enum { BOUNDED_COLUMNS = 6, MOST_COUNTS = 3 };
+
+/* Rows of one integrand: a sampler for each set of bounds, and a row for each of them. */
+static ps_table *make_bounded(size_t num_samplers, size_t num_counts, const double *bounds) {
+    static const char *const columns[] = {"sampler", "points",     "predicted",
+                                          "white",   "best_bound", "worst_bound"};
+    static const char *const samplers[] = {"jittered", "fpo"};
+    ps_table *table = NULL;
+    ps_error error = {0};
+    assert_int_equal(ps_table_create(&table, "variance", columns, BOUNDED_COLUMNS, &error),
+                     PSPEC_OK);
+    for (size_t i = 0; i < num_samplers; i++) {
+        for (size_t k = 0; k < num_counts; k++) {
+            const double points = 16 << k;
+            const ps_cell cells[] = {PS_TEXT(samplers[i]),  PS_NUMBER(points),
+                                     PS_NUMBER(1 / points), PS_NUMBER(1 / points),
+                                     PS_NUMBER(bounds[k]),  PS_NUMBER(1 / points)};
+            assert_int_equal(ps_table_add_row(table, cells, &error), PSPEC_OK);
+        }
+    }
+    return table;
+}
+
+/* Of the best bound one place is above the rounding of the variance of white noise: it would be a
+ * line of a single place. */
+static pspec_status look_at_a_fall(const ps_figure *figure) {
+    const ps_panel *const panel = &figure->panels[0];
+    assert_string_equal(figure->y_label, "variance: lines predicted, dots bounds");
+    assert_int_equal(panel->num_series, 4);
+    assert_string_equal(panel->series[2].label, "worst bound: slope -1.000");
+    return PSPEC_OK;
+}
+
+/* Two of three places have no slope, though they are a line. */
+static pspec_status look_at_a_line(const ps_figure *figure) {
+    const ps_panel *const panel = &figure->panels[0];
+    assert_int_equal(panel->num_series, 5);
+    assert_string_equal(panel->series[2].label, "best bound");
+    return PSPEC_OK;
+}
+
+static pspec_status look_at_crosses(const ps_figure *figure) {
+    assert_string_equal(figure->y_label, "variance: rings predicted, crosses bounds");
+    assert_int_equal(figure->panels[0].num_series, 9);
+    assert_null(figure->panels[0].series[2].label); /* of two samplers */
+    return PSPEC_OK;
+}
+
+static void bounds_that_are_drawn(void **state) {
+    (void)state;
+    static const struct {
+        size_t num_samplers, num_counts;
+        double bounds[MOST_COUNTS];
+        look_at *look;
+    } cases[] = {{1, 3, {1e-4, 3e-21, 2e-22}, look_at_a_fall},
+                 {1, 3, {1e-4, 1e-10, 2e-22}, look_at_a_line},
+                 {2, 1, {1e-4}, look_at_crosses}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_error error = {0};
+        ps_table *const table =
+            make_bounded(cases[i].num_samplers, cases[i].num_counts, cases[i].bounds);
+        assert_int_equal(draw(&(ps_chart_part){table, ""}, 1, cases[i].look, &error), PSPEC_OK);
+        ps_table_destroy(table);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_of_several_questions),
         cmocka_unit_test(the_table_of_a_command),
         cmocka_unit_test(a_sampler_without_an_integrand),
         cmocka_unit_test(one_sampler_and_integrand),
+        cmocka_unit_test(bounds_that_are_drawn),
     };
     return cmocka_run_group_tests_name("variance_chart", tests, NULL, NULL);
 }

@@ -1,0 +1,115 @@
+#include "plots/spectra_axes.h"
+
+#include <math.h>
+
+/* ---- numbers --------------------------------------------------------------------------------- */
+
+double ps_spectra_top(const ps_series *curve, size_t bin) {
+    return curve->y[bin] + (isfinite(curve->error[bin]) ? curve->error[bin] : 0);
+}
+
+double ps_spectra_error(const ps_series *curve, size_t bin) {
+    return curve->error[bin];
+}
+
+double ps_spectra_anisotropy(const ps_series *curve, size_t bin) {
+    return curve->anisotropy[bin];
+}
+
+double ps_spectra_level(const ps_series *curve, size_t bin) {
+    (void)bin;
+    return curve->num_realizations >= 2 ? -10 * log10(curve->num_realizations) : (double)NAN;
+}
+
+static void widen_by(ps_plot_span *span, const ps_panel *curves, ps_take_number *take) {
+    for (size_t i = 0; i < curves->num_series; i++) {
+        for (size_t bin = 0; bin < curves->series[i].num; bin++) {
+            ps_plot_span_widen(span, take(&curves->series[i], bin));
+        }
+    }
+}
+
+bool ps_spectra_has(const ps_panel *curves, ps_take_number *take) {
+    ps_plot_span all = ps_plot_span_none();
+    widen_by(&all, curves, take);
+    return !ps_plot_span_is_empty(all);
+}
+
+/* ---- keys ------------------------------------------------------------------------------------ */
+
+/* Low panels have the same letters as high ones. */
+double ps_spectra_key_part(size_t num_lines, double height) {
+    const double line = 24;  /* pixels, measured in SVG, where letters are largest */
+    const double frame = 16; /* from the border of the panel, and below */
+    const double most = 0.5; /* curves have the rest in any case */
+    return num_lines > 0 ? fmin((frame + line * (double)num_lines) / height, most) : 0;
+}
+
+/* ---- powers ---------------------------------------------------------------------------------- */
+
+double ps_spectra_find_top(const ps_series *curve) {
+    double top = 0;
+    for (size_t bin = 0; bin < curve->num; bin++) {
+        const double power = ps_spectra_top(curve, bin);
+        top = isfinite(power) ? fmax(top, power) : top;
+    }
+    return top;
+}
+
+/* Loud is what is so many times as large as all others. White noise stays in sight. */
+double ps_spectra_find_most(const ps_panel *curves) {
+    const double loud = 5;
+    const double least = 1.2;
+    double most = least;
+    bool is_wider = true;
+    while (is_wider) { /* as long as another curve is not loud beside what is in sight */
+        is_wider = false;
+        for (size_t i = 0; i < curves->num_series; i++) {
+            const double top = ps_spectra_find_top(&curves->series[i]);
+            if (top > most && (top <= loud * most || curves->num_series == 1)) {
+                most = top;
+                is_wider = true;
+            }
+        }
+    }
+    return most;
+}
+
+ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves, double key_part) {
+    const double margin = figure->is_log_y ? 1.4 : 1.05;
+    const double room = 1 - key_part;
+    if (!figure->is_log_y) {
+        return (ps_plot_span){0, margin * ps_spectra_find_most(curves) / room};
+    }
+    ps_plot_span all = ps_plot_span_above(curves);
+    ps_plot_span tops = ps_plot_span_none();
+    widen_by(&tops, curves, ps_spectra_top);
+    ps_plot_span_widen(&all, tops.most);
+    ps_plot_span_widen(&all, 1); /* white noise */
+    const double least = all.least / margin;
+    return (ps_plot_span){least, least * pow(all.most * margin / least, 1 / room)};
+}
+
+/* ---- the other axes -------------------------------------------------------------------------- */
+
+ps_plot_span ps_spectra_frequencies(const ps_figure *figure, const ps_panel *curves) {
+    const double margin = 1.1;
+    const ps_plot_span places = ps_plot_span_places(curves);
+    if (ps_plot_span_is_empty(places)) {
+        return (ps_plot_span){figure->is_log_x ? 1 / margin : 0, margin};
+    }
+    return figure->is_log_x ? (ps_plot_span){places.least / margin, places.most * margin}
+                            : (ps_plot_span){0, places.most};
+}
+
+/* Those of curves and of levels of noise. */
+ps_plot_span ps_spectra_anisotropies(const ps_panel *curves, double key_part) {
+    const double margin = 0.05; /* of what there is */
+    const double least_margin = 0.5;
+    ps_plot_span all = ps_plot_span_none();
+    widen_by(&all, curves, ps_spectra_anisotropy);
+    widen_by(&all, curves, ps_spectra_level);
+    const double around = fmax(margin * (all.most - all.least), least_margin);
+    const double least = all.least - around;
+    return (ps_plot_span){least, least + (all.most + around - least) / (1 - key_part)};
+}
