@@ -68,6 +68,10 @@ powers "$exact" angular -l 8 --columns lon-lat-w latitudes.txt
 powers "$exact" angular -l 8 --columns phi-theta-w radians.txt
 refuses 'line 1: 0, 90 are not phi (up to 2 pi) and theta (0 to pi);are these degrees? --columns phi-theta-w:degrees' \
     angular --columns phi-theta-w "$lebedev"
+refuses 'line 1: (0, 90, 0.047619047619) is not a unit vector;are these degrees? --columns phi-theta-w:degrees' angular "$lebedev"
+refuses 'line 1: coordinate 90 is outside [0,1);are these degrees? --columns phi-theta-w:degrees' convert "$lebedev"
+refuses 'line 1: coordinate 90 is outside [0,1);in other units? --box' power "$lebedev"
+refuses 'line 1: (0, 3, 0.5) is not a unit vector;--normalize-vectors' angular <(printf '0 3 .5\n')
 refuses 'line 1: 90, 0 are not theta (0 to pi);are these degrees? --columns theta-phi-w:degrees' \
     angular --columns theta-phi-w turned.txt
 refuses 'line 2: 181, 0 are not theta (0 to 180) and phi (up to 360), in degrees' \
@@ -136,10 +140,27 @@ printf 'x\ty\n.1\t.2\n' >tabs.csv && reads '0.1 0.2' tabs.csv
 printf '.1\t.2\n' >bare.csv && reads '0.1 0.2' bare.csv
 reads '0.1 0.2|0.1 0.3' <(printf 'ID,x,y\n7,.1,.2\n3,.1,.3\n')
 reads '0.1 0.2|0.1 0.3' <(printf 'x,y\n.1,.2\n\n.1,.3\n\n')
+reads '0.1 0.2|0.1 0.3' <(printf 'x,y\n\n.1,.2\n\n.1,.3\n')
+reads '0.1 0.2|0.1 0.3' <(printf '\r\n \r\nx,y\r\n\t\r\n\r\n.1,.2\r\n.1,.3\r\n')
+reads '0.1 0.2|0.1 0.3' <(printf '\n.1,.2\n\n.1,.3\n')
+reads '0.1 0.2|0.1 0.3' --columns x,y <(printf '\n#\n\n"x","r","y"\n\n"0.1","a","0.2"\n"0.1","","0.3"\n')
+reads '0.1 0.2' <(printf '\nx y\n\n.1 .2\n\n')
+reads '0.1 0.2' <(printf 'x,y\n' && printf '\n%.0s' {1..5000} && printf '.1,.2\n')
+refuses 'line 5002: coordinate 2 is outside' convert <(printf 'x,y\n' && printf '\n%.0s' {1..5000} && printf '2,.2\n') -o none
+printf '\nx,y\n\n.1,.2\n' >blank.csv && reads '0.1 0.2' blank.csv
+refuses 'line 5: coordinate 2 is outside' convert <(printf '\nx,y\n\n.1,.2\n.1,2\n') -o none
 refuses 'line 4: coordinate 2 is outside' convert <(printf 'x,y\n.1,.2\n\n.1,2\n') -o none
 refuses 'line 1: commas in numbers; decimals are written with a point' power "$folder/decimal_commas.txt"
+refuses 'line 2: commas in numbers; decimals are written with a point' convert <(printf 'x y\n0,1 0,2\n')
+refuses 'line 3: commas in numbers' convert <(printf 'x\ty\n\n-0,1\t1,2\n')
+refuses 'line 2: commas in numbers' convert <(printf 'x,y\n0,1 0,2\n')
+reads '0' --columns x, --wrap <(printf 'x,y,z\n1,2 3,4\n') # not to be judged: no column that is read
 printf 'weight\n1\n2\n' >w.csv && printf '.1 .2\n.3 .4\n' >points.txt
 "$program" power -k 2 points.txt --weights w.csv | grep -q '^[^#]' || complain 'a header in weights'
+printf '"","w"\n"0","1"\n"1","2"\n' >w.csv
+"$program" power -k 2 points.txt --weights w.csv | grep -q '^# weight_sum: 3' || complain 'quoted weights with an index'
+printf 'w,v\n1,2\n' >w.csv
+refuses 'line 1: columns w,v;weights are one' power -k 2 points.txt --weights w.csv
 
 # ---- rows of texts with names by what a column holds, as text or as a number
 printf 'type,x,y\n1,.1,.2\n2,.3,.4\n1,.5,.6\n' >types.csv
@@ -299,8 +320,24 @@ foreign 'a TIFF image;no pictures' 'II*\0'
 foreign 'an EXR image;no pictures' 'v/1\x01'
 foreign 'a Radiance image;no pictures' '#?RADIANCE\n'
 foreign 'a PFM image;no pictures' 'PF\n2 2\n'
+foreign 'a PBM image;no pictures' 'P1\n# CREATOR: GIMP\n# 24 7\n24 7\n0 0 1 0\n'
+foreign 'a PGM image;no pictures' 'P2 4 4 255\n0 0 0 0\n'
+foreign 'a PPM image;no pictures' 'P3\r\n4 4\r\n255\r\n0 0 0\r\n'
+foreign 'a PBM image;no pictures' 'P4\n16 1\n\0\0'
+foreign 'a PGM image;no pictures' 'P5\n4 4\n255\n\1\2'
+foreign 'a PPM image;no pictures' 'P6\n4 4\n255\n\1\2'
+foreign 'a BMP image;no pictures' 'BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0'
+foreign 'an SVG image;no pictures' '<svg width="4">\n'
+foreign 'an SVG image;no pictures' '<?xml version="1.0"?>\n<!-- drawn -->\n<svg width="4">\n'
+foreign 'an XML file;CSV' '<?xml version="1.0"?>\n<vector>\n'
 reads '0.1 0.2' <(printf '# a comment\n.1 .2\n')
 reads '0.1' <(printf 'P\n.1\n')
+reads '0.1|0.2' <(printf 'P5\n.1\n.2\n')
+reads '0.2|0.4' <(printf 'P5\n0 .2\n1 .4\n')
+reads '0|0.5' --box 0,24 <(printf 'P2\n0 0\n1 12\n')
+reads '0.1 0.2' <(printf 'P1,P2\n.1,.2\n')
+reads '0.1 0.2' <(printf 'P1 P2\n.1 .2\n')
+reads '0.1 0.2' --columns BMI,BM <(printf 'BM,BMI\n.2,.1\n')
 
 [[ $bad == 0 ]] || exit 1
 echo "cli_field: $checked files"
