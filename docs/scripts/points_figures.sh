@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15_figure*.png, pictures of points for
-# docs/user/samplers.md and of points and spectra for docs/samplers. Four minutes on two cores.
+# docs/user/samplers.md, of points and spectra for docs/samplers, and of P15 for docs/user/reproduction.md. Four minutes
+# on two cores; needs gnuplot and rsvg-convert.
 set -euo pipefail
 pointspec=$(realpath "$1") folder=$2
 mkdir -p "$folder"/{points,spectra}
