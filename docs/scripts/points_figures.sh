@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15_figure*.png, pictures of points for
-# docs/user/samplers.md and of points and spectra for docs/samplers. Four minutes on two cores.
+# docs/user/samplers.md, of points and spectra for docs/samplers, and of P15 for docs/user/reproduction.md. Four minutes
+# on two cores; needs gnuplot and rsvg-convert.
 set -euo pipefail
 pointspec=$(realpath "$1") folder=$2
 mkdir -p "$folder"/{points,spectra}
@@ -21,9 +22,50 @@ points sphere 768 white-sphere zphi healpix-jittered fibonacci spiral poisson-di
 points hemisphere 512 white-hemisphere fibonacci-hemisphere fibonacci-hemisphere:morph=diffuse \
     larcher-pillichshammer:lift=hemisphere
 
-# P15's Figures 3, 4 and 5, as docs/scenes/p15_figure*.yaml have them.
+# P15's Figures 1 to 5, as docs/scenes/p15_figure*.yaml have them; of Figure 2 one picture of all five results.
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+scenes=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../scenes")
+scene() { # NAME: the pictures of a scene in a folder of its name
+    echo "figures: $1.png" >&2
+    (cd "$scratch" && "$pointspec" run "$scenes/$1.yaml" >/dev/null)
+}
+scene p15_figure1
+rsvg-convert -w 1080 "$scratch/p15_figure1/coefficients-scatter-1.svg" -o "$folder/p15_figure1.png"
+scene p15_figure2
+gnuplot <<GNUPLOT
+set terminal pngcairo size 1260,440 font "DejaVu Sans,10"
+set output "$folder/p15_figure2.png"
+set multiplot layout 1,3
+set grid linecolor "#dddddd"
+set key left top
+set samples 1000
+set title "profile, gamma = alpha = 1, step at 1/sqrt(pi)"
+set xlabel "normalized frequency"
+set xrange [0:1.5]
+set yrange [0:1.8]
+law(x, b) = x < 1 ? x ** b : 1
+plot 1 linecolor "#555555" title "constant", law(x, 0.5) linecolor "#d55e00" title "b = 0.5", \
+     law(x, 1) linecolor "#0072b2" title "b = 1", law(x, 2) linecolor "#009e73" title "b = 2", \
+     x < 0.56419 ? 0 : 1 linecolor "#cc79a7" title "step"
+set datafile separator ","
+set logscale xy
+set format y "10^{%L}"
+set xlabel "points N"
+set ylabel "variance by the profile"
+set xrange [50:20000]
+set key right top
+bound(name, integrand) = sprintf("<grep '^%s' $scratch/p15_figure2/%s.csv", integrand, name)
+do for [panel in "gaussian disk"] {
+    set title panel eq "gaussian" ? "best case: Gaussian, sigma 1/16" : "worst case: disk, radius 1/4"
+    set yrange [panel eq "gaussian" ? 1e-12 : 1e-8 : *]
+    plot bound("constant", panel) using 2:11 with linespoints pointtype 7 linecolor "#555555" title "constant", \
+         bound("below_1", panel) using 2:11 with linespoints pointtype 7 linecolor "#d55e00" title "b = 0.5", \
+         bound("linear", panel) using 2:11 with linespoints pointtype 7 linecolor "#0072b2" title "b = 1", \
+         bound("quadratic", panel) using 2:11 with linespoints pointtype 7 linecolor "#009e73" title "b = 2", \
+         bound("step", panel) using 2:11 with linespoints pointtype 7 linecolor "#cc79a7" title "step"
+}
+GNUPLOT
 echo "figures: p15_figure3.png" >&2
 "$pointspec" sample --sampler healpix --sampler healpix-jittered --sampler ccvt-sphere --sampler poisson-disk-sphere --sampler white-sphere \
     -n 768 --plot "$folder/p15_figure3.png"
