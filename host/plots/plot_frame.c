@@ -213,8 +213,8 @@ static void print_bars(const char *data, const ps_series *series, double bottom,
     fputs(" notitle, ", stream);
 }
 
-/* The name of its data; the width of its line, and what its marks are larger; the end of a logarithmic
- * axis, 0 of a linear one. */
+/* The name of its data; the width of its line, and what its marks are larger; the end of a
+ * logarithmic axis, 0 of a linear one. */
 typedef struct drawn {
     const char *data;
     double width, more, bottom;
