@@ -128,13 +128,13 @@ static size_t find_longest(const ps_panel *curves) {
 
 /* longest: of its labels, in letters; gnuplot makes the box by so many, but of one or two too
  * narrow. */
-static void print_key(size_t longest, FILE *stream) {
+static void print_key(size_t longest, const ps_script_box *where, FILE *stream) {
     const int least = 3;
     const int length = longest < (size_t)least ? (int)longest : least + 1;
     fprintf(stream,
             "set key top right opaque Left reverse width %d box linecolor '#c0c0c0' samplen 2 "
-            "noenhanced\n",
-            least - length);
+            "maxrows %zu noenhanced\n",
+            least - length, ps_spectra_key_rows(height_of(where)));
 }
 
 /* Scale, ticks and range of an axis. */
@@ -211,7 +211,7 @@ static void print_power_panel(const layout *where, FILE *stream) {
     fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
             ps_spectra_has(curves, ps_spectra_error) ? " ± standard error" : "");
     if (curves->num_series > 1) {
-        print_key(find_longest(curves), stream);
+        print_key(find_longest(curves), &where->upper, stream);
     } else {
         fputs("unset key\n", stream);
     }
@@ -274,7 +274,7 @@ static void print_anisotropy_panel(const layout *where, FILE *stream) {
     ps_script_print_span("y", shown, stream);
     /* The key holds levels of noise alone; without them, it would be an empty box. */
     if (count_levels(curves) > 0) {
-        print_key(strlen("pure noise"), stream);
+        print_key(strlen("pure noise"), &where->lower, stream);
     } else {
         fputs("unset key\n", stream);
     }

@@ -196,6 +196,7 @@ static void keys_lie_on_no_curve(void **state) {
     assert_true(find_room(find_lower_range(&data.plot), -11, 193) > 2 * row);
     data.plot.on_sphere = true;
     assert_true(find_room(find_range(&data.plot, "y"), most, 244) > 3 * row);
+    assert_int_equal(count(&data.plot, "samplen 2 maxrows 4 noenhanced"), 1); /* half of 244 */
     data.panel.num_series = 1; /* no key, and no room for one */
     assert_true(find_room(find_range(&data.plot, "y"), most, 244) < row);
 }
