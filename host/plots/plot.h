@@ -99,7 +99,7 @@ typedef struct ps_plot_axes {
 typedef enum ps_figure_form {
     /* One panel of powers with bars against normalized frequencies, their anisotropy below it, the
      * image beside it; on the sphere the powers once more with logarithmic axes instead, unless
-     * these were asked for. It labels its axes itself. */
+     * these were asked for. It labels its axes itself, but for that of powers. */
     PS_FIGURE_SPECTRA,
     /* Panels side by side, each with axes and a key of its own, which stands below it. One panel
      * has the page for itself. */

@@ -1,6 +1,8 @@
 /* The gnuplot script of a figure: page, data, and what its form asks for. */
 #include "plots/plot_script.h"
 
+#include "base/text.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -51,7 +53,45 @@ static void print_data(const ps_figure *figure, FILE *stream) {
 
 /* ---- the script ------------------------------------------------------------------------------ */
 
-static void print_page(const char *title, const char *terminal, int width, int height,
+static size_t character(const char *text) {
+    const size_t length = ps_text_character(text);
+    return length > 0 ? length : 1; /* a byte that is none */
+}
+
+static size_t count_characters(const char *text) {
+    size_t num = 0;
+    for (; *text != '\0'; text += character(text)) {
+        num++;
+    }
+    return num;
+}
+
+static const char *skip_characters(const char *text, size_t num) {
+    for (size_t i = 0; i < num && *text != '\0'; i++) {
+        text += character(text);
+    }
+    return text;
+}
+
+/* In so many pixels: of what is longer the middle is left out, for N stands at the end. */
+static void print_title(const char *title, int width, FILE *stream) {
+    enum { LETTER = 11, CUT_BYTES = 1024, MOST_CUT = 200 };
+    const size_t num = title != NULL ? count_characters(title) : 0;
+    const size_t room = (size_t)width / LETTER;
+    const size_t most = room < MOST_CUT ? room : MOST_CUT;
+    if (num <= most) {
+        ps_script_print_text(title, stream);
+        return;
+    }
+    char cut[CUT_BYTES];
+    const int head = (int)(skip_characters(title, most / 2) - title);
+    snprintf(cut, sizeof cut, "%.*s…%s", head, title,
+             skip_characters(title, num - (most - 1 - most / 2)));
+    ps_script_print_text(cut, stream);
+}
+
+/* left: where the part begins that the title stands over. */
+static void print_page(const char *title, int left, const char *terminal, int width, int height,
                        FILE *stream) {
     if (strcmp(terminal, "pdfcairo") == 0) { /* in inches; 100 pixels each */
         fprintf(stream, "set terminal pdfcairo enhanced color size %gin,%gin font 'Sans,11.5'\n",
@@ -66,8 +106,9 @@ static void print_page(const char *title, const char *terminal, int width, int h
     fputs("set pointintervalbox 0.01\n", stream);
     fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
     fputs("set multiplot\nset label 1 ", stream);
-    ps_script_print_text(title, stream);
-    fprintf(stream, " at screen 0.5,%.4g center noenhanced font ',%d'\n", 1 - 26.6 / height,
+    print_title(title, width - left, stream);
+    fprintf(stream, " at screen %.4g,%.4g center noenhanced font ',%d'\n",
+            (left + width) / 2.0 / width, 1 - 26.6 / height,
             strcmp(terminal, "svg") == 0 ? 20 : 15); /* svg counts pixels, the others points */
 }
 
@@ -99,7 +140,7 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
     if (figure->form == PS_FIGURE_POINTS) {
         ps_script_size_points(figure, &width, &height);
     }
-    print_page(figure->title, terminal, width, height, stream);
+    print_page(figure->title, ps_script_title_left(figure), terminal, width, height, stream);
     print_data(figure, stream);
     switch (figure->form) {
     case PS_FIGURE_SPECTRA:

@@ -162,16 +162,18 @@ static double find_spacing(const ps_panel *panel) {
 static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
     const double middle = (where->x + (LEFT + where->width - RIGHT) / 2) / where->page_width;
     const double bottom = 1 - (where->y + where->height) / where->page_height;
-    /* gnuplot takes letters for wider than they are: it would have one column where there is room
-     * for two */
-    const int long_label = 20;
+    /* gnuplot takes letters for wider than they are, in pixels of two columns: it would have one
+     * column where there is room for two */
+    const double letter = 30;
+    const size_t columns = count_key_columns(panel, where);
+    const int most = (int)((where->width - LEFT - RIGHT) / letter);
     const int longest = (int)find_longest(panel);
-    const bool is_narrow = where->width < PS_SCRIPT_WIDTH && longest > long_label;
+    const bool is_narrow = columns > 1 && longest > most;
     fprintf(stream,
             "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
             "samplen 2 spacing %g width %d\n",
-            middle, bottom + 7 / where->page_height, count_key_columns(panel, where),
-            find_spacing(panel), is_narrow ? long_label - 1 - longest : 0);
+            middle, bottom + 7 / where->page_height, columns, find_spacing(panel),
+            is_narrow ? most - 1 - longest : 0);
 }
 
 /* ---- series ---------------------------------------------------------------------------------- */
@@ -213,8 +215,8 @@ static void print_bars(const char *data, const ps_series *series, double bottom,
     fputs(" notitle, ", stream);
 }
 
-/* The name of its data; the width of its line, and what its marks are larger; the end of a logarithmic
- * axis, 0 of a linear one. */
+/* The name of its data; the width of its line, and what its marks are larger; the end of a
+ * logarithmic axis, 0 of a linear one. */
 typedef struct drawn {
     const char *data;
     double width, more, bottom;

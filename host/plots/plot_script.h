@@ -24,6 +24,9 @@ void ps_script_size_spectra(const ps_figure *figure, int *width, int *height);
 void ps_script_size_frames(const ps_figure *figure, int *width, int *height);
 void ps_script_size_panels(const ps_figure *figure, int *width, int *height);
 void ps_script_size_points(const ps_figure *figure, int *width, int *height);
+/* Where the part of the page begins over which the title stands, in pixels: points beside spectra
+ * have their own. */
+int ps_script_title_left(const ps_figure *figure);
 /* Diameter, in pixels, of the marks of a panel of points. */
 double ps_script_mark_size(const ps_figure *figure, size_t panel);
 

@@ -1,6 +1,8 @@
 /* The gnuplot script of spectra: image, powers, and what stands below them. */
 #include "plots/spectra_axes.h"
 
+#include <string.h>
+
 enum { MAX_BARS = 200 };
 
 /* ---- where things are ------------------------------------------------------------------------ */
@@ -29,6 +31,10 @@ void ps_script_size_spectra(const ps_figure *figure, int *width, int *height) {
     *width = (figure->points != NULL ? POINTS_WIDTH : 0) +
              (figure->image != NULL ? IMAGE_WIDTH + CURVES_WIDTH : PS_SCRIPT_WIDTH);
     *height = PS_SCRIPT_HEIGHT;
+}
+
+int ps_script_title_left(const ps_figure *figure) {
+    return figure->form == PS_FIGURE_SPECTRA && figure->points != NULL ? POINTS_WIDTH : 0;
 }
 
 /* The image is square; the lower panel has a third, on the sphere a half. */
@@ -110,8 +116,26 @@ static void print_profiles(const ps_panel *curves, FILE *stream) {
     putc('\n', stream);
 }
 
-static const char key[] = "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' "
-                          "samplen 2 noenhanced\n";
+static size_t find_longest(const ps_panel *curves) {
+    size_t longest = 0;
+    for (size_t i = 0; i < curves->num_series; i++) {
+        const char *const label = curves->series[i].label;
+        const size_t length = label != NULL ? strlen(label) : 0;
+        longest = length > longest ? length : longest;
+    }
+    return longest;
+}
+
+/* longest: of its labels, in letters; gnuplot makes the box by so many, but of one or two too
+ * narrow. */
+static void print_key(size_t longest, const ps_script_box *where, FILE *stream) {
+    const int least = 3;
+    const int length = longest < (size_t)least ? (int)longest : least + 1;
+    fprintf(stream,
+            "set key top right opaque Left reverse width %d box linecolor '#c0c0c0' samplen 2 "
+            "maxrows %zu noenhanced\n",
+            least - length, ps_spectra_key_rows(height_of(where)));
+}
 
 /* Scale, ticks and range of an axis. */
 static void print_axis(const char *axis, bool is_log, ps_plot_span shown, FILE *stream) {
@@ -186,7 +210,11 @@ static void print_power_panel(const layout *where, FILE *stream) {
     print_frequencies(where, !where->has_lower || figure->on_sphere, stream);
     fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
             ps_spectra_has(curves, ps_spectra_error) ? " ± standard error" : "");
-    fputs(curves->num_series > 1 ? key : "unset key\n", stream);
+    if (curves->num_series > 1) {
+        print_key(find_longest(curves), &where->upper, stream);
+    } else {
+        fputs("unset key\n", stream);
+    }
     print_white(powers, stream);
     fputs("plot ", stream);
     print_powers(where, stream);
@@ -245,7 +273,12 @@ static void print_anisotropy_panel(const layout *where, FILE *stream) {
             ps_script_tick_step(shown)); /* few enough for a low panel */
     ps_script_print_span("y", shown, stream);
     /* The key holds levels of noise alone; without them, it would be an empty box. */
-    fprintf(stream, "%splot ", count_levels(curves) > 0 ? key : "unset key\n");
+    if (count_levels(curves) > 0) {
+        print_key(strlen("pure noise"), &where->lower, stream);
+    } else {
+        fputs("unset key\n", stream);
+    }
+    fputs("plot ", stream);
     print_levels(curves, stream);
     print_curves(where, "1:4", "lines", stream);
     putc('\n', stream);
@@ -261,7 +294,7 @@ static void print_logarithmic_panel(const layout *where, FILE *stream) {
     ps_script_print_margins(&where->lower, stream);
     print_frequencies(&own, true, stream);
     print_axis("y", true, ps_spectra_powers(&figure, where->curves, 0), stream);
-    fputs("set ylabel 'power' offset 1,0\nunset key\nplot ", stream);
+    fprintf(stream, "set ylabel '%s' offset 1,0\nunset key\nplot ", where->y_label);
     print_curves(&own, "1:($2 > 0 ? $2 : NaN)", NULL, stream);
     print_profiles(where->curves, stream);
 }
@@ -275,7 +308,7 @@ pspec_status ps_script_print_spectra(const ps_figure *figure, const char *termin
                                            : ps_spectra_has(figure->panels, ps_spectra_anisotropy),
                     .x_label = on_sphere ? "normalized degree l N^{-1/2}"
                                          : "normalized frequency |k| N^{-1/d}",
-                    .y_label = on_sphere ? "power" : "radial mean power"};
+                    .y_label = figure->y_label != NULL ? figure->y_label : ""};
     place(&where);
     if (figure->points != NULL) {
         ps_script_print_beside(&(ps_script_points){figure->points, &figure->frames[0], where.points,

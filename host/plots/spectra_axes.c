@@ -37,12 +37,18 @@ bool ps_spectra_has(const ps_panel *curves, ps_take_number *take) {
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
-/* Low panels have the same letters as high ones. */
+/* Pixels, measured in SVG, where letters are largest: a line, and from the border of the panel and
+ * below; the part of the panel that a key may have. Low panels have the same letters as high ones.
+ */
+static const double KEY_LINE = 24, KEY_FRAME = 16, MOST_KEY = 0.5;
+
+size_t ps_spectra_key_rows(double height) {
+    return (size_t)((MOST_KEY * height - KEY_FRAME) / KEY_LINE);
+}
+
 double ps_spectra_key_part(size_t num_lines, double height) {
-    const double line = 24;  /* pixels, measured in SVG, where letters are largest */
-    const double frame = 16; /* from the border of the panel, and below */
-    const double most = 0.5; /* curves have the rest in any case */
-    return num_lines > 0 ? fmin((frame + line * (double)num_lines) / height, most) : 0;
+    const double rows = fmin((double)num_lines, (double)ps_spectra_key_rows(height));
+    return rows > 0 ? (KEY_FRAME + KEY_LINE * rows) / height : 0;
 }
 
 /* ---- powers ---------------------------------------------------------------------------------- */

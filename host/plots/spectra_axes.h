@@ -16,7 +16,9 @@ double ps_spectra_anisotropy(const ps_series *curve, size_t bin);
 double ps_spectra_level(const ps_series *curve, size_t bin);
 bool ps_spectra_has(const ps_panel *curves, ps_take_number *take);
 
-/* The part of the height of a panel that a key of so many lines takes; 0 for none. */
+/* Lines of a key that stand below each other in a panel of this height, others beside them; and the
+ * part of the height that a key of so many lines takes, 0 for none. */
+size_t ps_spectra_key_rows(double height);
 double ps_spectra_key_part(size_t num_lines, double height);
 
 /* The largest power of a curve with its bar; and of all, but for curves that are louder than all

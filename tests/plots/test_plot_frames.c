@@ -208,6 +208,11 @@ static void long_labels_of_a_frame(void **state) {
     assert_true(script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width 0\n"));
     series[0].label = "best bound: slope -12.6751"; /* 26 letters */
     assert_true(script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width -7\n"));
+    ps_figure wide = plot;
+    wide.num_panels = 1; /* a page of its own has room for more of them */
+    assert_true(script_contains(&wide, " maxcols 2 samplen 2 spacing 1.05 width 0\n"));
+    series[0].label = "64, glossy:n=30, fibonacci-hemisph"; /* 34 letters */
+    assert_true(script_contains(&wide, " maxcols 2 samplen 2 spacing 1.05 width -6\n"));
 }
 
 /* A panel may have axes of its own: a plane has the same unit on both. */

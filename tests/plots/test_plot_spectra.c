@@ -196,8 +196,61 @@ static void keys_lie_on_no_curve(void **state) {
     assert_true(find_room(find_lower_range(&data.plot), -11, 193) > 2 * row);
     data.plot.on_sphere = true;
     assert_true(find_room(find_range(&data.plot, "y"), most, 244) > 3 * row);
+    assert_int_equal(count(&data.plot, "samplen 2 maxrows 4 noenhanced"), 1); /* half of 244 */
     data.panel.num_series = 1; /* no key, and no room for one */
     assert_true(find_room(find_range(&data.plot, "y"), most, 244) < row);
+}
+
+/* gnuplot makes boxes of one letter too narrow. */
+static void keys_of_short_names(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 2);
+    assert_int_equal(count(&data.plot, "Left reverse width 2 box"), 1);
+    assert_int_equal(count(&data.plot, "Left reverse width -1 box"), 1); /* of levels of noise */
+    data.curves[1].label = "jittered";
+    assert_int_equal(count(&data.plot, "Left reverse width -1 box"), 2);
+    assert_int_equal(count(&data.plot, "Left reverse width 2 box"), 0);
+}
+
+/* The axis of powers has the label of the figure, in both panels of the sphere. */
+static void labels_of_powers(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 1);
+    data.plot.axes = (ps_plot_axes){0};
+    data.plot.y_label = "sums";
+    assert_int_equal(count(&data.plot, "set ylabel 'sums' "), 1);
+    data.plot.on_sphere = true;
+    assert_int_equal(count(&data.plot, "set ylabel 'sums' "), 2);
+}
+
+/* It stands over what is no panel of points, and loses its middle where it is too long. */
+static void titles_have_their_place(void **state) {
+    (void)state;
+    static const double x[] = {0.5};
+    static const ps_point_frame frame = {PS_FRAME_SQUARE, 0, 1, "x", "y", false};
+    const ps_series series = {.num = 1, .x = x, .y = x};
+    const ps_panel points = {"the first set", 1, &series};
+    char title[202];
+    example data;
+    make_example(&data, 1);
+    memset(title, 'a', sizeof title);
+    memcpy(title, "\xc3\xa4", 2); /* one character */
+    memcpy(title + 196, " end", 5);
+    assert_int_equal(count(&data.plot, "set label 1 \"title\" at screen 0.5,"), 1);
+    data.plot.points = &points;
+    data.plot.frames = &frame;
+    assert_int_equal(count(&data.plot, "set label 1 \"title\" at screen 0.697,"), 1);
+    data.plot.title = title; /* 90 letters have room */
+    assert_int_equal(count(&data.plot, "aaaaaaaa…aaaaaaaa"), 1);
+    assert_int_equal(count(&data.plot, "aaa end\" at screen"), 1);
+    title[90] = '\0';
+    assert_int_equal(count(&data.plot, "…"), 0);
+    title[90] = 'a';
+    title[91] = 'a';
+    title[92] = '\0';
+    assert_int_equal(count(&data.plot, "…"), 1);
 }
 
 /* Curves of noise alone, and a panel of a single number. */
@@ -295,6 +348,9 @@ int main(void) {
         cmocka_unit_test(the_sphere_has_one_panel_of_logarithms),
         cmocka_unit_test(levels_of_noise),
         cmocka_unit_test(keys_lie_on_no_curve),
+        cmocka_unit_test(keys_of_short_names),
+        cmocka_unit_test(labels_of_powers),
+        cmocka_unit_test(titles_have_their_place),
         cmocka_unit_test(anisotropies_have_a_range),
         cmocka_unit_test(lines_that_coincide),
         cmocka_unit_test(white_noise_is_neutral),

@@ -17,6 +17,13 @@ static double power_unit(const ps_power_job *job) {
     return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS && isfinite(unit) ? unit : 1;
 }
 
+static const char *label_powers(const ps_power_job *job) {
+    const bool on_sphere = ps_power_job_spectrum(job)->frequencies.kind == PS_FREQUENCIES_DEGREES;
+    return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS ? "Legendre sum / Σ w^2"
+           : on_sphere                                           ? "power"
+                                                                 : "radial mean power";
+}
+
 /* Of the powers as they are drawn: what the numerical error of S alone would make. */
 static double find_floor(const ps_power_job *job, double unit) {
     const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
@@ -198,6 +205,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     const ps_panel panel = {NULL, num, curves};
     ps_figure figure = {.form = PS_FIGURE_SPECTRA,
                         .title = ps_text_string(&title),
+                        .y_label = label_powers(jobs[0]),
                         .num_panels = 1,
                         .panels = &panel,
                         .image = has_image ? &image : NULL,
