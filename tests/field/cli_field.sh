@@ -136,10 +136,27 @@ printf 'x\ty\n.1\t.2\n' >tabs.csv && reads '0.1 0.2' tabs.csv
 printf '.1\t.2\n' >bare.csv && reads '0.1 0.2' bare.csv
 reads '0.1 0.2|0.1 0.3' <(printf 'ID,x,y\n7,.1,.2\n3,.1,.3\n')
 reads '0.1 0.2|0.1 0.3' <(printf 'x,y\n.1,.2\n\n.1,.3\n\n')
+reads '0.1 0.2|0.1 0.3' <(printf 'x,y\n\n.1,.2\n\n.1,.3\n')
+reads '0.1 0.2|0.1 0.3' <(printf '\r\n \r\nx,y\r\n\t\r\n\r\n.1,.2\r\n.1,.3\r\n')
+reads '0.1 0.2|0.1 0.3' <(printf '\n.1,.2\n\n.1,.3\n')
+reads '0.1 0.2|0.1 0.3' --columns x,y <(printf '\n#\n\n"x","r","y"\n\n"0.1","a","0.2"\n"0.1","","0.3"\n')
+reads '0.1 0.2' <(printf '\nx y\n\n.1 .2\n\n')
+reads '0.1 0.2' <(printf 'x,y\n' && printf '\n%.0s' {1..5000} && printf '.1,.2\n')
+refuses 'line 5002: coordinate 2 is outside' convert <(printf 'x,y\n' && printf '\n%.0s' {1..5000} && printf '2,.2\n') -o none
+printf '\nx,y\n\n.1,.2\n' >blank.csv && reads '0.1 0.2' blank.csv
+refuses 'line 5: coordinate 2 is outside' convert <(printf '\nx,y\n\n.1,.2\n.1,2\n') -o none
 refuses 'line 4: coordinate 2 is outside' convert <(printf 'x,y\n.1,.2\n\n.1,2\n') -o none
 refuses 'line 1: commas in numbers; decimals are written with a point' power "$folder/decimal_commas.txt"
+refuses 'line 2: commas in numbers; decimals are written with a point' convert <(printf 'x y\n0,1 0,2\n')
+refuses 'line 3: commas in numbers' convert <(printf 'x\ty\n\n-0,1\t1,2\n')
+refuses 'line 2: commas in numbers' convert <(printf 'x,y\n0,1 0,2\n')
+reads '0' --columns x, --wrap <(printf 'x,y,z\n1,2 3,4\n') # not to be judged: no column that is read
 printf 'weight\n1\n2\n' >w.csv && printf '.1 .2\n.3 .4\n' >points.txt
 "$program" power -k 2 points.txt --weights w.csv | grep -q '^[^#]' || complain 'a header in weights'
+printf '"","w"\n"0","1"\n"1","2"\n' >w.csv
+"$program" power -k 2 points.txt --weights w.csv | grep -q '^# weight_sum: 3' || complain 'quoted weights with an index'
+printf 'w,v\n1,2\n' >w.csv
+refuses 'line 1: columns w,v;weights are one' power -k 2 points.txt --weights w.csv
 
 # ---- rows of texts with names by what a column holds, as text or as a number
 printf 'type,x,y\n1,.1,.2\n2,.3,.4\n1,.5,.6\n' >types.csv

@@ -77,6 +77,7 @@ printf '9,0.5,0.25\n9,0.1,0.2\n' | seed csv numbers "$(options 00 0f 00 00 00 01
 printf 'a,y,x\n9,0.5,0.25\n\n9,0.1,0.2\n' | seed csv named-numbers "$(options 00 0f 00 00 00 01)"
 printf '"0.5","0.25"\n"1D-1","0.2"\n' | seed csv quoted "$torus"
 printf 'id\tx\ty\n7\t0.5\t0.25\n' | seed csv tabs "$torus"
+printf '\n"x","y"\r\n\r\n\n0.5,0.25\n\n0.1,0.2\n' | seed csv blank-lines "$torus"
 printf '0,5 0,25\n' | seed csv decimal-commas "$torus"
 printf '0.5 6.2 3\n0.1 0 2\n' | seed utk-text numbers "$(options 43 10 20 00 00 01)"
 printf '0.5,1\n0.5,0.25\n' | seed csv header "$(options 00 00 40 00 00 01)"
@@ -226,6 +227,9 @@ printf '1 0\n-3 7\n' | seed frequencies plane '\0'
 printf '# k\n1,2,3\r\n4 , 5 , -1073741824\n' | seed frequencies commas '\1'
 printf '1e3\n1.5\n' | seed frequencies fraction '\0'
 printf '1\n2.5 -1e-3\n' | seed weights text '\0'
+printf '"","w"\n"0","1"\n\n"1","-2.5"\r\n' | seed weights quoted '\0'
+printf '"1" 2\n"3"\n' | seed weights quotes '\1'
+printf ';w\na;1\nb;1e999\n' | seed weights infinite '\0'
 { npy '<f8' False '2,'; f64 1 -2; } | seed weights npy '\1'
 npy '<f8' False '1152921504606846976,' | seed weights promise '\1'
 printf '1\n2\n' | gzip -n | seed weights gzip '\0'

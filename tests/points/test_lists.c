@@ -93,13 +93,48 @@ static void reads_weights(void **state) {
     free(weights);
 }
 
+/* As data frames are written: quotes, the name of the column, an index that has none or one. */
+static void reads_weights_of_data_frames(void **state) {
+    static const char *const cases[] = {
+        "w\n1\n\n2\r\n",
+        "\"w\"\n\"1\"\n\"2\"\n",
+        "\"1\"\n\"2\"\n",
+        "\"1\" 2\n",
+        ",w\n0,1\n1,2\n",
+        "\"\",\"w\"\n\"0\",\"1\"\n\"1\",\"2\"\n",
+        "\"\";\"the weight\"\r\n\"a\";1\r\n\"b\";2\r\n",
+        ",0\n0,1\n1,2\n",
+        "id,w\n7,1\n3,2\n",
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[TEST_PATH_BYTES];
+        ps_error error = {0};
+        double *weights = NULL;
+        size_t num = 0;
+        put(state, cases[i], path);
+        if (ps_read_weights(path, 2, &weights, &num, &error) != PSPEC_OK) {
+            fail_msg("%s: %s", cases[i], error.message);
+        }
+        assert_int_equal(num, 2);
+        assert_true(weights[0] == 1 && weights[1] == 2);
+        free(weights);
+    }
+}
+
 static void refuses_bad_weights(void **state) {
     static const char *const cases[][2] = {{"# none\n", "list holds no numbers"},
                                            {"1\n1,5\n", "line 2: a comma"},
                                            {"1\ninf\n", "line 2: \"inf\" is not a finite number"},
                                            {"1e999\n", "\"1e999\" is not a finite number"},
                                            {"1 a\n", "line 1: \"a\" is not a finite number"},
-                                           {"w\nw\n1\n", "line 2: \"w\" is not a finite number"},
+                                           {"w\nw\n1\n", "line 2: \"w\" is not a number"},
+                                           {"1 \"\"\n", "line 1: \"\" is not a finite number"},
+                                           {"w\nnan\n", "line 2: \"nan\" is not a finite number"},
+                                           {"w\n1e999\n", "line 2: weight inf is not a finite"},
+                                           {"w\n1 2\n", "line 2: \"1 2\" is not a number"},
+                                           {"w\n1,2\n", "line 2: 2 columns, where the header"},
+                                           {"\"\",w\n0,1\n5,2\n", "line 3: \"5\" in a column"},
+                                           {"x,y,w\n0,1,2\n", "line 1: columns x,y,w; weights"},
                                            {"w\n", "holds no numbers"}};
     char path[TEST_PATH_BYTES];
     ps_error error = {0};
@@ -109,7 +144,9 @@ static void refuses_bad_weights(void **state) {
         put(state, cases[i][0], path);
         assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error),
                          PSPEC_ERROR_INPUT);
-        assert_non_null(strstr(error.message, cases[i][1]));
+        if (strstr(error.message, cases[i][1]) == NULL) {
+            fail_msg("%s: \"%s\", expected \"%s\"", cases[i][0], error.message, cases[i][1]);
+        }
     }
     const double values[] = {1, (double)NAN};
     const size_t shape[] = {1, 2};
@@ -130,9 +167,8 @@ int main(void) {
 #define IN_FOLDER(test)                                                                            \
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(reads_frequencies),
-        IN_FOLDER(refuses_bad_frequencies),
-        IN_FOLDER(reads_weights),
+        IN_FOLDER(reads_frequencies),   IN_FOLDER(refuses_bad_frequencies),
+        IN_FOLDER(reads_weights),       IN_FOLDER(reads_weights_of_data_frames),
         IN_FOLDER(refuses_bad_weights),
     };
     return cmocka_run_group_tests_name("lists", tests, NULL, NULL);

@@ -14,9 +14,10 @@ typedef struct ps_number_list {
     ps_input *input;
     double *values;
     size_t num_values, capacity;
-    bool has_name;             /* the first line is the name of a column */
-    unsigned columns;          /* of every row; 0: any number */
-    const char *columns_shown; /* as a word, of tables */
+    struct ps_text_header *header; /* of weights: names of columns, if the first line has these */
+    char separator;                /* between such columns */
+    unsigned columns;              /* of every row; 0: any number */
+    const char *columns_shown;     /* as a word, of tables */
     /* it is not read beyond these, since a file may have no end */
     uint64_t most_values;   /* 0: any number */
     uint64_t memory_limit;  /* of bytes, that somebody typed; 0: half of what is free */

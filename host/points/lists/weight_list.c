@@ -3,38 +3,86 @@
 #include "files/decimal.h"
 #include "files/npy.h"
 #include "files/output_file.h"
+#include "files/text_lines.h"
 #include "points/lists/number_list.h"
 #include "points/text/text_fields.h"
+#include "points/text/text_header.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A first line that is nothing but the name of a column. */
-static bool is_name(const char *line) {
-    ps_field name;
-    bool is_more = true;
-    return ps_fields_count(line, ',') == 1 && ps_field_next(&line, ',', &is_more, &name) &&
-           ps_field_is_name(name);
+typedef struct place {
+    char text[512];
+} place;
+
+/* "FILE, line 1" */
+static place show_place(const ps_number_list *list, size_t line_number) {
+    place out;
+    snprintf(out.text, sizeof out.text, "%.440s, line %zu", list->input->name, line_number);
+    return out;
 }
 
-static pspec_status parse_weights(ps_number_list *list, const char *text, size_t line_number,
-                                  ps_error *error) {
-    if (!list->has_name && list->num_values == 0 && is_name(text)) {
-        list->has_name = true;
-        return PSPEC_OK;
+/* Names of columns: all but one are an index. */
+static pspec_status take_names(ps_number_list *list, const char *line, size_t line_number,
+                               ps_error *error) {
+    const char separator = memchr(line, ';', strcspn(line, "\n")) != NULL ? ';' : ',';
+    const place where = show_place(list, line_number);
+    ps_text_header *const header = list->header;
+    PS_TRY(ps_text_header_read(header, line, line, separator, NULL, NULL, where.text, error));
+    list->separator = separator;
+    return header->num_chosen == 1
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s: columns %s; weights are one, and those of a file of points are "
+                         "--weights column",
+                         where.text, header->used);
+}
+
+static pspec_status fail_number(const ps_number_list *list, ps_field field, size_t line_number,
+                                ps_error *error) {
+    char shown[PS_TOKEN_BYTES];
+    if (memchr(field.text, ',', field.length) != NULL) { /* columns do not say which is meant */
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: a comma; weights are separated by blanks or lines",
+                       list->input->name, line_number);
     }
-    while (*text != '\n') {
-        double value = 0;
-        PS_TRY(ps_number_list_token(list, &text, line_number, "a finite number", &value, error));
-        PS_TRY(ps_number_list_append(list, value, error));
-        text = ps_number_list_skip(text);
-        if (*text == ',') { /* columns would not say which one is meant */
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s, line %zu: a comma; weights are separated by blanks or lines",
-                           list->input->name, line_number);
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: \"%s\" is not a finite number",
+                   list->input->name, line_number, ps_token_show(shown, field.text, field.length));
+}
+
+/* The row of a column with a name. */
+static pspec_status parse_row(ps_number_list *list, const char *line, size_t line_number,
+                              ps_error *error) {
+    double value = 0;
+    const bool is_row = ps_text_header_row(list->header, line, list->separator, &value) != NULL;
+    if (is_row && isfinite(value)) {
+        return ps_number_list_append(list, value, error);
+    }
+    const place where = show_place(list, line_number);
+    return is_row ? ps_fail(error, PSPEC_ERROR_INPUT, "%s: weight %g is not a finite number",
+                            where.text, value)
+                  : ps_text_header_refuse(list->header, line, list->separator, where.text, error);
+}
+
+static pspec_status parse_weights(ps_number_list *list, const char *line, size_t line_number,
+                                  ps_error *error) {
+    ps_field field;
+    bool is_more = true;
+    double value = 0;
+    if (list->header->is_there) {
+        return parse_row(list, line, line_number, error);
+    }
+    if (list->num_values == 0 && (ps_text_header_is(line, ',') || ps_text_header_is(line, ';'))) {
+        return take_names(list, line, line_number, error);
+    }
+    while (ps_field_next(&line, ' ', &is_more, &field)) {
+        if (field.length == 0 ||
+            ps_decimal_parse(field.text, &value) != field.text + field.length || !isfinite(value)) {
+            return fail_number(list, field, line_number, error);
         }
+        PS_TRY(ps_number_list_append(list, value, error));
     }
     return PSPEC_OK;
 }
@@ -80,7 +128,9 @@ pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **wei
     ps_input input = {0};
     char why[96];
     snprintf(why, sizeof why, "weights, and a set has %llu points", (unsigned long long)num_wanted);
-    ps_number_list list = {.input = &input, .most_values = num_wanted, .why_values = why};
+    ps_text_header header = {0};
+    ps_number_list list = {
+        .input = &input, .header = &header, .most_values = num_wanted, .why_values = why};
     pspec_status status = PSPEC_OK;
     bool is_npy = false;
     PS_TRY_OUT(status, ps_input_open_array(&input, path, "weights", error));

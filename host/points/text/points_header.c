@@ -107,17 +107,72 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Numbers between blanks, each with a comma between digits. */
+static bool has_decimal_commas(const char *line) {
+    static const char digits[] = "0123456789";
+    unsigned num = 0;
+    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
+        line += *line == '-' || *line == '+';
+        const size_t before = strspn(line, digits);
+        const size_t after = line[before] == ',' ? strspn(line + before + 1, digits) : 0;
+        line += before + 1 + after;
+        if (before == 0 || after == 0 || (ps_skip_blanks(line) == line && !ps_ends_line(line))) {
+            return false;
+        }
+        num++;
+    }
+    return num > 1;
+}
+
+/* The next line that is not blank, which comes num_after lines after the one at the cursor; NULL:
+ * there is none. */
+static pspec_status peek_row(ps_lines *lines, const char **row, size_t *num_after,
+                             ps_error *error) {
+    const char *farthest = NULL;
+    size_t wanted = 1;
+    do {
+        PS_TRY(ps_lines_peek(lines, wanted, &farthest, error)); /* so that all before are there */
+        *row = lines->cursor;
+        *num_after = 0;
+        do {
+            *row = (const char *)memchr(*row, '\n', (size_t)(lines->lines_end - *row)) + 1;
+            ++*num_after;
+        } while (*row < lines->lines_end && ps_ends_line(ps_skip_blanks(*row)));
+        wanted *= 2;
+    } while (*row == lines->lines_end && farthest != NULL);
+    *row = *row < lines->lines_end ? *row : NULL;
+    return PSPEC_OK;
+}
+
+/* Of the first two lines that are not blank, in which the decimals begin. Between commas there are
+ * columns that may hold anything where others are chosen. */
+static pspec_status check_commas(const ps_point_reader *reader, const char *row, size_t num_after,
+                                 ps_error *error) {
+    const ps_text_state *const state = reader->state;
+    const bool may_be_text = state->separator != ' ' && reader->options.column_names != NULL;
+    const bool begins = has_decimal_commas(state->lines.cursor);
+    if (state->separator == ';' || may_be_text ||
+        !(begins || (row != NULL && has_decimal_commas(row)))) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s, line %zu: commas in numbers; decimals are written with a point",
+                   reader->input.name, state->lines.line_number + (begins ? 0 : num_after));
+}
+
 pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
     const char *const names = reader->options.column_names;
     const char *const select = reader->options.select;
     const char *row = NULL;
+    size_t num_after = 0;
     bool is_there = false;
     char where[PS_PLACE_BYTES];
-    PS_TRY(ps_lines_peek(lines, 1, &row, error));
+    PS_TRY(peek_row(lines, &row, &num_after, error));
+    PS_TRY(check_commas(reader, row, num_after, error));
     PS_TRY(row != NULL ? find_header(reader, &is_there, error) : PSPEC_OK);
-    PS_TRY(ps_lines_peek(lines, 1, &row, error)); /* it may have moved */
+    PS_TRY(peek_row(lines, &row, &num_after, error)); /* it may have moved */
     if (!is_there) {
         return choose_columns(reader, error);
     }
@@ -134,6 +189,8 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     reader->chosen = state->header.chooses ? state->header.used : NULL;
     PS_TRY(check_similar(reader, where, error));
     state->header.chooses = state->header.chooses || has_quotes(row) || select != NULL;
-    ps_lines_skip(lines);
+    for (size_t i = 0; i < num_after; i++) {
+        ps_lines_skip(lines);
+    }
     return PSPEC_OK;
 }

@@ -2,7 +2,7 @@
  * its rows here, too. A '#' at the start of a line ends a set.
  *
  * Lenient where nothing can be misunderstood: tabs, CR LF, no '\n' at the end, '#' lines before the
- * first set, one '#' line after the last, blank lines at the very end. */
+ * first set, one '#' line after the last, blank lines before the first set and at the very end. */
 #include "base/memory.h"
 #include "files/decimal.h"
 #include "points/text/points_text.h"
@@ -60,12 +60,9 @@ static pspec_status read_blank_end(ps_text_state *state, ps_error *error) {
 static pspec_status skip_marks(ps_text_state *state, ps_error *error) {
     ps_line_kind kind = PS_LINE_NONE;
     PS_TRY(ps_text_next_line(state, &kind, error));
-    while (kind == PS_LINE_MARK) {
+    while (kind == PS_LINE_MARK || kind == PS_LINE_BLANK) {
         ps_lines_skip(&state->lines);
         PS_TRY(ps_text_next_line(state, &kind, error));
-    }
-    if (kind == PS_LINE_BLANK) {
-        PS_TRY(read_blank_end(state, error));
     }
     return kind == PS_LINE_POINT
                ? PSPEC_OK
@@ -115,23 +112,6 @@ static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
     return ps_text_fix_columns(reader, error);
 }
 
-/* Numbers between blanks, each with a comma between digits. */
-static bool has_decimal_commas(const char *line) {
-    static const char digits[] = "0123456789";
-    unsigned num = 0;
-    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
-        line += *line == '-' || *line == '+';
-        const size_t before = strspn(line, digits);
-        const size_t after = line[before] == ',' ? strspn(line + before + 1, digits) : 0;
-        line += before + 1 + after;
-        if (before == 0 || after == 0 || (ps_skip_blanks(line) == line && !ps_ends_line(line))) {
-            return false;
-        }
-        num++;
-    }
-    return num > 1;
-}
-
 /* Where the first line has a semicolon, columns lie between semicolons; where it has tabs and no
  * comma, between these. */
 static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
@@ -143,10 +123,6 @@ static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
         state->separator = ';';
     } else if (memchr(line, ',', length) == NULL && memchr(line, '\t', length) != NULL) {
         state->separator = ' ';
-    } else if (has_decimal_commas(line)) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: commas in numbers; decimals are written with a point",
-                       reader->input.name, state->lines.line_number);
     }
     PS_TRY(ps_text_take_header(reader, error));
     return ps_text_fix_columns(reader, error);
