@@ -182,6 +182,9 @@ damaged() { # PART SED-SCRIPT
     refuses "$1" --against bad.json sets.txt
 }
 refuses 'is no saved spectrum' --against sets.txt sets.txt
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 6 -k 12 -o table.csv
+refuses '"table.csv" is no saved spectrum: pointspec power and angular save one with -o FILE.json' --against table.csv sets.txt
+refuses '"table.csv" is no saved spectrum: pointspec power and angular save one with -o FILE.json' --against saved.json table.csv
 cat saved.json <(echo '{"rows": []}') >bad.json
 refuses 'is damaged: there is more behind the table, at byte' --against bad.json sets.txt
 cat saved.json <(printf '\n \t\n') >blank.json

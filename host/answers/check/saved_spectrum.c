@@ -134,18 +134,26 @@ static pspec_status read_table(ps_saved_spectrum *out, ps_input *input, ps_error
 
 /* ---- which ------------------------------------------------------------------------------- */
 
-typedef enum file_kind { OTHER, SUMS, TABLE } file_kind;
+/* LINES: a table of the program as CSV, which is no saved spectrum, and no points either. */
+typedef enum file_kind { OTHER, SUMS, TABLE, LINES } file_kind;
+
+static bool begins_with(const unsigned char *bytes, size_t num, const char *text, size_t length) {
+    return num >= length && memcmp(bytes, text, length) == 0;
+}
 
 static pspec_status find_kind(file_kind *out, ps_input *input, const char *path, ps_error *error) {
-    enum { MOST_PEEKED = 16 };
-    const size_t length =
-        sizeof PS_SPECTRUM_MAGIC - 1 < MOST_PEEKED ? sizeof PS_SPECTRUM_MAGIC - 1 : MOST_PEEKED;
+    static const char header[] = "# pointspec_version: ";
     const unsigned char *bytes = NULL;
     size_t num = 0;
     PS_TRY(ps_input_open(input, path, error));
-    PS_TRY(ps_input_peek(input, length, &bytes, &num, error));
-    const bool is_sums = num >= length && memcmp(bytes, PS_SPECTRUM_MAGIC, length) == 0;
-    *out = is_sums ? SUMS : num > 0 && bytes[0] == '{' ? TABLE : OTHER;
+    PS_TRY(ps_input_peek(input, sizeof header - 1, &bytes, &num, error));
+    if (begins_with(bytes, num, PS_SPECTRUM_MAGIC, sizeof PS_SPECTRUM_MAGIC - 1)) {
+        *out = SUMS;
+    } else if (begins_with(bytes, num, header, sizeof header - 1)) {
+        *out = LINES;
+    } else {
+        *out = num > 0 && bytes[0] == '{' ? TABLE : OTHER;
+    }
     return PSPEC_OK;
 }
 

@@ -38,8 +38,8 @@ typedef struct ps_saved_spectrum {
     ps_saved_bin *bins; /* ascending keys */
 } ps_saved_spectrum;
 
-/* Has the file the beginning of a saved spectrum, and is no stream? What is empty is none: who
- * reads points of it says so. */
+/* Has the file the beginning of a saved spectrum, or of a table as CSV, which is refused when it is
+ * read, and is no stream? What is empty is none: who reads points of it says so. */
 pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *error) PS_MUST_CHECK;
 
 /* What is no saved spectrum, damaged, or has no rings or degrees, is PSPEC_ERROR_INPUT with path in
