@@ -220,6 +220,12 @@ static bool is_near(double coordinate) {
     return coordinate >= -1 && coordinate < 2;
 }
 
+/* Azimuth, polar angle and a weight, as tables of quadrature rules have them? */
+static bool may_be_degrees(const double *row) {
+    return are_angles(PS_PHI_THETA, true, row) && !are_angles(PS_PHI_THETA, false, row) &&
+           row[2] > 0 && row[2] < 1;
+}
+
 static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options *options,
                                  const char *where, const double *row, ps_error *error) {
     const bool has_box = options->box.num_axes > 0;
@@ -247,12 +253,17 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
             const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);
             const bool may_be_weight = j > 0 && j + 1 == layout->dimension &&
                                        !layout->has_weight_column && options->dimension == 0;
+            const bool may_be_angles =
+                options->domain == PS_DOMAIN_ANY && layout->dimension == 3 && may_be_degrees(row);
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1); %s%s",
                            where, show_number(text, row[j]),
-                           is_vector         ? "a unit vector? Points of the torus are meant here"
+                           may_be_angles     ? "are these degrees? --columns phi-theta-w:degrees"
+                           : is_vector       ? "a unit vector? Points of the torus are meant here"
                            : is_near(row[j]) ? "--wrap would reduce it mod 1"
                                              : "in other units? --box X0,X1 takes [X0,X1) to it",
-                           may_be_weight && !is_vector ? " (a weight? --weights column)" : "");
+                           may_be_weight && !is_vector && !may_be_angles
+                               ? " (a weight? --weights column)"
+                               : "");
         }
     }
     return PSPEC_OK;
@@ -266,6 +277,12 @@ static pspec_status refuse_vector(const ps_layout *layout, const ps_point_option
     }
     double vector[3] = {row[0], row[1], row[2]};
     const bool has_direction = normalize(vector);
+    if (!layout->by_shape && !layout->has_weight_column && may_be_degrees(row)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: (%s, %s, %s) is not a unit vector; are these degrees? --columns "
+                       "phi-theta-w:degrees (of vectors --normalize-vectors would make unit ones)",
+                       where, text[0], text[1], text[2]);
+    }
     return ps_fail(
         error, PSPEC_ERROR_INPUT, "%s: (%s, %s, %s) %s%s", where, text[0], text[1], text[2],
         has_direction ? "is not a unit vector; --normalize-vectors would divide it by "

@@ -68,6 +68,10 @@ powers "$exact" angular -l 8 --columns lon-lat-w latitudes.txt
 powers "$exact" angular -l 8 --columns phi-theta-w radians.txt
 refuses 'line 1: 0, 90 are not phi (up to 2 pi) and theta (0 to pi);are these degrees? --columns phi-theta-w:degrees' \
     angular --columns phi-theta-w "$lebedev"
+refuses 'line 1: (0, 90, 0.047619047619) is not a unit vector;are these degrees? --columns phi-theta-w:degrees' angular "$lebedev"
+refuses 'line 1: coordinate 90 is outside [0,1);are these degrees? --columns phi-theta-w:degrees' convert "$lebedev"
+refuses 'line 1: coordinate 90 is outside [0,1);in other units? --box' power "$lebedev"
+refuses 'line 1: (0, 3, 0.5) is not a unit vector;--normalize-vectors' angular <(printf '0 3 .5\n')
 refuses 'line 1: 90, 0 are not theta (0 to pi);are these degrees? --columns theta-phi-w:degrees' \
     angular --columns theta-phi-w turned.txt
 refuses 'line 2: 181, 0 are not theta (0 to 180) and phi (up to 360), in degrees' \
