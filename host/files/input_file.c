@@ -13,7 +13,7 @@
 
 enum {
     BUFFER_BYTES = 1 << 16, /* larger reads go around the buffer; smaller ones share system calls */
-    MOST_PEEKED = 16
+    MOST_PEEKED = 1024
 };
 
 pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) {

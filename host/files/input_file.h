@@ -38,8 +38,8 @@ pspec_status ps_input_open_array(ps_input *input, const char *path, const char *
 pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) PS_MUST_CHECK;
 void ps_input_close(ps_input *input);
 
-/* Makes the first bytes visible in *bytes without taking them: at least wanted (at most 16), fewer
- * only when the input ends before. Valid until the next call. */
+/* Makes the first bytes visible in *bytes without taking them: at least wanted (at most 1024), and
+ * fewer only when the input ends before. Valid until the next call. */
 pspec_status ps_input_peek(ps_input *input, size_t wanted, const unsigned char **bytes,
                            size_t *num_bytes, ps_error *error) PS_MUST_CHECK;
 

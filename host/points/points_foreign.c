@@ -35,8 +35,98 @@ const ps_foreign_format ps_foreign_formats[] = {
     {MAGIC("PF\n"), "a PFM image", pictures},
     {MAGIC("Pf\n"), "a PFM image", pictures},
     {MAGIC("%PDF"), "a PDF file", pictures},
+    {MAGIC("<svg"), "an SVG image", pictures},
     {NULL, 0, NULL, NULL},
 };
+
+/* ---- images that could begin a text ------------------------------------------------------- */
+
+typedef struct bytes_left {
+    const unsigned char *at, *end;
+} bytes_left;
+
+static bool is_one_of(const bytes_left *left, const char *characters) {
+    return left->at < left->end && *left->at != '\0' && strchr(characters, *left->at) != NULL;
+}
+
+static void skip_all(bytes_left *left, const char *characters) {
+    while (is_one_of(left, characters)) {
+        left->at++;
+    }
+}
+
+/* A whole number, of which small ones matter; 0: there is none. */
+static unsigned take_count(bytes_left *left) {
+    enum { BASE = 10, LARGEST = 1 << 20 };
+    unsigned value = 0;
+    for (; is_one_of(left, "0123456789"); left->at++) {
+        value = value < LARGEST ? value * BASE + (unsigned)(*left->at - '0') : value;
+    }
+    return value;
+}
+
+/* "P5", perhaps comments, width and height on a line. "P5" may also name the column of a text, but
+ * before rows of two numbers the first would be an index, which begins with 0 or 1. */
+static bool is_netpbm(const unsigned char *bytes, size_t num_bytes) {
+    bytes_left left = {bytes + 2, bytes + num_bytes};
+    if (bytes[0] != 'P' || bytes[1] < '1' || bytes[1] > '6' || !is_one_of(&left, " \t\r\n")) {
+        return false;
+    }
+    skip_all(&left, " \t\r\n");
+    while (is_one_of(&left, "#")) {
+        while (left.at < left.end && *left.at != '\n') {
+            left.at++;
+        }
+        skip_all(&left, " \t\r\n");
+    }
+    const unsigned width = take_count(&left);
+    const bool goes_on = is_one_of(&left, " \t");
+    skip_all(&left, " \t");
+    return width > 1 && goes_on && take_count(&left) > 0 && is_one_of(&left, " \t\r\n");
+}
+
+/* The size of the second header is below 256, and no text has bytes 0. */
+static bool is_bitmap(const unsigned char *bytes, size_t num_bytes) {
+    enum { SIZE = 14, SIZE_END = 18 };
+    return num_bytes >= SIZE_END && memcmp(bytes, "BM", 2) == 0 && bytes[SIZE] > 0 &&
+           memcmp(bytes + SIZE + 1, "\0\0", 3) == 0;
+}
+
+static bool is_svg(const unsigned char *bytes, size_t num_bytes) {
+    static const char element[] = "<svg";
+    size_t i = 0;
+    if (memcmp(bytes, "<?", 2) != 0) {
+        return false;
+    }
+    while (i + sizeof element - 1 < num_bytes && memcmp(bytes + i, element, 4) != 0) {
+        i++;
+    }
+    return i + sizeof element - 1 < num_bytes;
+}
+
+bool ps_foreign_may_be_image(const unsigned char *bytes, size_t num_bytes) {
+    return num_bytes >= 2 && ((bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') ||
+                              memcmp(bytes, "BM", 2) == 0 || memcmp(bytes, "<?", 2) == 0);
+}
+
+const ps_foreign_format *ps_foreign_find_image(const unsigned char *bytes, size_t num_bytes) {
+    static const ps_foreign_format netpbm[] = {
+        {NULL, 0, "a PBM image", pictures},
+        {NULL, 0, "a PGM image", pictures},
+        {NULL, 0, "a PPM image", pictures},
+    };
+    static const ps_foreign_format bitmap = {NULL, 0, "a BMP image", pictures};
+    static const ps_foreign_format svg = {NULL, 0, "an SVG image", pictures};
+    if (!ps_foreign_may_be_image(bytes, num_bytes)) {
+        return NULL;
+    }
+    if (is_netpbm(bytes, num_bytes)) {
+        return &netpbm[(bytes[1] - '1') % 3]; /* text and bytes of the same three */
+    }
+    return is_bitmap(bytes, num_bytes) ? &bitmap : is_svg(bytes, num_bytes) ? &svg : NULL;
+}
+
+/* ---- refusals ----------------------------------------------------------------------------- */
 
 pspec_status ps_foreign_refuse(const char *file, const ps_foreign_format *format, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s is %s, which is not read; %s", file, format->name,

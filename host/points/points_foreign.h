@@ -18,6 +18,12 @@ typedef struct ps_foreign_format {
 /* Ends with a magic of NULL. */
 extern const ps_foreign_format ps_foreign_formats[];
 
+/* Images that more than a few fixed bytes tell. May these, two at least, begin one? Then the first
+ * PS_IMAGE_BYTES tell which it is, or NULL. */
+enum { PS_IMAGE_BYTES = 1024 };
+bool ps_foreign_may_be_image(const unsigned char *bytes, size_t num_bytes);
+const ps_foreign_format *ps_foreign_find_image(const unsigned char *bytes, size_t num_bytes);
+
 pspec_status ps_foreign_refuse(const char *file, const ps_foreign_format *format,
                                ps_error *error) PS_MUST_CHECK;
 

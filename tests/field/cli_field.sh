@@ -320,8 +320,24 @@ foreign 'a TIFF image;no pictures' 'II*\0'
 foreign 'an EXR image;no pictures' 'v/1\x01'
 foreign 'a Radiance image;no pictures' '#?RADIANCE\n'
 foreign 'a PFM image;no pictures' 'PF\n2 2\n'
+foreign 'a PBM image;no pictures' 'P1\n# CREATOR: GIMP\n# 24 7\n24 7\n0 0 1 0\n'
+foreign 'a PGM image;no pictures' 'P2 4 4 255\n0 0 0 0\n'
+foreign 'a PPM image;no pictures' 'P3\r\n4 4\r\n255\r\n0 0 0\r\n'
+foreign 'a PBM image;no pictures' 'P4\n16 1\n\0\0'
+foreign 'a PGM image;no pictures' 'P5\n4 4\n255\n\1\2'
+foreign 'a PPM image;no pictures' 'P6\n4 4\n255\n\1\2'
+foreign 'a BMP image;no pictures' 'BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0'
+foreign 'an SVG image;no pictures' '<svg width="4">\n'
+foreign 'an SVG image;no pictures' '<?xml version="1.0"?>\n<!-- drawn -->\n<svg width="4">\n'
+foreign 'an XML file;CSV' '<?xml version="1.0"?>\n<vector>\n'
 reads '0.1 0.2' <(printf '# a comment\n.1 .2\n')
 reads '0.1' <(printf 'P\n.1\n')
+reads '0.1|0.2' <(printf 'P5\n.1\n.2\n')
+reads '0.2|0.4' <(printf 'P5\n0 .2\n1 .4\n')
+reads '0|0.5' --box 0,24 <(printf 'P2\n0 0\n1 12\n')
+reads '0.1 0.2' <(printf 'P1,P2\n.1,.2\n')
+reads '0.1 0.2' <(printf 'P1 P2\n.1 .2\n')
+reads '0.1 0.2' --columns BMI,BM <(printf 'BM,BMI\n.2,.1\n')
 
 [[ $bad == 0 ]] || exit 1
 echo "cli_field: $checked files"

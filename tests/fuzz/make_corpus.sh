@@ -141,6 +141,11 @@ printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
 printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
 printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"
 printf '\x89HDF\r\n\x1a\n' | seed detection hdf5 "$any"
+printf 'P5\n# made by hand\n4 4\n255\n\1\2' | seed detection pgm "$any"
+printf 'P5\n0 .2\n1 .4\n' | seed detection no-pgm "$any"
+printf 'BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0' | seed detection bmp "$any"
+printf '<?xml version="1.0"?>\n<svg width="4">\n' | seed detection svg "$any"
+printf '\n x,y\n\n.1,.2\n' | seed detection blank-lines "$any"
 printf 'SIMPLE  =                    T' | seed detection fits "$any"
 
 # ---- binary ----------------------------------------------------------------------------------
