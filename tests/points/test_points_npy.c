@@ -378,12 +378,9 @@ int main(void) {
 #define IN_FOLDER(test)                                                                            \
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(reads_every_layout),
-        IN_FOLDER(reads_every_type),
-        IN_FOLDER(refuses_bad_arrays),
-        IN_FOLDER(survives_truncation_and_damage),
-        IN_FOLDER(reads_pipes),
-        IN_FOLDER(fortran_order_within_memory),
+        IN_FOLDER(reads_every_layout), IN_FOLDER(reads_every_type),
+        IN_FOLDER(refuses_bad_arrays), IN_FOLDER(survives_truncation_and_damage),
+        IN_FOLDER(reads_pipes),        IN_FOLDER(fortran_order_within_memory),
     };
     return cmocka_run_group_tests_name("points_npy", tests, NULL, NULL);
 }
