@@ -56,13 +56,14 @@ static pspec_status fail_number(const ps_number_list *list, ps_field field, size
 static pspec_status parse_row(ps_number_list *list, const char *line, size_t line_number,
                               ps_error *error) {
     double value = 0;
-    const place where = show_place(list, line_number);
-    if (ps_text_header_row(list->header, line, list->separator, &value) != NULL) {
-        return isfinite(value) ? ps_number_list_append(list, value, error)
-                               : ps_fail(error, PSPEC_ERROR_INPUT,
-                                         "%s: weight %g is not a finite number", where.text, value);
+    const bool is_row = ps_text_header_row(list->header, line, list->separator, &value) != NULL;
+    if (is_row && isfinite(value)) {
+        return ps_number_list_append(list, value, error);
     }
-    return ps_text_header_refuse(list->header, line, list->separator, where.text, error);
+    const place where = show_place(list, line_number);
+    return is_row ? ps_fail(error, PSPEC_ERROR_INPUT, "%s: weight %g is not a finite number",
+                            where.text, value)
+                  : ps_text_header_refuse(list->header, line, list->separator, where.text, error);
 }
 
 static pspec_status parse_weights(ps_number_list *list, const char *line, size_t line_number,
