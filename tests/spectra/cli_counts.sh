@@ -145,7 +145,7 @@ refuses '--coefficients does not go with several numbers of points' --sampler wh
 refuses '-n names 2 numbers of points, and a file of weights is for one' --sampler white -n 2,4 --weights two.txt
 refuses '62 points cannot be laid out' --sampler regular -n 64,62
 refuses 'strata=8x8 does not make one stratum for each of 128 points' --sampler jittered:strata=8x8 -n 64,128
-refuses '--plot: 2 samplers with 9 numbers of points are 18 curves, and a picture has 16 at most; pointspec run' \
+refuses '--plot: 2 samplers and sets with 9 numbers of points are 18 curves, and a picture has 16 at most; pointspec run' \
     --sampler white --sampler sobol -n 1..256 --plot x.svg
 [[ ! -e x.npy && ! -e x.svg ]] || complain "files are there"
 command=angular
