@@ -142,6 +142,11 @@ void ps_device_set_local_bytes(ps_device *device, uint64_t bytes) {
     device->limits.local_bytes = is_smaller ? bytes : device->own_local_bytes;
 }
 
+void ps_device_set_native_lanes(ps_device *device, unsigned lanes) {
+    device->limits.native_float_lanes = lanes > 0 ? lanes : device->own_float_lanes;
+    device->limits.native_double_lanes = lanes > 0 ? lanes : device->own_double_lanes;
+}
+
 uint64_t ps_device_most_buffer_bytes(const ps_device *device) {
     return device->most_buffer_bytes;
 }

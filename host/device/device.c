@@ -276,6 +276,8 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     device->limits = limits[index];
     device->own_max_allocation = limits[index].max_allocation_bytes;
     device->own_local_bytes = limits[index].local_bytes;
+    device->own_float_lanes = limits[index].native_float_lanes;
+    device->own_double_lanes = limits[index].native_double_lanes;
     device->own_unified_memory = limits[index].has_unified_memory;
     device->own_dedicated_local_memory = limits[index].has_dedicated_local_memory;
     return PSPEC_OK;

@@ -133,6 +133,10 @@ void ps_device_set_max_allocation(ps_device *device, uint64_t bytes);
  * planned with less runs with less. */
 void ps_device_set_local_bytes(ps_device *device, uint64_t bytes);
 
+/* The native vectors of both precisions from now on; 0 restores those of the device. For tests: the
+ * kernels of other CPUs. */
+void ps_device_set_native_lanes(ps_device *device, unsigned lanes);
+
 /* ---- programs and kernels -------------------------------------------------------------------- */
 
 /* The kernel `name` of source file `source` (below kernels/), built with the -D options given, for

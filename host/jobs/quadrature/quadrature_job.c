@@ -239,7 +239,7 @@ static pspec_status prepare(ps_quadrature_job *job, ps_error *error) {
     PS_TRY(ps_quadrature_setup_begin(setup, question, error));
     PS_TRY(ps_rules_open(&job->rules, &job->shape, error));
     PS_TRY(ps_quadrature_setup_make(setup, question, &job->shape, error));
-    if (question->keeps_weights && job->shape.has_several) {
+    if (question->keeps_weights && job->shape.num_sets != 1) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "the weights of one rule are to be kept, but there are several sets");
     }

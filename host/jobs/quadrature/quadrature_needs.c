@@ -20,11 +20,11 @@ void ps_quadrature_needs_find(ps_quadrature_setup *setup, const ps_quadrature_qu
                                      .has_constant_power = sampler != NULL &&
                                                            !sampler->homogenize &&
                                                            ps_sampler_has_constant_power(sampler),
-                                     .num_realizations = question->num_realizations,
+                                     .num_realizations = setup->num_sets,
                                      .accuracy = question->accuracy,
                                      .expected_realizations = expected};
     setup->needs = ps_needs_find(&needs);
-    setup->num_realizations = setup->needs.one_realization ? 1 : question->num_realizations;
+    setup->num_realizations = setup->needs.one_realization ? 1 : setup->num_sets;
     const bool is_less = setup->needs.sequential && expected < (double)setup->num_realizations;
     setup->planned_realizations = is_less ? (uint64_t)expected : setup->num_realizations;
 }

@@ -4,7 +4,7 @@
 
 #include "jobs/quadrature/quadrature_setup.h"
 
-/* From the question: realizations. Sets num_realizations, too. */
+/* From the question and setup->num_sets: realizations. Sets num_realizations, too. */
 void ps_quadrature_needs_find(ps_quadrature_setup *setup, const ps_quadrature_question *question);
 /* What the representer is to be made to: looser for many small rules, whose work its degrees would
  * be. */

@@ -52,12 +52,13 @@ pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *erro
     if (question->sampler != NULL) {
         shape->num_points = question->sampler->num_points;
         shape->most_points = ps_sampler_most_points(question->sampler);
-        shape->has_several = question->num_realizations > 1;
+        shape->num_sets = question->num_realizations;
     } else {
         PS_TRY(read_ahead(rules, error));
         shape->num_points = rules->waiting[0].num_points;
         shape->most_points = shape->num_points;
-        shape->has_several = rules->num_waiting > 1;
+        /* A set alone has ways of its own in some engines, wherever it came from. */
+        shape->num_sets = rules->num_waiting > 1 ? question->num_realizations : 1;
     }
     if (shape->num_points == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set 1 has no points");

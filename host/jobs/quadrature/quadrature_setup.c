@@ -154,8 +154,9 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
     const size_t asked = question->max_degree;
     out->max_degree = asked > 0 ? asked : most;
     out->most_degree = out->max_degree;
+    out->num_sets = shape->num_sets;
     ps_quadrature_needs_find(out, question);
-    const bool has_several = shape->has_several && out->num_realizations != 1;
+    const bool has_several = out->num_realizations != 1;
     const double accuracy = ps_quadrature_needs_accuracy(out, question, has_several);
     out->by_pairs = has_several || is_for_pairs(question->limits.constraints.engine);
     PS_TRY(ps_representer_create(&out->representer, question->brdf, question->smoothness, accuracy,

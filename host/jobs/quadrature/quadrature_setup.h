@@ -9,7 +9,7 @@
 typedef struct ps_rule_shape {
     size_t num_points;  /* of the first, or that a sampler is asked for */
     size_t most_points; /* of any, as far as it is known */
-    bool has_several;   /* of them */
+    uint64_t num_sets;  /* 0: several, of which nobody has counted how many */
 } ps_rule_shape;
 
 typedef struct ps_quadrature_setup {
@@ -20,7 +20,8 @@ typedef struct ps_quadrature_setup {
     bool owns_device;
     ps_plan plan;
     ps_needs needs;
-    uint64_t num_realizations;     /* that are computed, at most; 0: unknown */
+    uint64_t num_sets;             /* that there are; 0: unknown */
+    uint64_t num_realizations;     /* that are computed of them, at most; 0: unknown */
     uint64_t planned_realizations; /* that a standard error is expected to take of them */
     /* C_l^2 = (2l+1)/(4 pi) Q(l) - c_l0^2 in batches by any engine; else from the c_lm of one rule
      * at a time, which loses no digits where C_l^2 is next to nothing */

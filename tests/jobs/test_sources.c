@@ -1,0 +1,171 @@
+/* A sampler and a file of its sets are one question: the same bits through every engine in every
+ * precision, of one set as of several, with the vectors of AVX2 and of AVX-512.
+ */
+#include "harness.h"
+
+#include "jobs/quadrature/quadrature_job.h"
+#include "test_folder.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUM_POINTS = 40, MOST_SETS = 3, LAST = 9 };
+
+static ps_device *device;
+static const test_folder *folder;
+static size_t num_compared;
+
+/* The same points both ways; *request must not be moved. */
+typedef struct both_ways {
+    const char *sampler;
+    ps_sampler_request request;
+    uint64_t num_sets;
+    char path[TEST_PATH_BYTES];
+    const char *paths[1];
+    ps_plan_constraints constraints;
+} both_ways;
+
+static void write_file(both_ways *ways) {
+    const unsigned dimension = ways->request.dimension;
+    const size_t num = NUM_POINTS * dimension;
+    double points[MOST_SETS * NUM_POINTS * 3];
+    char shape[64];
+    snprintf(shape, sizeof shape, "(%u, %d, %u)", (unsigned)ways->num_sets, NUM_POINTS, dimension);
+    for (uint64_t r = 0; r < ways->num_sets; r++) {
+        assert_ok(ps_sampler_generate(&ways->request, r, points + r * num, NULL, NULL, error));
+    }
+    ways->paths[0] = test_path(folder, "points.npy", ways->path);
+    assert_true(test_write_array(ways->path, "<f8", "False", shape, points,
+                                 ways->num_sets * num * sizeof *points));
+}
+
+/* ---- power, angular, pairs ----------------------------------------------------------------- */
+
+/* Bins of the spectrum; false: the engine does not take it. */
+static bool run_power(const both_ways *ways, bool from_file, bool sums_pairs,
+                      ps_spectrum_bin bins[LAST], ps_mean c2[LAST + 1]) {
+    const ps_power_question question = {
+        .sampler = from_file ? NULL : &ways->request,
+        .num_realizations = from_file ? 0 : ways->num_sets,
+        .paths = from_file ? ways->paths : NULL,
+        .num_paths = from_file ? 1 : 0,
+        .point_options.domain = ways->request.dimension == 3 ? PS_DOMAIN_SPHERE : PS_DOMAIN_TORUS,
+        .on_sphere = ways->request.dimension == 3,
+        .wants_pair_sums = sums_pairs,
+        .max_degree = LAST,
+        .frequencies.max_frequency = LAST,
+        .accuracy.tolerance = ways->constraints.precision == PS_SINGLE ? 1e-4 : 1e-9,
+        .limits.constraints = ways->constraints,
+        .open_device = device};
+    ps_power_job *job = NULL;
+    assert_ok(ps_power_job_create(&job, &question, error));
+    const bool is_taken = ps_power_job_plan(job)->chosen != NULL;
+    if (is_taken) {
+        assert_ok(ps_power_job_run(job, error));
+        const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
+        assert_true(spectrum->num_bins >= LAST);
+        memcpy(bins, spectrum->bins, LAST * sizeof *bins);
+        if (sums_pairs) {
+            memcpy(c2, ps_power_job_c2(job), LAST * sizeof *c2);
+        }
+    }
+    ps_power_job_destroy(job);
+    return is_taken;
+}
+
+static void compare_power(const both_ways *ways, bool sums_pairs) {
+    ps_spectrum_bin expected[LAST], found[LAST];
+    ps_mean expected_c2[LAST + 1] = {{0}};
+    ps_mean found_c2[LAST + 1] = {{0}};
+    if (run_power(ways, false, sums_pairs, expected, expected_c2)) {
+        assert_true(run_power(ways, true, sums_pairs, found, found_c2));
+        assert_memory_equal(found, expected, sizeof found);
+        assert_memory_equal(found_c2, expected_c2, sizeof found_c2);
+        num_compared++;
+    }
+}
+
+/* ---- quadrature ------------------------------------------------------------------------------ */
+
+static void run_quadrature(const both_ways *ways, bool from_file, ps_quadrature_result *out) {
+    ps_brdf *brdf = NULL;
+    assert_ok(ps_brdf_parse(&brdf, "diffuse", error));
+    const ps_quadrature_question question = {
+        .brdf = brdf,
+        .smoothness = 1.5,
+        .sampler = from_file ? NULL : &ways->request,
+        .num_realizations = from_file ? 0 : ways->num_sets,
+        .paths = from_file ? ways->paths : NULL,
+        .num_paths = from_file ? 1 : 0,
+        .point_options.domain = PS_DOMAIN_SPHERE,
+        .max_degree = LAST,
+        .accuracy.tolerance = ways->constraints.precision == PS_SINGLE ? 1e-4 : 1e-10,
+        .limits.constraints = ways->constraints,
+        .open_device = device};
+    assert_ok(ps_quadrature_run(out, &question, error));
+    ps_brdf_destroy(brdf);
+}
+
+static void compare_quadrature(const both_ways *ways) {
+    ps_quadrature_result expected, found;
+    run_quadrature(ways, false, &expected);
+    run_quadrature(ways, true, &found);
+    assert_memory_equal(found.degrees, expected.degrees, (LAST + 1) * sizeof *found.degrees);
+    assert_memory_equal(&found.squared, &expected.squared, sizeof found.squared);
+    ps_quadrature_free(&expected);
+    ps_quadrature_free(&found);
+    num_compared++;
+}
+
+/* ---- every engine ---------------------------------------------------------------------------- */
+
+static void compare_by(const ps_engine *engine, ps_precision precision, uint64_t num_sets) {
+    static const struct {
+        const char *sampler;
+        unsigned domain;
+    } samplers[] = {{"jittered", PS_ON_TORUS}, {"white-hemisphere", PS_ON_SPHERE}};
+    for (size_t i = 0; i < sizeof samplers / sizeof samplers[0]; i++) {
+        both_ways ways = {.request = {.num_points = NUM_POINTS, .seed = 5},
+                          .num_sets = num_sets,
+                          .constraints = {.engine = engine->name, .precision = (int)precision}};
+        if ((engine->domains & samplers[i].domain) == 0) {
+            continue;
+        }
+        assert_ok(ps_sampler_parse(&ways.request, samplers[i].sampler, error));
+        assert_ok(ps_sampler_resolve(&ways.request, error));
+        write_file(&ways);
+        compare_power(&ways, false);
+        if (samplers[i].domain == PS_ON_SPHERE) {
+            compare_power(&ways, true);
+            compare_quadrature(&ways);
+        }
+    }
+}
+
+static void files_have_the_bits_of_samplers(void **state) {
+    static const unsigned lanes[] = {4, 8};
+    folder = *state;
+    for (size_t e = 0; ps_engines[e] != NULL; e++) {
+        num_compared = 0;
+        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
+            for (size_t i = 0; i < 2 && ps_engines[e]->has_precision[precision]; i++) {
+                ps_device_set_native_lanes(device, lanes[i]);
+                compare_by(ps_engines[e], (ps_precision)precision, 1);
+                compare_by(ps_engines[e], (ps_precision)precision, MOST_SETS);
+            }
+        }
+        assert_true(num_compared > 0);
+    }
+    ps_device_set_native_lanes(device, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(files_have_the_bits_of_samplers, test_folder_create,
+                                        test_folder_remove),
+    };
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("sources", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}
