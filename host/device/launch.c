@@ -1,6 +1,8 @@
 /* Typed launches: arguments travel with the launch and are counted; sizes are checked first. */
 #include "device/device_private.h"
 
+#include <math.h>
+
 /* Enough to fill a GPU's scheduling unit (32 or 64 items) without binding small launches. */
 enum { DEFAULT_GROUP_SIZE = 64 };
 
@@ -28,14 +30,20 @@ ps_range ps_range_light(const ps_device *device, size_t first, size_t second, si
 }
 
 /* On a CPU a work-group runs on one thread and costs PoCL about a quarter of a microsecond: as many
- * items as make it worth that, but enough groups to keep every thread busy to the end. */
-static size_t cpu_group_size(const ps_device *device, double items, double flops) {
-    const double worthwhile_flops = 2e6; /* 8 microseconds of one AVX-512 core */
+ * items as make it worth that, but enough groups to keep every thread busy to the end, and no more
+ * than there are along the first axis. Powers of four alone: PoCL compiles a kernel anew for every
+ * size, which takes most of a second. */
+static size_t cpu_group_size(const ps_device *device, size_t first, double items, double flops) {
+    const double worthwhile_flops = 4e6; /* 16 microseconds of one AVX-512 core; 4 at least */
     const double groups_per_unit = 16;
     const double wanted = worthwhile_flops * items / flops;
     const double allowed = items / (groups_per_unit * device->limits.compute_units);
-    const double size = wanted < allowed ? wanted : allowed;
-    return size < 1 ? 1 : size > DEFAULT_GROUP_SIZE ? DEFAULT_GROUP_SIZE : (size_t)size;
+    const double most = fmin(fmin(wanted, allowed), (double)first);
+    size_t size = 1;
+    while (size < DEFAULT_GROUP_SIZE && 4 * (double)size <= most) {
+        size *= 4;
+    }
+    return size;
 }
 
 bool ps_range_is_alone(const ps_device *device) {
@@ -50,9 +58,8 @@ ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, si
                         double flops, double bytes) {
     const bool is_cpu = ps_range_is_alone(device);
     const double items = (double)first * (double)second * (double)third;
-    size_t group =
-        is_cpu && flops > 0 ? cpu_group_size(device, items, flops) : light_group_size(device);
-    group = is_cpu && group > first && first > 0 ? first : group;
+    const size_t group =
+        is_cpu ? cpu_group_size(device, first, items, flops) : light_group_size(device);
     return make_range(group, first, second, third, flops, bytes);
 }
 
