@@ -114,7 +114,7 @@ static bool has_pocl(const ps_drivers *drivers) {
 
 /* What PoCL 3.1 with LLVM 14 maps, and of each of its threads the stack and the arena of malloc:
  * measured with (ulimit -v N; pointspec devices) and VmPeak in /proc/PID/status, and rounded up. */
-static const uint64_t driver_bytes = UINT64_C(240) << 20;
+static const uint64_t driver_bytes = UINT64_C(256) << 20;
 static const uint64_t thread_bytes = UINT64_C(16) << 20;
 
 /* The part of it that can be written to, measured with ulimit -d; and the least limit of that with
