@@ -37,9 +37,21 @@ static bool does_run(const build *one) {
     return test_has_precision(device, one->precision) && (!is_simulated || one->is_simulated);
 }
 
+static size_t local_bytes_of(const build *one, uint32_t length) {
+    return (size_t)length * 2 * one->lanes * one->precision / 8;
+}
+
 static bool fits(const build *one, uint32_t length) {
-    return (size_t)length * 2 * one->lanes * one->precision / 8 <=
-           ps_device_get_limits(device)->local_bytes;
+    return local_bytes_of(one, length) <= ps_device_get_limits(device)->local_bytes;
+}
+
+/* As launches of engines do, where the kernel or the device allows fewer. */
+static size_t group_of(cl_kernel kernel, size_t wanted) {
+    size_t most = 0;
+    assert_int_equal(
+        clGetKernelWorkGroupInfo(kernel, NULL, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL),
+        CL_SUCCESS);
+    return wanted < most ? wanted : most;
 }
 
 /* ---- transforms -------------------------------------------------------------------------- */
@@ -56,7 +68,7 @@ static double *transform(const build *one, cl_kernel kernel, uint32_t length, co
     TEST_LAUNCH(device, kernel, group, group, NUM_GROUPS, 1, PS_BUFFER(memory.buffer),
                 PS_BUFFER(result.buffer), PS_U32(length), PS_BUFFER(plan.radices),
                 PS_BUFFER(plan.twiddles), PS_BUFFER(plan.position),
-                PS_LOCAL((size_t)length * 2 * one->lanes * one->precision / 8));
+                PS_LOCAL(local_bytes_of(one, length)));
     double *found = test_reals_read(&result, one->precision);
     test_memory_free_unchanged(&memory);
     test_memory_free(&result);
@@ -130,7 +142,7 @@ static double check_length(const build *one, cl_kernel kernel, uint32_t length) 
     const size_t num = (size_t)NUM_GROUPS * length * 2 * one->lanes;
     double *data = test_whole_numbers(&seed, num, 1000);
     double *found = transform(one, kernel, length, data, 1);
-    double *shared = transform(one, kernel, length, data, one->group);
+    double *shared = transform(one, kernel, length, data, group_of(kernel, one->group));
     const double bound = unit * (units_once + units_per_pass * passes_of(length));
     const double error = error_of(one, length, data, found);
     if (!(error <= bound)) {
@@ -144,29 +156,51 @@ static double check_length(const build *one, cl_kernel kernel, uint32_t length) 
     return error > 0 ? bound / error : HUGE_VAL; /* length 1 is exact */
 }
 
+/* Every length up to `most`, and the large ones; what the device has no room for is left out.
+ * Returns how many lengths ran. */
+static unsigned check_lengths(const build *one, uint32_t most) {
+    static const uint32_t large[] = {1280, 1536, 1715, 2000, 2048, 2401, 2560, 3125, 4096, 6561};
+    const uint32_t num_large = is_simulated ? 0 : sizeof large / sizeof large[0];
+    cl_kernel kernel = make_kernel(one);
+    double smallest = HUGE_VAL;
+    unsigned num = 0;
+    unsigned num_fitting = 0;
+    uint32_t length = 1;
+    for (uint32_t i = 0; i < num_large || length <= most; num++) {
+        const uint32_t n = length <= most ? length : large[i++];
+        length = length <= most ? ps_fft_length((uint64_t)length + 1) : length;
+        if (fits(one, n)) {
+            smallest = fmin(smallest, check_length(one, kernel, n));
+            num_fitting++;
+        }
+    }
+    print_message("precision %u, %2u lanes: smallest slack %.2f\n", one->precision, one->lanes,
+                  smallest);
+    if (num_fitting < num) {
+        print_message("left out: %u of %u lengths, for local memory of %llu bytes\n",
+                      num - num_fitting, num,
+                      (unsigned long long)ps_device_get_limits(device)->local_bytes);
+    }
+    clReleaseKernel(kernel);
+    return num_fitting;
+}
+
 static void lengths(void **state) {
     (void)state;
-    static const uint32_t large[] = {1280, 1536, 1715, 2000, 2048, 2401, 2560, 3125, 4096, 6561};
-    const uint32_t most = is_simulated ? 16 : 512;
     for (size_t b = 0; b < NUM_BUILDS; b++) {
-        const build *one = &builds[b];
-        double smallest = HUGE_VAL;
-        if (!does_run(one)) {
-            continue;
+        if (does_run(&builds[b])) {
+            assert_true(check_lengths(&builds[b], is_simulated ? 16 : 512) > 0);
         }
-        cl_kernel kernel = make_kernel(one);
-        for (uint32_t n = 1; n <= most; n = ps_fft_length((uint64_t)n + 1)) {
-            smallest = fmin(smallest, check_length(one, kernel, n));
-        }
-        for (size_t i = 0; i < sizeof large / sizeof large[0] && !is_simulated; i++) {
-            if (fits(one, large[i])) {
-                smallest = fmin(smallest, check_length(one, kernel, large[i]));
-            }
-        }
-        print_message("precision %u, %2u lanes: smallest slack %.2f\n", one->precision, one->lanes,
-                      smallest);
-        clReleaseKernel(kernel);
     }
+}
+
+/* Room for length 10 and no more, as a GPU with 48 KiB has it for 384 (8 lanes of doubles). */
+static void lengths_of_small_devices(void **state) {
+    (void)state;
+    const build one = {32, 4, 5, true};
+    ps_device_set_local_bytes(device, local_bytes_of(&one, 10));
+    assert_int_equal(check_lengths(&one, 16), 10);
+    ps_device_set_local_bytes(device, 0);
 }
 
 /* A one in every cell in turn: a wave of constant size in its lane, zeros in every other one. */
@@ -331,7 +365,7 @@ int main(void) {
         cmocka_unit_test(lengths_there_are), cmocka_unit_test(good_lengths),
         cmocka_unit_test(positions),         cmocka_unit_test(twiddles),
         cmocka_unit_test(lanes_apart),       cmocka_unit_test(impulses),
-        cmocka_unit_test(lengths),
+        cmocka_unit_test(lengths),           cmocka_unit_test(lengths_of_small_devices),
     };
     device = test_open_device();
     is_simulated = strcmp(ps_device_get_limits(device)->platform, "Oclgrind") == 0;
