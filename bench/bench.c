@@ -9,11 +9,20 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 void bench_die(const char *message) {
     fprintf(stderr, "bench: %s\n", message);
     exit(EXIT_FAILURE);
+}
+
+bool bench_lists_cases(int argc, char **argv, const char *const *cases, size_t num) {
+    const bool is_asked = argc == 2 && strcmp(argv[1], "--cases") == 0;
+    for (size_t i = 0; i < num && is_asked; i++) {
+        puts(cases[i]);
+    }
+    return is_asked;
 }
 
 double bench_seconds(void) {

@@ -21,6 +21,8 @@
     } while (0)
 
 void bench_die(const char *message);
+/* Prints the cases of a program, a line each, where "--cases" is the only argument; else false. */
+bool bench_lists_cases(int argc, char **argv, const char *const *cases, size_t num);
 double bench_seconds(void);
 /* Of the processor, of this thread alone: others may be busy. */
 double bench_thread_seconds(void);

@@ -147,7 +147,11 @@ static void run_case(const char *text, ps_device *device, double bandwidth) {
 }
 
 int main(int argc, char **argv) {
+    const size_t num_defaults = sizeof default_cases / sizeof default_cases[0];
     ps_device *device = NULL;
+    if (bench_lists_cases(argc, argv, default_cases, num_defaults)) {
+        return 0;
+    }
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
     ps_device_peaks peaks;
@@ -158,7 +162,7 @@ int main(int argc, char **argv) {
            peaks.flops[PS_SINGLE] * 1e-9, peaks.flops[PS_DOUBLE] * 1e-9, peaks.copied_bytes * 1e-9);
     printf("%-29s %-12s %7s %11s %9s %9s %8s %8s\n", "d N K R tolerance", "engine", "R", "us/R",
            "error", "GFLOP/s", "GB/s", "of peak");
-    const int num = argc > 1 ? argc - 1 : (int)(sizeof default_cases / sizeof default_cases[0]);
+    const int num = argc > 1 ? argc - 1 : (int)num_defaults;
     for (int i = 0; i < num; i++) {
         run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, peaks.copied_bytes);
     }

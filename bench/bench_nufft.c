@@ -136,11 +136,15 @@ static void run_case(const char *text, ps_device *device) {
 }
 
 int main(int argc, char **argv) {
+    const size_t num_defaults = sizeof default_cases / sizeof default_cases[0];
     ps_device *device = NULL;
+    if (bench_lists_cases(argc, argv, default_cases, num_defaults)) {
+        return 0;
+    }
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     printf("%-28s %9s %9s %8s | %10s %10s %8s | %7s\n", "N K R tolerance", "min us/R", "median",
            "error", "direct us", "median", "error", "ratio");
-    const int num = argc > 1 ? argc - 1 : (int)(sizeof default_cases / sizeof default_cases[0]);
+    const int num = argc > 1 ? argc - 1 : (int)num_defaults;
     for (int i = 0; i < num; i++) {
         run_case(argc > 1 ? argv[i + 1] : default_cases[i], device);
     }

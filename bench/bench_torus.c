@@ -167,7 +167,11 @@ static void run_case(const char *text, ps_device *device, ps_peak *peaks) {
 }
 
 int main(int argc, char **argv) {
+    const size_t num_defaults = sizeof default_cases / sizeof default_cases[0];
     ps_device *device = NULL;
+    if (bench_lists_cases(argc, argv, default_cases, num_defaults)) {
+        return 0;
+    }
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
     ps_peak peaks[2];
@@ -185,7 +189,7 @@ int main(int argc, char **argv) {
            "cores of the device\n");
     printf("%-30s %10s %10s %8s %8s %6s %9s | %8s %8s %8s\n", "case", "min ms/R", "median", "error",
            "GFLOP/s", "peak", "ns/pair/c", "plain ns", "error", "ratio");
-    const int num = argc > 1 ? argc - 1 : (int)(sizeof default_cases / sizeof default_cases[0]);
+    const int num = argc > 1 ? argc - 1 : (int)num_defaults;
     for (int i = 0; i < num; i++) {
         run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, peaks);
     }
