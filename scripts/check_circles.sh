@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check_circles.sh BUILD: by the symbols of that build's object files, no file of host/ needs one that needs it, directly or
-# through others, and none needs a file of a higher room (rooms.sh). A room's table.c names what is in its folders, and
-# cli/commands.c and cli/main.c are above all.
+# through others, and none needs a file of a higher room (rooms.sh). The tables that rooms.sh lists name what is in rooms
+# above them, and cli/commands.c and cli/main.c are above all.
 set -euo pipefail
 build=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

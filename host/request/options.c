@@ -328,8 +328,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  FLAG(accuracy.no_self_check)},
     [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
                           OF(0, TABLES | BIT(sample) | BIT(convert) | BIT(run)),
-                          .help = "write there, in the format of its ending (default: standard "
-                                  "output)",
+                          .help = "{run:write this folder, which is made (default: the name of the "
+                                  "scene)}{:write there, in the format of its ending (default: "
+                                  "standard output)}",
                           FILE_OUT(output)},
     [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy|jsonl|text"),
                           OF(0, TABLES | BIT(sample) | BIT(convert)),

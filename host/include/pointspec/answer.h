@@ -47,8 +47,9 @@ PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *
  * Rows and columns of *out are those of the table that the program's command of that name prints.
  *
  * Files that the options name are written, too: "output" (the table, "format" as in
- * pspec_table_write()), "plot" (a picture, by gnuplot), "full" of power (float64 [2K+1]...[2K+1])
- * and "coefficients" of angular (complex128, as pspec_plan_coefficients()).
+ * pspec_table_write()), "plot" (a picture, by gnuplot), "full" of power (float64 [2K+1]...[2K+1]),
+ * "coefficients" of power and angular (complex128, as pspec_plan_coefficients()) and "weights-out"
+ * of quadrature (the weights of the only rule).
  *
  * #PSPEC_ERROR_INVALID_ARGUMENT: an option that the kind does not take, a value that cannot be
  * meant, options that do not go together. #PSPEC_ERROR_INPUT: points or files that cannot be used.
