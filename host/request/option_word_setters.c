@@ -162,7 +162,26 @@ static pspec_status parse_bound(ps_bound *out, const ps_said *said, const char *
         }
     }
     *out = (ps_bound){numbers[0], numbers[1], numbers[2]};
+    if (out->alpha == 0 && out->exponent > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: \"%s\" has the exponent %g and an alpha of 0, up to which it would "
+                       "rise; alpha is above 0, and a constant is gamma alone",
+                       said->shown, said->text, out->exponent);
+    }
     return num != 2 ? PSPEC_OK : fail_word(said, error);
+}
+
+/* No power lies between profiles that cross. */
+static pspec_status check_bounds(const ps_bounds_spec *bounds, const ps_said *said,
+                                 ps_error *error) {
+    const double crossed = ps_bounds_find_crossed(bounds);
+    return crossed < 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: \"%s\" has the profile below, which comes first, above the other "
+                         "one: %.3g and %.3g at the normalized frequency %.3g",
+                         said->shown, said->text, ps_bound_power(&bounds->below, crossed),
+                         ps_bound_power(&bounds->above, crossed), crossed);
 }
 
 pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
@@ -184,7 +203,8 @@ pspec_status ps_set_bounds(const ps_said *said, ps_error *error) {
     const char *const second = middle + sizeof dots - 1;
     bounds->is_given = true;
     PS_TRY(parse_bound(&bounds->below, said, said->text, (size_t)(middle - said->text), error));
-    return parse_bound(&bounds->above, said, second, strlen(second), error);
+    PS_TRY(parse_bound(&bounds->above, said, second, strlen(second), error));
+    return check_bounds(bounds, said, error);
 }
 
 /* Numbers between commas; *num: how many there are, of which the first `most` are written. */

@@ -212,6 +212,14 @@ static void variance(void **state) {
         {"sampler", "jittered"}, {"points", "16"}, {"realizations", "4"}, {"integrand", "disk"},
         {"shifts", "0"},         {"tail", "1e-3"}, {"output", "cut.csv"}, {"max-frequency", "4"}};
     compare_verdict("variance", cut, COUNT(cut), "cut.csv");
+    const pspec_option crossed[] = {
+        {"sampler", "jittered"}, {"integrand", "disk"}, {"bounds", "1,0.5,2..0.5,0.5,2"}};
+    pspec_context *const context = test_public_context();
+    pspec_table *table = NULL;
+    assert_int_equal(pspec_answer(&table, context, "variance", crossed, COUNT(crossed)),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(pspec_context_message(context), "profile below, which comes first,"));
+    pspec_context_destroy(context);
 }
 
 /* The limit of a context is POINTSPEC_MEMORY of the program. */

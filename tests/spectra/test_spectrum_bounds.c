@@ -40,6 +40,29 @@ static void profiles_of_a_closed_form(void **state) {
     assert_true(bound.alpha == 0 && ps_bound_power(&bound, 0) == bound.gamma);
 }
 
+/* By many frequencies: the first is above the second somewhere, or nowhere. */
+static void profiles_that_cross_are_found(void **state) {
+    (void)state;
+    static const ps_bound some[] = {
+        {0.5, 0, 0},         {1, 0, 0},   {1, 0.5, 2}, {0.5, 0.5, 2},
+        {2, 1, 2},           {1, 2, 0.5}, {1, 1, 4},   {0.25, 0.25, 4},
+        {1, 0.25, INFINITY}, {0, 0, 0},   {1, 3, 2},   {0.9, 3, INFINITY},
+        {0.4, 0.774597, 2},  {1, 0.2, 2}, {3, 1, 4},   {0.3, 3.5, 4}};
+    enum { NUM = sizeof some / sizeof some[0] };
+    for (size_t i = 0; i < NUM * (size_t)NUM; i++) {
+        const ps_bounds_spec spec = {true, true, some[i / NUM], some[i % NUM]};
+        bool is_above = false;
+        for (double nu = 1e-6; nu < 10; nu *= 1.01) {
+            is_above = is_above || ps_bound_power(&spec.below, nu) >
+                                       ps_bound_power(&spec.above, nu) * (1 + 1e-9);
+        }
+        const double crossed = ps_bounds_find_crossed(&spec);
+        assert_int_equal(is_above, crossed >= 0);
+        assert_true(crossed < 0 ||
+                    ps_bound_power(&spec.below, crossed) > ps_bound_power(&spec.above, crossed));
+    }
+}
+
 /* The table of docs/mathematics/torus.md, Rates. */
 static void rates(void **state) {
     (void)state;
@@ -137,6 +160,7 @@ static void features(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(profiles_of_a_closed_form),
+        cmocka_unit_test(profiles_that_cross_are_found),
         cmocka_unit_test(rates),
         cmocka_unit_test(profiles_hold_everywhere),
         cmocka_unit_test(profiles_that_there_are_not),

@@ -115,9 +115,9 @@ out:
     return status;
 }
 
-static size_t find_last(const ps_tails *self) {
-    const ps_integrand_place place = self->integrand->place;
-    const double reach = ps_prediction_reach(&self->integrand, 1, self->over_shells);
+size_t ps_tails_largest_cutoff(const ps_integrand *integrand, bool over_shells) {
+    const ps_integrand_place place = integrand->place;
+    const double reach = ps_prediction_reach(&integrand, 1, over_shells);
     const double half = 0.5;
     const double most =
         place.where != PS_SAMPLES_TORUS
@@ -145,7 +145,7 @@ static void sum_up(ps_tails *self) {
 }
 
 static pspec_status fill(ps_tails *self, ps_error *error) {
-    self->last = find_last(self);
+    self->last = ps_tails_largest_cutoff(self->integrand, self->over_shells);
     PS_TRY(PS_NEW(&self->beyond, self->last + 1, "energies", error));
     PS_TRY(self->integrand->place.where == PS_SAMPLES_TORUS
                ? fill_torus(self, self->beyond, error)

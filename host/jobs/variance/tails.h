@@ -16,6 +16,8 @@ pspec_status ps_tails_create(ps_tails **out, const ps_integrand *integrand, bool
                              ps_error *error) PS_MUST_CHECK;
 void ps_tails_destroy(ps_tails *tails); /* NULL is allowed */
 
+/* The largest cut-off that is summed up to: no more than the reach of the integrand. */
+size_t ps_tails_largest_cutoff(const ps_integrand *integrand, bool over_shells);
 /* The energy beyond a cut-off. */
 double ps_tails_beyond(const ps_tails *tails, double cutoff);
 /* The least cut-off, at least 1, beyond which is this energy at most; infinite: there is none. */

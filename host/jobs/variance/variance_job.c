@@ -221,11 +221,11 @@ static pspec_status add_bounds(ps_variance_job *job, size_t integrand, ps_error 
     row->worst_bound = NAN;
     if (question->bounds.is_wanted && shape->below_reason.status == PSPEC_OK) {
         PS_TRY(ps_bounds_variance(&row->best_bound, job->integrands[integrand], spectrum,
-                                  question->over_shells, &way, &shape->below, error));
+                                  question->over_shells, &way, &shape->below, true, error));
     }
     return question->bounds.is_wanted && shape->above_reason.status == PSPEC_OK
                ? ps_bounds_variance(&row->worst_bound, job->integrands[integrand], spectrum,
-                                    question->over_shells, &way, &shape->above, error)
+                                    question->over_shells, &way, &shape->above, false, error)
                : PSPEC_OK;
 }
 

@@ -4,6 +4,10 @@
 
 #include <math.h>
 
+/* Two texts of one profile, as 0.5,0.5,2 and 2,1,2, differ by roundings. */
+static const double ROUNDINGS = 1e-12;
+/* No set of a billion points has a normalized frequency below this. */
+static const double LEAST_FREQUENCY = 1e-9;
 /* Standard errors between a spectrum and its profiles. */
 static const double MARGIN = 3;
 /* The normalized frequency from which on a spectrum is taken to be flat. */
@@ -13,6 +17,26 @@ double ps_bound_power(const ps_bound *self, double normalized_frequency) {
     return normalized_frequency < self->alpha
                ? self->gamma * pow(normalized_frequency / self->alpha, self->exponent)
                : self->gamma;
+}
+
+static bool is_crossed(const ps_bounds_spec *self, double nu) {
+    return ps_bound_power(&self->below, nu) > ps_bound_power(&self->above, nu) * (1 + ROUNDINGS);
+}
+
+/* On logarithmic axes both are made of straight lines, which are farthest apart where one of them
+ * bends, or towards 0. */
+double ps_bounds_find_crossed(const ps_bounds_spec *self) {
+    const double first = fmin(self->below.alpha, self->above.alpha);
+    const double last = fmax(self->below.alpha, self->above.alpha);
+    if (is_crossed(self, first)) {
+        return first;
+    }
+    for (double nu = last; nu > LEAST_FREQUENCY; nu /= 2) {
+        if (is_crossed(self, nu)) {
+            return nu;
+        }
+    }
+    return -1;
 }
 
 ps_bound_rates ps_bound_find_rates(const ps_bound *self, unsigned dimension) {

@@ -18,6 +18,10 @@ typedef struct ps_bounds_spec {
 } ps_bounds_spec;
 double ps_bound_power(const ps_bound *self, double normalized_frequency);
 
+/* A normalized frequency, 0 or more, at which the profile below is above the other one; -1: there
+ * is none. */
+double ps_bounds_find_crossed(const ps_bounds_spec *self);
+
 /* Variances of integration fall like N^-rate, by the profile as N grows: of integrands whose
  * frequencies end somewhere (infinite of a step), and of those with a jump, where an exponent 1 has
  * a logarithm besides. */

@@ -14,15 +14,15 @@ bounds=(--sampler jittered -m 2 --shifts 0 --bounds)
 # ---- given profiles: what one frequency or one degree has is known ----
 
 # A wave has |f_k|^2 = 1/4 at k and -k: profile(|k|/sqrt N) / (2N)
-runs 0 "${bounds[@]}" 0.5,0.8,2..1.25,0.6,3 -n 256 --integrand wave:k=3x4
-near 'a wave below alpha' "$(column best_bound)" '0.5 * (5 / 16 / 0.8) ^ 2 / 512'
-near 'a wave below alpha, above' "$(column worst_bound)" '1.25 * (5 / 16 / 0.6) ^ 3 / 512'
-[[ $(key upper_profile) == 'P <= 1.25 (nu/0.6)^3 below nu = 0.6, P <= 1.25 above' && $(key lower_gamma) == 0.5 &&
-    $(key lower_alpha) == 0.8 && $(key lower_exponent) == 2 && $(key upper_exponent) == 3 ]] || complain "header: $(grep '^#' out)"
-[[ $(key best_case_rate) == 2.5 && $(key worst_case_rate) == 1.5 ]] || complain "rates: $(grep '^# .*rate' out)"
+runs 0 "${bounds[@]}" 0.5,0.8,3..1.25,0.6,2 -n 256 --integrand wave:k=3x4
+near 'a wave below alpha' "$(column best_bound)" '0.5 * (5 / 16 / 0.8) ^ 3 / 512'
+near 'a wave below alpha, above' "$(column worst_bound)" '1.25 * (5 / 16 / 0.6) ^ 2 / 512'
+[[ $(key upper_profile) == 'P <= 1.25 (nu/0.6)^2 below nu = 0.6, P <= 1.25 above' && $(key lower_gamma) == 0.5 &&
+    $(key lower_alpha) == 0.8 && $(key lower_exponent) == 3 && $(key upper_exponent) == 2 ]] || complain "header: $(grep '^#' out)"
+[[ $(key best_case_rate) == 2 && $(key worst_case_rate) == 1.5 ]] || complain "rates: $(grep '^# .*rate' out)"
 grep -qx 'points,predicted,predicted_error,lower,upper,measured,measured_error,z_score,white,best_bound,worst_bound' out ||
     complain "columns: $(grep -v '^#' out | head -n 1)"
-runs 0 "${bounds[@]}" 0.5,0.8,2..1.25,0.6,inf -n 16 --integrand wave:k=3x4
+runs 0 "${bounds[@]}" 0.5,0.8,inf..1.25,0.6,inf -n 16 --integrand wave:k=3x4
 near 'a wave above alpha' "$(column best_bound)" '0.5 / 32'
 near 'a wave above a step' "$(column worst_bound)" '1.25 / 32'
 runs 0 "${bounds[@]}" 0..1,0.6,inf -n 256 --integrand wave:k=3x4
@@ -38,6 +38,27 @@ for d in 1 2 3; do
     near "white noise, d = $d" "$(column worst_bound)" "2 * $(column white)"
 done
 [[ $(grep -v '^#' out | head -n 1) == *,white,best_bound,worst_bound,paper ]] || complain 'columns with that of the paper'
+# Beyond the cut-off the profile counts, too: the same at any cut-off.
+same() { # ARGS... --bounds of profiles that are alike, a small cut-off, one that has all below alpha
+    local small=("${@: -4:2}") large=("${@: -2}") words=("${@:1:$#-4}") whole
+    runs 0 --shifts 0 -m 2 "${words[@]}" "${large[@]}"
+    whole=$(column worst_bound)
+    near "${words[*]} ${large[*]}" "$(column best_bound)" "$whole"
+    runs 0 --shifts 0 -m 2 "${words[@]}" "${small[@]}"
+    near "${words[*]} ${small[*]}" "$(column best_bound)" "$whole"
+    near "${words[*]} ${small[*]}, above" "$(column worst_bound)" "$whole"
+}
+same --sampler jittered -n 256 --integrand disk --bounds 1,3,2..1,3,2 -k 10 -k 60
+same --sampler jittered -n 256 --integrand disk --bounds 1,3,2..1,3,2 --bins shells -k 10 -k 60
+same --sampler jittered -n 64 --integrand box:sides=0.3 -d 3 --bounds 1,2,inf..1,2,inf -k 3 -k 9
+same --sampler healpix-jittered -n 192 --integrand cap --bounds 2,3,4..2,3,4 -l 5 -l 60
+same --sampler jittered:lift=hemisphere -n 64 --integrand cap --bounds 1,3,2..1,3,2 -l 5 -l 60
+# Where that are too many frequencies the bounds are wider: 1/(2 pi k)^2 sin^2(2 pi k r) of an interval, beyond 4096, at least there.
+runs 0 "${bounds[@]}" 1,1000,2..1,1000,2 -n 16 -d 1 --integrand disk -k 5
+awk -v a="$(column best_bound)" -v b="$(column worst_bound)" 'BEGIN {
+    pi = atan2(0, -1)
+    for (k = 1; k < 1e6; k++) { nu = k / 16000; sum += 2 * (sin(pi * k / 2) / (pi * k)) ^ 2 * (nu < 1 ? nu ^ 2 : 1) }
+    exit !(a < sum / 16 && a > sum / 64 && b > sum / 16 && b < sum / 4) }' || complain "an interval: $(grep -v '^#' out)"
 # P15's profiles of jittered points hold in every direction: the prediction is between, to the noise of 400 sets.
 runs 0 --sampler jittered -m 400 --shifts 0 --bounds 0.5,0.5513,2..1,0.5513,2 -n 256 --integrand disk
 awk -v a="$(column best_bound)" -v p="$(column predicted)" -v e="$(column predicted_error)" -v b="$(column worst_bound)" \
@@ -80,10 +101,10 @@ done
 # Given: one for all, or one for each, in their order, found or not.
 runs 0 --sampler white --sampler jittered -m 2 --shifts 0 -n 16,64 --integrand wave:k=3x4 --bounds 0.5..2
 [[ $(of_each worst_bound | paste -sd' ') == '0.0625 0.015625 0.0625 0.015625' ]] || complain "one for all: $(grep -v '^#' out)"
-runs 0 --sampler white --sampler jittered -m 2 --shifts 0 -n 16,64 --integrand wave:k=3x4 --bounds 0.5..2 --bounds 0.25,2,1..1,0.5,2
+runs 0 --sampler white --sampler jittered -m 2 --shifts 0 -n 16,64 --integrand wave:k=3x4 --bounds 0.5..2 --bounds 0.25,2,2..1,0.5,1
 [[ $(of_each worst_bound | paste -sd' ') == '0.0625 0.015625 0.03125 0.0078125' && $(key upper_gamma | paste -sd' ') == '2 2 1 1' ]] ||
     complain "one for each: $(grep -v '^#' out)"
-[[ $(of_each best_bound | paste -sd' ') == '0.015625 0.00390625 0.0048828125 0.0006103515625' ]] || complain "one for each: $(grep -v '^#' out)"
+[[ $(of_each best_bound | paste -sd' ') == '0.015625 0.00390625 0.0030517578125 0.00019073486328125' ]] || complain "one for each: $(grep -v '^#' out)"
 runs 0 --sampler white --sampler jittered -m 20 --shifts 0 -n 256 --integrand disk --bounds auto --bounds 0.5,0.5513,2..1,0.5513,2
 [[ $(key upper_gamma | sed -n 2p) == 1 && $(key upper_alpha | sed -n 2p) == 0.5513 && $(key upper_gamma | sed -n 1p) != 1 ]] ||
     complain "one found: $(key upper_profile)"
@@ -128,6 +149,19 @@ command=variance
 for wrong in 1 1,2..3 1,2,3,4..1 much; do
     refuses "--bounds: \"$wrong\" is not one of auto, G,A,B..G,A,B" --sampler white --integrand disk --bounds "$wrong"
 done
+for wrong in 1,0.5513,2..0.5,0.5513,2 1..0.9 0.05..1,1,2 0.5,1,2..1,1,3 0.5,0.8,2..1.25,0.6,inf 1,0.5,inf..1,0.6,inf; do
+    refuses "--bounds: \"$wrong\" has the profile below, which comes first, above the other one: " --sampler white --integrand disk --bounds "$wrong"
+done
+refuses '1 and 0.5 at the normalized frequency 0.3' --sampler white --integrand disk --bounds 0..1 --bounds 1,0.3,2..0.5,0.3,2 --sampler jittered
+for wrong in 1,0,2..2 0..1,0,inf; do
+    refuses "--bounds: \"$wrong\" has the exponent" --sampler white --integrand disk --bounds "$wrong"
+done
+runs 0 "${bounds[@]}" 0.5,0.5,2..2,1,2 -n 16 --integrand wave:k=3x4
+runs 0 "${bounds[@]}" 1,0,0..2,0,0 -n 16 --integrand wave:k=3x4
+printf 'scene: 1\nresults:\n  - {result: variance, name: one, samplers: jittered, integrand: disk, bounds: 2..0.5}\n' >crossed.yaml
+command=run
+refuses 'bounds: "2..0.5" has the profile below' crossed.yaml -o crossed
+command=variance
 refuses '--bounds: "x" is not a finite number' --sampler white --integrand disk --bounds x..1
 refuses '--bounds: ' --sampler white --integrand disk --bounds=1..-1
 refuses '--bounds auto finds profiles by standard errors, which need 8 realizations or more (--realizations), not 1' \
