@@ -155,7 +155,7 @@ static pspec_status fill_sampler(ps_power_question *out, ps_sampler_request *req
     out->num_realizations = arguments->num_realizations;
     out->on_sphere = ps_sampler_is_on_sphere(request);
     out->on_hemisphere = ps_sampler_is_on_hemisphere(request);
-    return PSPEC_OK;
+    return check_place(arguments, out->on_sphere, error);
 }
 
 /* ---- questions ----------------------------------------------------------------------------- */

@@ -190,6 +190,9 @@ refuses '--hemisphere does not go with --sampler' --sampler white-hemisphere --h
 refuses '--wrap does not go with --sampler' --sampler white --wrap --integrand disk
 refuses '-l is for points of the sphere' --integrand disk -l 4 one.txt
 refuses '-k is for points of the torus' --integrand cap -k 4 sphere.txt
+refuses '-l is for points of the sphere' --integrand disk -l 4 --sampler jittered
+refuses '-k is for points of the torus' --integrand cap -k 4 --sampler jittered:lift=hemisphere
+refuses '-d is for points of the torus' --integrand cap -d 3 --sampler healpix -n 48
 refuses 'integrand cap: there is none on the torus' --integrand cap --domain torus one.txt
 refuses 'integrand disk: there is none on the sphere' --integrand cap --integrand disk --domain sphere sphere.txt
 make --sampler white -n 8 -d 3 -o three.txt
