@@ -5,6 +5,7 @@
  *     bench_forces step           step blue noise: how far distributions are from that of a step
  *     bench_forces powers         powers of both
  *     bench_forces smoothings     powers of step blue noise by other smoothings
+ *     bench_forces near           its pairs about the least distance
  *
  * POINTSPEC_DEVICE chooses the device, which has double precision. It is open before anything is
  * timed, and its kernels are built; s of processors are of all of them together, so that a busy
@@ -203,6 +204,64 @@ static void show_smoothings(ps_device *device) {
     printf("step blue noise, N = %d, %d sets\n", NUM, NUM_SETS);
 }
 
+/* ---- pairs that are near each other -------------------------------------------------------- */
+
+/* About the least distance of a set by 8 bins, in 1/sqrt(N). */
+static const double edges[] = {0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5};
+enum { NUM_EDGES = sizeof edges / sizeof edges[0], NEAR_NUM = 1024, NEAR_SETS = 4 };
+
+static void show_within(const char *name, const double *within) {
+    printf("%-*s", ROW_NAME, name);
+    for (size_t i = 0; i < NUM_EDGES; i++) {
+        printf(" %7.2f", within[i] - (i > 0 ? within[i - 1] : 0));
+    }
+    printf("\n");
+    fflush(stdout);
+}
+
+/* Of N points (N - 1)/2 int 2 pi r g(r) dr of 1/sqrt(N) each, by the middles of many rings. */
+static double target_within(double distance) {
+    enum { RINGS = 1000 };
+    const double pi = acos(-1);
+    const double width = distance / RINGS;
+    double sum = 0;
+    for (unsigned k = 0; k < RINGS; k++) {
+        const double r = (k + 0.5) * width;
+        sum += 2 * pi * r * width * (1 - 2 * ps_step_bessel(r / sqrt(pi)));
+    }
+    return (NEAR_NUM - 1) / 2.0 * sum;
+}
+
+static void show_step_pairs(const char *name, ps_step_smoothing smoothing, ps_device *device) {
+    double within[NUM_EDGES] = {0};
+    double *const x = allocate(PLANE * NEAR_NUM);
+    for (unsigned r = 0; r < NEAR_SETS; r++) {
+        make_step(NEAR_NUM, r, smoothing, device, x);
+        for (size_t i = 0; i < NUM_EDGES; i++) {
+            within[i] += (double)bench_pairs_within(NEAR_NUM, x, edges[i]) / NEAR_SETS;
+        }
+    }
+    show_within(name, within);
+    free(x);
+}
+
+static void show_near(ps_device *device) {
+    double within[NUM_EDGES];
+    printf("%-*s", ROW_NAME, "up to");
+    for (size_t i = 0; i < NUM_EDGES; i++) {
+        printf(" %7.2f", edges[i]);
+        within[i] = target_within(edges[i]);
+    }
+    printf("\n");
+    show_within("target", within);
+    show_step_pairs("8 bins", PS_STEP_SMOOTHING, device);
+    show_step_pairs("4 bins", (ps_step_smoothing){4, false}, device);
+    show_step_pairs("16 bins", (ps_step_smoothing){16, false}, device);
+    show_step_pairs("8 bins, g smoothed, too", (ps_step_smoothing){8, true}, device);
+    printf("pairs of a set from the distance before to this one, in 1/sqrt(N); N = %d, %d sets\n",
+           NEAR_NUM, NEAR_SETS);
+}
+
 /* -------------------------------------------------------------------------------------------- */
 
 /* So that what follows is timed without it. */
@@ -225,7 +284,8 @@ int main(int num_words, char **words) {
     } parts[] = {{"gaussian", show_gaussian},
                  {"step", show_step},
                  {"powers", show_all_powers},
-                 {"smoothings", show_smoothings}};
+                 {"smoothings", show_smoothings},
+                 {"near", show_near}};
     const char *const wanted = num_words > 1 ? words[1] : NULL;
     bool is_known = wanted == NULL;
     ps_device *device = NULL;
@@ -239,7 +299,7 @@ int main(int num_words, char **words) {
     }
     ps_device_close(device);
     if (!is_known) {
-        bench_die("the tables are gaussian, step, powers, smoothings");
+        bench_die("the tables are gaussian, step, powers, smoothings, near");
     }
     return EXIT_SUCCESS;
 }

@@ -36,16 +36,28 @@ double bench_powers_mean(const bench_powers *powers, double nu) {
     return powers->sum[bin] / powers->num[bin];
 }
 
+static double distance2(const double *a, const double *b) {
+    const double dx = a[0] - b[0] - rint(a[0] - b[0]);
+    const double dy = a[1] - b[1] - rint(a[1] - b[1]);
+    return dx * dx + dy * dy;
+}
+
+size_t bench_pairs_within(size_t num, const double *x, double distance) {
+    size_t pairs = 0;
+    for (size_t i = 0; i < num; i++) {
+        for (size_t j = 0; j < i; j++) {
+            pairs += distance2(x + 2 * i, x + 2 * j) * (double)num < distance * distance;
+        }
+    }
+    return pairs;
+}
+
 double bench_nearest(size_t num, const double *x) {
     double sum = 0;
     for (size_t i = 0; i < num; i++) {
         double nearest = HUGE_VAL;
         for (size_t j = 0; j < num; j++) {
-            double dx = x[2 * i] - x[2 * j];
-            double dy = x[2 * i + 1] - x[2 * j + 1];
-            dx -= rint(dx);
-            dy -= rint(dy);
-            nearest = j == i ? nearest : fmin(nearest, dx * dx + dy * dy);
+            nearest = j == i ? nearest : fmin(nearest, distance2(x + 2 * i, x + 2 * j));
         }
         sum += sqrt(nearest);
     }

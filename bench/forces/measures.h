@@ -16,6 +16,8 @@ typedef struct bench_powers {
 void bench_powers_add(bench_powers *powers, size_t num, const double *x);
 /* Mean over the bin that holds nu. */
 double bench_powers_mean(const bench_powers *powers, double nu);
+/* Pairs nearer than a distance, in units of 1/sqrt(N). */
+size_t bench_pairs_within(size_t num, const double *x, double distance);
 /* Mean distance to the nearest neighbour, in units of that of hexagonal packing. */
 double bench_nearest(size_t num, const double *x);
 

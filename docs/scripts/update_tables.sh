@@ -88,6 +88,7 @@ table_bench_forces_gaussian() { bench_forces gaussian; }
 table_bench_forces_step() { bench_forces step; }
 table_bench_forces_powers() { bench_forces powers; }
 table_bench_forces_smoothings() { bench_forces smoothings; }
+table_bench_forces_near() { bench_forces near; }
 # Four minutes; POINTSPEC_TEST_DATA as in ./dev.
 table_published_sets() {
     need pointspec &&
