@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-/* Behind the lead: variances with all that may be asked for besides have 19, others fewer. */
-enum { MOST_LEAD = 2, MOST_COLUMNS = MOST_LEAD + 20 };
+enum { MOST_LEAD = 2, MOST_COLUMNS = MOST_LEAD + PS_MOST_COLUMNS_AFTER_LEAD };
 
 static void add(ps_lead *lead, const char *name, ps_cell cell) {
     lead->names[lead->num] = name;

@@ -6,6 +6,9 @@
 #include "request/request.h"
 #include "tables/table.h"
 
+/* Variances may have 9 columns and those of all parts, others have fewer. */
+enum { PS_MOST_COLUMNS_AFTER_LEAD = 48 };
+
 /* {0}: none. */
 typedef struct ps_lead {
     size_t num;

@@ -1,6 +1,7 @@
 #include "answers/variance/parts.h"
 
 #include "request/options.h"
+#include "request/point_source.h"
 
 #define PART_ROW(name) &ps_variance_part_##name,
 static const ps_variance_part *const parts[PS_NUM_VARIANCE_PARTS] = {PS_VARIANCE_PARTS(PART_ROW)};
@@ -13,17 +14,32 @@ static size_t count_columns(const ps_variance_part *part) {
     return num;
 }
 
+static pspec_status fail_without_errors(const ps_variance_part *part, const ps_request *request,
+                                        ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "%s has errors, which need %d realizations or more (--realizations), not %llu",
+                   ps_option_show(request, part->with_errors).text, PS_FEWEST_FITTED_REALIZATIONS,
+                   (unsigned long long)request->num_realizations);
+}
+
+/* A sampler without randomness has none, from one realization or many. */
 static pspec_status check_errors(const ps_variance_part *part, const ps_request *request,
                                  ps_error *error) {
-    return part->with_errors == PS_NUM_OPTIONS || !ps_request_has_samplers(request) ||
-                   request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has errors, which need %d realizations or more (--realizations), not "
-                         "%llu",
-                         ps_option_show(request, part->with_errors).text,
-                         PS_FEWEST_FITTED_REALIZATIONS,
-                         (unsigned long long)request->num_realizations);
+    const bool has_enough = part->with_errors == PS_NUM_OPTIONS ||
+                            request->num_realizations >= PS_FEWEST_FITTED_REALIZATIONS;
+    const size_t num = has_enough ? 0 : ps_request_num_questions(request);
+    for (size_t i = 0; i < num; i++) {
+        ps_sampler_request sampler;
+        if (ps_request_sampler(request, i) == NULL) {
+            continue;
+        }
+        PS_TRY(ps_sampler_request_read(&sampler, request, i, error));
+        PS_TRY(ps_sampler_resolve(&sampler, error));
+        if (!ps_variance_has_one_set(&sampler)) {
+            return fail_without_errors(part, request, error);
+        }
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_variance_parts_check(const ps_request *request, ps_error *error) {

@@ -10,7 +10,7 @@
 /* In the order of their columns. */
 #define PS_VARIANCE_PARTS(PART) PART(bounds) PART(rates) PART(rank) PART(paper)
 
-enum { PS_MOST_PART_COLUMNS = 5 };
+enum { PS_MOST_PART_COLUMNS = 8 };
 
 typedef struct ps_variance_part {
     const char *columns[PS_MOST_PART_COLUMNS + 1]; /* ended by NULL */

@@ -2,102 +2,56 @@
  * integrand and number of points. */
 #include "answers/spectra/spectrum_header.h"
 #include "answers/variance/parts.h"
+#include "answers/variance/ranked_pair.h"
+#include "answers/variance/tail_verdict.h"
+#include "base/memory.h"
 #include "base/text.h"
-#include "jobs/variance/rates.h"
 #include "request/options.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-/* Rows of one integrand and one N. */
-typedef struct field {
-    ps_variance_job *const *jobs;
-    size_t first, step, num; /* jobs of the samplers */
-    size_t integrand;
-} field;
-
-/* Questions are sampler by sampler, and of a sampler N by N. */
-static field make_field(const ps_request *request, ps_variance_job *const *jobs, size_t question,
-                        size_t integrand) {
-    return (field){.jobs = jobs,
-                   .first = question % request->num_counts,
-                   .step = request->num_counts,
-                   .num = request->num_sources,
-                   .integrand = integrand};
+static size_t find_first(const ps_ranked *self) {
+    size_t first = 0;
+    for (size_t i = 1; i < self->num; i++) {
+        first = ps_ranked_compare(self, i, first).log < 0 ? i : first;
+    }
+    return first;
 }
 
-static const ps_variance_job *job_of(const field *self, size_t sampler) {
-    return self->jobs[self->first + sampler * self->step];
-}
-
-static double variance_of(const field *self, size_t sampler) {
-    return ps_variance_job_rows(job_of(self, sampler))[self->integrand].prediction.variance;
-}
-
-/* 0: the least variance; of two that are the same the first one. */
-static size_t find_rank(const field *self, size_t sampler) {
-    const double own = variance_of(self, sampler);
-    size_t rank = 0;
+/* 1 and how many are told apart as having less. */
+static size_t find_rank(const ps_ranked *self, size_t sampler) {
+    size_t rank = 1;
     for (size_t i = 0; i < self->num; i++) {
-        const double other = variance_of(self, i);
-        rank += other < own || (other == own && i < sampler);
+        if (i != sampler) {
+            const ps_ranked_pair found = ps_ranked_compare(self, sampler, i);
+            rank += found.is_told && found.log > 0;
+        }
     }
     return rank;
 }
 
-static size_t find_sampler(const field *self, size_t rank) {
-    size_t sampler = 0;
-    while (find_rank(self, sampler) != rank) {
-        sampler++;
-    }
-    return sampler;
-}
-
-/* ---- two of them --------------------------------------------------------------------------- */
-
-/* Of a to b: their ratio with its error, and how many errors its logarithm is from 0; nan: none. */
-typedef struct comparison {
-    double factor, error, score;
-} comparison;
-
-static comparison compare_logs(const ps_log_variance *a, const ps_log_variance *b) {
-    const ps_log_variance ratio = ps_log_variances_difference(a, b);
-    const double factors[] = {1};
-    const ps_uncertain found = ps_log_variances_combine(&ratio, factors, 1);
-    const double factor = isfinite(found.value) ? exp(found.value) : NAN;
-    return (comparison){factor, factor * found.error,
-                        found.error > 0 ? found.value / found.error : NAN};
-}
-
-static comparison compare(const field *self, size_t a, size_t b) {
-    ps_log_variance logs[2];
-    ps_variance_job_log(job_of(self, a), self->integrand, false, &logs[0]);
-    ps_variance_job_log(job_of(self, b), self->integrand, false, &logs[1]);
-    return compare_logs(&logs[0], &logs[1]);
-}
-
-/* White noise to a. */
-static comparison compare_white(const field *self, size_t a) {
-    const ps_block_sums none = {0};
-    const double white = ps_variance_job_rows(job_of(self, a))[self->integrand].prediction.white;
-    ps_log_variance logs[2];
-    ps_log_variance_make(&logs[0], 1, (ps_mean){white, 0}, &none);
-    ps_variance_job_log(job_of(self, a), self->integrand, false, &logs[1]);
-    return compare_logs(&logs[0], &logs[1]);
-}
-
 /* ---- rows ---------------------------------------------------------------------------------- */
+
+static const char *const by_names[] = {
+    [PS_BY_PREDICTED] = "predicted", [PS_BY_PAIRS] = "pairs", [PS_BY_MEASURED] = "measured"};
 
 static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
                  size_t question, size_t integrand) {
-    const field rows = make_field(request, jobs, question, integrand);
+    const ps_ranked rows = ps_ranked_make(request, jobs, question, integrand);
     const size_t sampler = question / request->num_counts;
-    const size_t best = find_sampler(&rows, 0);
-    const comparison found = compare(&rows, sampler, best);
-    cells[0] = PS_INTEGER(find_rank(&rows, sampler) + 1);
-    cells[1] = ps_number_or_missing(found.factor);
-    cells[2] = ps_number_or_missing(found.error);
-    cells[3] = ps_number_or_missing(found.score);
-    cells[4] = ps_number_or_missing(compare_white(&rows, sampler).score);
+    const size_t first = find_first(&rows);
+    const ps_ranked_pair found = ps_ranked_compare(&rows, sampler, first);
+    const ps_ranked_pair white = ps_ranked_compare(&rows, rows.num, sampler);
+    size_t num = 0;
+    cells[num++] = PS_INTEGER(find_rank(&rows, sampler));
+    cells[num++] = ps_number_or_missing(found.factor);
+    cells[num++] = ps_number_or_missing(found.error);
+    cells[num++] = PS_TEXT(by_names[found.by]);
+    cells[num++] = ps_number_or_missing(found.score);
+    cells[num++] = ps_number_or_missing(sampler == first ? NAN : found.p_value);
+    cells[num++] = ps_number_or_missing(white.score);
+    cells[num++] = ps_number_or_missing(white.p_value);
 }
 
 static bool is_wanted(const ps_request *request) {
@@ -114,34 +68,87 @@ static pspec_status check(const ps_request *request, ps_error *error) {
 
 /* ---- sentences ----------------------------------------------------------------------------- */
 
-static void write_more(ps_text *out, const char *name, const comparison *found) {
-    if (isnan(found->factor)) {
-        ps_text_append(out, "; %s cannot be compared, since a variance is 0", name);
-    } else if (isnan(found->error)) {
-        ps_text_append(out, "; %s has %.4g times as much, from too few sets for an error", name,
-                       found->factor);
-    } else if (found->error == 0) {
-        ps_text_append(out, "; %s has %.4g times as much, exactly", name, found->factor);
+/* What would say whether it is. */
+static pspec_status write_cure(ps_text *out, const ps_ranked *rows, size_t sampler,
+                               const ps_ranked_pair *found, ps_error *error) {
+    const ps_variance_job *const job = ps_ranked_job(rows, sampler);
+    const bool is_on_torus =
+        ps_variance_job_integrand(job, rows->integrand)->place.where == PS_SAMPLES_TORUS;
+    const ps_option_id option = is_on_torus ? PS_OPTION_MAX_FREQUENCY : PS_OPTION_MAX_DEGREE;
+    double cutoff = 0;
+    PS_TRY(ps_variance_find_cutoff(&cutoff, rows->request, job, rows->integrand, found->energy,
+                                   error));
+    ps_text_append(out, ", told apart only if what lies beyond the cut-off is like white noise; ");
+    if (isfinite(cutoff)) {
+        ps_text_append(out, "-%c %.0f would settle it", ps_options[option].letter, cutoff);
     } else {
-        ps_text_append(out, "; %s has %.4g times as much (standard error %.2g, %.3g from 1%s)",
-                       name, found->factor, found->error, fabs(found->score),
-                       fabs(found->score) < PS_RATES_TOLD_APART ? ": not told apart" : "");
+        ps_text_append(out, "trials (--%s) would settle it", ps_options[PS_OPTION_SHIFTS].name);
+    }
+    return PSPEC_OK;
+}
+
+/* " (measured, standard error 0.1, between 0.9 and 3: not told apart)" */
+static void write_error(ps_text *out, const ps_ranked_pair *found) {
+    const double one = 1.0005; /* with four digits a range beyond it is seen */
+    const bool is_wide = found->largest > one * found->least;
+    const bool has_range = (found->error == 0 && is_wide) || found->is_told_if_white;
+    const bool is_told = found->is_told || found->is_told_if_white;
+    if (found->error > 0) {
+        ps_text_append(out, " (%sstandard error %.2g%s",
+                       found->by == PS_BY_MEASURED ? "measured, " : "", found->error,
+                       has_range ? ", " : "");
+    }
+    if (has_range) {
+        ps_text_append(out, "%sbetween %.4g and %.4g", found->error > 0 ? "" : " (", found->least,
+                       found->largest);
+    }
+    if (found->error > 0 || has_range) {
+        ps_text_append(out, is_told ? ")" : ": not told apart)");
+    } else {
+        ps_text_append(out, is_told ? "" : " (not told apart)");
     }
 }
 
-static ps_cell points_of(const ps_request *request, const field *rows, size_t sampler) {
-    const ps_power_job *const job = ps_variance_job_spectrum(job_of(rows, sampler));
-    return ps_power_job_sampler(job) != NULL ? PS_INTEGER(ps_request_points(request, rows->first))
-                                             : PS_NUMBER(ps_power_job_spectrum(job)->mean_points);
+/* What `sampler`, num for white noise, has beside the first one; found: its factor. */
+static pspec_status write_more(ps_text *out, const ps_ranked *rows, size_t sampler, size_t first,
+                               const ps_ranked_pair *found, ps_error *error) {
+    const char *const name =
+        sampler == rows->num ? "white noise" : ps_request_source_name(rows->request, sampler);
+    if (isnan(found->factor)) {
+        ps_text_append(out, "; %s cannot be compared, since a variance is 0", name);
+    } else if (found->log == 0 && found->error == 0) {
+        ps_text_append(out, "; %s has the same", name);
+    } else if (isnan(found->error)) {
+        ps_text_append(out, "; %s has %.4g times as much, from too few sets for an error", name,
+                       found->factor);
+    } else {
+        ps_text_append(out, "; %s has %.4g times as much", name, found->factor);
+        if (found->by == PS_BY_PAIRS) {
+            ps_text_append(out, ", by sums over pairs of points");
+        } else {
+            write_error(out, found);
+        }
+        PS_TRY(found->is_told_if_white
+                   ? write_cure(out, rows, sampler < rows->num ? sampler : first, found, error)
+                   : PSPEC_OK);
+    }
+    return PSPEC_OK;
+}
+
+static ps_cell points_of(const ps_ranked *rows, size_t sampler) {
+    const ps_power_job *const job = ps_variance_job_spectrum(ps_ranked_job(rows, sampler));
+    return ps_power_job_sampler(job) != NULL
+               ? PS_INTEGER(ps_request_points(rows->request, rows->first))
+               : PS_NUMBER(ps_power_job_spectrum(job)->mean_points);
 }
 
 /* The N that was asked for, or that the sets of files have: of all rows, or from .. to. */
-static void write_points(ps_text *out, const ps_request *request, const field *rows) {
-    double least = (double)ps_request_points(request, rows->first);
+static void write_points(ps_text *out, const ps_ranked *rows) {
+    double least = (double)ps_request_points(rows->request, rows->first);
     double most = least;
-    for (size_t i = 0; ps_request_has_files(request) && i < rows->num; i++) {
+    for (size_t i = 0; ps_request_has_files(rows->request) && i < rows->num; i++) {
         const double own =
-            ps_power_job_spectrum(ps_variance_job_spectrum(job_of(rows, i)))->mean_points;
+            ps_power_job_spectrum(ps_variance_job_spectrum(ps_ranked_job(rows, i)))->mean_points;
         least = i == 0 ? own : fmin(least, own);
         most = i == 0 ? own : fmax(most, own);
     }
@@ -151,45 +158,85 @@ static void write_points(ps_text *out, const ps_request *request, const field *r
     }
 }
 
-static pspec_status add_sentence(ps_table *table, const ps_request *request, const field *rows,
-                                 ps_text *text, ps_error *error) {
-    const size_t best = find_sampler(rows, 0);
-    const comparison white = compare_white(rows, best);
-    ps_text_append(text, "%s, ", request->integrands[rows->integrand]);
-    write_points(text, request, rows);
-    ps_text_append(text, ": %s has the least variance", ps_request_source_name(request, best));
-    for (size_t rank = 1; rank < rows->num; rank++) {
-        const size_t sampler = find_sampler(rows, rank);
-        const comparison found = compare(rows, sampler, best);
-        write_more(text, ps_request_source_name(request, sampler), &found);
+/* In the order of a sentence. */
+typedef struct place {
+    size_t sampler, rank; /* 0: the first one */
+    double log;           /* of its factor */
+} place;
+
+static int by_rank(const void *a, const void *b) {
+    const place *const x = a;
+    const place *const y = b;
+    return x->rank != y->rank ? (x->rank > y->rank) - (x->rank < y->rank)
+           : x->log != y->log ? (x->log > y->log) - (x->log < y->log)
+                              : (x->sampler > y->sampler) - (x->sampler < y->sampler);
+}
+
+static void sort(place *places, const ps_ranked *rows) {
+    const size_t first = find_first(rows);
+    for (size_t i = 0; i < rows->num; i++) {
+        places[i] =
+            (place){i, i == first ? 0 : find_rank(rows, i), ps_ranked_compare(rows, i, first).log};
     }
-    write_more(text, "white noise", &white);
-    PS_TRY(ps_text_check(text, error));
+    qsort(places, rows->num, sizeof *places, by_rank);
+}
+
+static pspec_status write_sentence(ps_text *out, const ps_ranked *rows, const place *places,
+                                   ps_error *error) {
+    const ps_request *const request = rows->request;
+    const size_t first = places[0].sampler;
+    const ps_ranked_pair white = ps_ranked_compare(rows, rows->num, first);
+    ps_text_append(out, "%s, ", request->integrands[rows->integrand]);
+    write_points(out, rows);
+    ps_text_append(out, ": %s has the least variance", ps_request_source_name(request, first));
+    for (size_t i = 1; i < rows->num; i++) {
+        const ps_ranked_pair found = ps_ranked_compare(rows, places[i].sampler, first);
+        PS_TRY(write_more(out, rows, places[i].sampler, first, &found, error));
+    }
+    PS_TRY(write_more(out, rows, rows->num, first, &white, error));
+    return ps_text_check(out, error);
+}
+
+static pspec_status add_sentence(ps_table *table, const ps_ranked *rows, const ps_text *text,
+                                 size_t first, ps_error *error) {
+    const ps_request *const request = rows->request;
     const ps_meta entries[] = {
         {"ranking", PS_TEXT(ps_text_string(text))},
         {"ranking_integrand", PS_TEXT(request->integrands[rows->integrand])},
-        {"ranking_points", points_of(request, rows, best)},
-        {"ranking_first", PS_TEXT(ps_request_source_name(request, best))},
+        {"ranking_points", points_of(rows, first)},
+        {"ranking_first", PS_TEXT(ps_request_source_name(request, first))},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status add_ranking(ps_table *table, const ps_ranked *rows, ps_error *error) {
+    place *places = NULL;
+    ps_text text = {0};
+    PS_TRY(PS_NEW(&places, rows->num, "a ranking", error));
+    sort(places, rows);
+    pspec_status status = write_sentence(&text, rows, places, error);
+    if (status == PSPEC_OK) {
+        status = add_sentence(table, rows, &text, places[0].sampler, error);
+    }
+    ps_text_free(&text);
+    free(places);
+    return status;
 }
 
 static pspec_status add_all(ps_table *table, const ps_request *request,
                             ps_variance_job *const *jobs, ps_error *error) {
     for (size_t i = 0; i < request->num_integrands; i++) {
         for (size_t k = 0; k < request->num_counts; k++) {
-            const field rows = make_field(request, jobs, k, i);
-            ps_text text = {0};
-            const pspec_status status = add_sentence(table, request, &rows, &text, error);
-            ps_text_free(&text);
-            PS_TRY(status);
+            const ps_ranked rows = ps_ranked_make(request, jobs, k, i);
+            PS_TRY(add_ranking(table, &rows, error));
         }
     }
     return PSPEC_OK;
 }
 
 const ps_variance_part ps_variance_part_rank = {
-    .columns = {"rank", "factor", "factor_error", "factor_score", "white_score"},
+    .columns = {"rank", "factor", "factor_error", "factor_by", "factor_score", "factor_p_value",
+                "white_score", "white_p_value"},
     .is_wanted = is_wanted,
     .with_errors = PS_OPTION_RANK,
     .check = check,

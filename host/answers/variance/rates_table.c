@@ -26,10 +26,10 @@ typedef struct view {
 static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
                  size_t question, size_t integrand) {
     ps_log_variance logs[2];
-    ps_uncertain rate = {NAN, NAN};
+    ps_uncertain rate = PS_UNCERTAIN_NONE;
     if (question % request->num_counts > 0) {
         for (size_t i = 0; i < 2; i++) {
-            ps_variance_job_log(jobs[question - 1 + i], integrand, false, &logs[i]);
+            ps_variance_job_log(jobs[question - 1 + i], integrand, PS_VARIANCE_PREDICTED, &logs[i]);
         }
         rate = logs[0].points < logs[1].points ? ps_rate_between(&logs[0], &logs[1]) : rate;
     }
@@ -77,13 +77,12 @@ static int compare_points(const void *a, const void *b) {
 
 /* Of the N of the window, ascending. */
 static size_t gather(const view *self, ps_log_variance *logs, size_t sampler, size_t integrand,
-                     bool is_measured) {
+                     ps_variance_number number) {
     const double *const window = self->request->rates;
     size_t num = 0;
     for (size_t i = 0; i < self->num_counts; i++) {
         ps_log_variance *const one = &logs[num];
-        ps_variance_job_log(self->jobs[sampler * self->num_counts + i], integrand, is_measured,
-                            one);
+        ps_variance_job_log(self->jobs[sampler * self->num_counts + i], integrand, number, one);
         num += one->points >= window[0] && one->points <= window[1];
     }
     qsort(logs, num, sizeof *logs, compare_points);
@@ -124,7 +123,8 @@ static pspec_status add_exponents(view *self, ps_table *table, size_t sampler, s
     ps_rate rates[2] = {{0}};
     ps_error reasons[2] = {{0}};
     for (size_t i = 0; i < 2; i++) {
-        const size_t num = gather(self, self->logs[i], sampler, integrand, i == 1);
+        const size_t num = gather(self, self->logs[i], sampler, integrand,
+                                  i == 1 ? PS_VARIANCE_MEASURED : PS_VARIANCE_PREDICTED);
         reasons[i].status = ps_rate_fit(&rates[i], self->logs[i], num, &reasons[i]);
         if (reasons[i].status == PSPEC_ERROR_MEMORY) {
             *error = reasons[i];
@@ -161,7 +161,7 @@ static pspec_status add_exponents(view *self, ps_table *table, size_t sampler, s
 }
 
 ps_uncertain ps_rates_find(const ps_table *table, const char *sampler, const char *integrand) {
-    ps_uncertain out = {NAN, NAN};
+    ps_uncertain out = PS_UNCERTAIN_NONE;
     bool is_sampler = false;
     bool is_it = false;
     for (size_t i = 0; i < ps_table_num_meta(table); i++) {
@@ -252,8 +252,8 @@ static pspec_status add_pair(view *self, ps_table *table, size_t a, size_t b, si
                 .b = ps_request_source_name(request, b),
                 .integrand = request->integrands[integrand]};
     ps_crossings found = {0};
-    two.num = gather(self, self->logs[0], a, integrand, false);
-    if (gather(self, self->logs[1], b, integrand, false) != two.num ||
+    two.num = gather(self, self->logs[0], a, integrand, PS_VARIANCE_PREDICTED);
+    if (gather(self, self->logs[1], b, integrand, PS_VARIANCE_PREDICTED) != two.num ||
         !ps_crossings_have_same_points(self->logs[0], self->logs[1], two.num) || two.num == 0) {
         ps_text_free(&self->text);
         ps_text_append(&self->text, "%s: none: %s and %s do not have the same numbers of points",

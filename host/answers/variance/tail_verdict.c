@@ -48,23 +48,35 @@ static double white_from(const ps_spectrum *spectrum, bool is_on_torus) {
  * measured of any. */
 static const double MOST_OF_PEAKS = 4;
 
+static double cutoff_of(const ps_variance_job *job) {
+    return ps_power_job_spectrum(ps_variance_job_spectrum(job))->frequencies.max_frequency;
+}
+
+static bool is_on_torus(const ps_variance_job *job) {
+    return ps_variance_job_integrand(job, 0)->place.where == PS_SAMPLES_TORUS;
+}
+
+double ps_variance_likely_most(const ps_variance_job *job) {
+    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(ps_variance_job_spectrum(job));
+    const bool has_peak =
+        beyond->is_known || cutoff_of(job) >= white_from(spectrum, is_on_torus(job));
+    return has_peak ? beyond->most : fmax(beyond->most, MOST_OF_PEAKS);
+}
+
 /* The energy beyond a cut-off that would do: most T/2 <= X (sum + T). The sum can only grow with
  * the cut-off. Nobody knows what is added between this cut-off and white noise, and then nothing
  * is. */
 static double find_energy(const judging *self, const ps_variance_job *job, size_t integrand,
                           const ps_tails *tails) {
-    const ps_integrand *const f = ps_variance_job_integrand(job, integrand);
     const ps_prediction *const prediction = &ps_variance_job_rows(job)[integrand].prediction;
     const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
     const ps_spectrum *const spectrum = ps_power_job_spectrum(ps_variance_job_spectrum(job));
-    const double factor = ps_integrand_factor(f);
-    const double white = white_from(spectrum, f->place.where == PS_SAMPLES_TORUS);
-    const double cutoff = spectrum->frequencies.max_frequency;
-    const bool has_peak = cutoff >= white || beyond->is_known;
-    const double most = has_peak ? beyond->most : fmax(beyond->most, MOST_OF_PEAKS);
-    const double rest = beyond->white * factor * ps_tails_beyond(tails, fmax(cutoff, white));
+    const double factor = ps_integrand_factor(ps_variance_job_integrand(job, integrand));
+    const double from = fmax(cutoff_of(job), white_from(spectrum, is_on_torus(job)));
+    const double rest = beyond->white * factor * ps_tails_beyond(tails, from);
     const double sum = prediction->lower * spectrum->mean_points + rest;
-    return 2 * self->request->tail * sum / (most * factor);
+    return 2 * self->request->tail * sum / (ps_variance_likely_most(job) * factor);
 }
 
 /* Two digits, upwards, from a little more: the larger the better, but for what has nothing beyond
@@ -77,8 +89,8 @@ static double round_up(double cutoff, double reach) {
     return cutoff <= reach ? fmin(rounded, reach) : rounded;
 }
 
-static bool is_possible(const judging *self, double cutoff) {
-    const ps_integrand_place place = ps_variance_job_integrand(self->jobs[0], 0)->place;
+static bool is_possible(const ps_variance_job *job, double cutoff) {
+    const ps_integrand_place place = ps_variance_job_integrand(job, 0)->place;
     ps_frequencies set;
     if (place.where != PS_SAMPLES_TORUS) {
         return cutoff <= PS_MAX_DEGREE;
@@ -87,17 +99,38 @@ static bool is_possible(const judging *self, double cutoff) {
            ps_frequencies_lattice(&set, place.dimension, (int32_t)cutoff, false, NULL) == PSPEC_OK;
 }
 
+static pspec_status open_tails(ps_tails **out, const ps_request *request,
+                               const ps_variance_job *job, size_t integrand, ps_error *error) {
+    const bool over_shells = request->frequencies.bins.kind == PS_BINS_SHELLS;
+    return ps_tails_create(out, ps_variance_job_integrand(job, integrand), over_shells, error);
+}
+
+/* Larger than that of the job, which was not enough. */
+static double find_cutoff(const ps_tails *tails, const ps_variance_job *job, size_t integrand,
+                          double energy) {
+    const double reach = ps_integrand_reach(ps_variance_job_integrand(job, integrand));
+    return round_up(fmax(ps_tails_find(tails, energy), cutoff_of(job) + 1), reach);
+}
+
+pspec_status ps_variance_find_cutoff(double *out, const ps_request *request,
+                                     const ps_variance_job *job, size_t integrand, double energy,
+                                     ps_error *error) {
+    ps_tails *tails = NULL;
+    PS_TRY(open_tails(&tails, request, job, integrand, error));
+    const double cutoff = find_cutoff(tails, job, integrand, energy);
+    ps_tails_destroy(tails);
+    *out = is_possible(job, cutoff) ? cutoff : INFINITY;
+    return PSPEC_OK;
+}
+
 static void add_row(judging *self, size_t job, size_t integrand, const ps_tails *tails) {
     const ps_variance_job *const asked = self->jobs[job];
-    const double now = spectrum_of(self, job)->frequencies.max_frequency;
     if (tail_of(&ps_variance_job_rows(asked)[integrand].prediction) <= self->request->tail) {
-        self->cutoff = fmax(self->cutoff, now);
+        self->cutoff = fmax(self->cutoff, cutoff_of(asked));
         return;
     }
-    const double energy = find_energy(self, asked, integrand, tails);
-    const double found = fmax(ps_tails_find(tails, energy), now + 1);
     const double cutoff =
-        round_up(found, ps_integrand_reach(ps_variance_job_integrand(asked, integrand)));
+        find_cutoff(tails, asked, integrand, find_energy(self, asked, integrand, tails));
     if (self->num_missed == 0 || cutoff > self->missed_cutoff) {
         self->missed_cutoff = cutoff;
         self->worst_job = job;
@@ -110,9 +143,7 @@ static void add_row(judging *self, size_t job, size_t integrand, const ps_tails 
 /* Of all questions: they have the same integrands. */
 static pspec_status add_integrand(judging *self, size_t num, size_t integrand, ps_error *error) {
     ps_tails *tails = NULL;
-    const bool over_shells = self->request->frequencies.bins.kind == PS_BINS_SHELLS;
-    PS_TRY(ps_tails_create(&tails, ps_variance_job_integrand(self->jobs[0], integrand), over_shells,
-                           error));
+    PS_TRY(open_tails(&tails, self->request, self->jobs[0], integrand, error));
     for (size_t i = 0; i < num; i++) {
         add_row(self, i, integrand, tails);
     }
@@ -140,7 +171,7 @@ static void describe(const judging *self, ps_text *out) {
     if (self->num_missed > 1) {
         ps_text_append(out, ", and %zu rows are above it", self->num_missed);
     }
-    if (is_possible(self, self->cutoff)) {
+    if (is_possible(self->jobs[0], self->cutoff)) {
         ps_text_append(out, "; about %s %.0f would do%s", ps_options[id].name, self->cutoff,
                        self->num_missed > 1 ? " for all rows" : "");
     } else {

@@ -214,7 +214,7 @@ static pspec_status add_bound(picture *self, size_t curve, size_t panel, quantit
         return PSPEC_OK;
     }
     ps_text_append(label, "%s bound", which == BEST_BOUND ? "best" : "worst");
-    return name_series(line, label, (ps_uncertain){NAN, NAN}, error);
+    return name_series(line, label, PS_UNCERTAIN_NONE, error);
 }
 
 static ps_uncertain find_rate(const picture *self, size_t curve, size_t panel) {
@@ -222,7 +222,7 @@ static ps_uncertain find_rate(const picture *self, size_t curve, size_t panel) {
     while (i < self->num_rows && (self->rows[i].curve != curve || self->rows[i].panel != panel)) {
         i++;
     }
-    return i < self->num_rows ? self->rows[i].rate : (ps_uncertain){NAN, NAN};
+    return i < self->num_rows ? self->rows[i].rate : PS_UNCERTAIN_NONE;
 }
 
 /* One entry of the key: marks have the colour of the line. */
@@ -252,7 +252,7 @@ static pspec_status add_white(picture *self, size_t panel, ps_error *error) {
     ps_series *const line =
         add_series(self, self->panels[panel]->curve, panel, WHITE, PS_LOOK_REFERENCE);
     ps_text_append(label, "white noise");
-    return name_series(line, label, (ps_uncertain){NAN, NAN}, error);
+    return name_series(line, label, PS_UNCERTAIN_NONE, error);
 }
 
 static pspec_status add_panel(picture *self, size_t panel, ps_error *error) {

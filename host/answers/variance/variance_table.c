@@ -16,6 +16,7 @@ static const char *const columns[] = {"points",         "predicted", "predicted_
                                       "measured_error", "z_score",   "white"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 enum { MOST_COLUMNS = NUM_COLUMNS + PS_MOST_PARTS_COLUMNS };
+_Static_assert((int)MOST_COLUMNS <= (int)PS_MOST_COLUMNS_AFTER_LEAD, "rows have room for all");
 
 static size_t choose_columns(const char *out[MOST_COLUMNS], const ps_request *request) {
     memcpy(out, columns, sizeof columns);
@@ -144,6 +145,10 @@ static pspec_status add_choices(ps_table *table, const ps_request *request,
     if (request->frequencies.bins.kind == PS_BINS_SHELLS) {
         PS_TRY(
             ps_table_add_meta(table, "sum", PS_TEXT("over exact shells, |k|^2 <= K^2 + K"), error));
+    }
+    if (request->wants_ranking) { /* for all that a sentence is about */
+        PS_TRY(ps_table_add_meta(table, "false_alarm_rate", PS_NUMBER(request->false_alarm_rate),
+                                 error));
     }
     PS_TRY(ps_variance_parts_add_about(table, request, error));
     return request->tail > 0

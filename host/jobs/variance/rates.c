@@ -139,10 +139,18 @@ static pspec_status find_coefficient(ps_uncertain *out, size_t power, const ps_l
     return status;
 }
 
+/* times: of either sign */
+static ps_uncertain scale(ps_uncertain one, double times) {
+    one.value *= times;
+    one.error *= fabs(times);
+    one.plain *= fabs(times);
+    return one;
+}
+
 pspec_status ps_rate_fit(ps_rate *out, const ps_log_variance *logs, size_t num, ps_error *error) {
     const double doubled = 2 * log(2);
-    ps_uncertain slope = {NAN, NAN};
-    ps_uncertain square = {NAN, NAN};
+    ps_uncertain slope = PS_UNCERTAIN_NONE;
+    ps_uncertain square = PS_UNCERTAIN_NONE;
     PS_TRY(check_logs(logs, num, error));
     PS_TRY(find_coefficient(&slope, 1, logs, num, error));
     if (num > 2) {
@@ -151,8 +159,8 @@ pspec_status ps_rate_fit(ps_rate *out, const ps_log_variance *logs, size_t num, 
     *out = (ps_rate){.num = num,
                      .from = logs[0].points,
                      .to = logs[num - 1].points,
-                     .rate = {-slope.value, slope.error},
-                     .change = {-doubled * square.value, doubled * square.error}};
+                     .rate = scale(slope, -1),
+                     .change = scale(square, -doubled)};
     return PSPEC_OK;
 }
 

@@ -287,12 +287,18 @@ const ps_shape *ps_variance_job_shape(const ps_variance_job *job) {
 }
 
 /* What is added to the sum of powers for what lies beyond the cut-off has no error. */
-void ps_variance_job_log(const ps_variance_job *job, size_t integrand, bool is_measured,
+void ps_variance_job_log(const ps_variance_job *job, size_t integrand, ps_variance_number number,
                          ps_log_variance *out) {
     const ps_variance_row *const row = &job->rows[integrand];
-    const ps_mean variance =
-        is_measured ? (ps_mean){row->measured, row->measured_error}
-                    : (ps_mean){row->prediction.variance, row->prediction.standard_error};
+    const bool is_measured = number == PS_VARIANCE_MEASURED;
+    const double values[] = {
+        [PS_VARIANCE_PREDICTED] = row->prediction.variance,
+        [PS_VARIANCE_LOWER] = row->prediction.lower,
+        [PS_VARIANCE_UPPER] = row->prediction.upper,
+        [PS_VARIANCE_MEASURED] = row->measured,
+    };
+    const ps_mean variance = {values[number],
+                              is_measured ? row->measured_error : row->prediction.standard_error};
     ps_log_variance_make(out, ps_power_job_spectrum(job->spectrum)->mean_points, variance,
                          is_measured ? &job->measured_blocks[integrand]
                                      : &ps_power_job_weighted_blocks(job->spectrum)[integrand]);

@@ -47,6 +47,9 @@ typedef struct ps_variance_row {
 /* Larger single sets are not summed over pairs, which takes N^2/2 steps of the host. */
 enum { PS_MOST_PAIRWISE_POINTS = 1024 };
 
+/* Nothing of its sets is random but where they are moved to: there is one set, and one spectrum. */
+bool ps_variance_has_one_set(const ps_sampler_request *sampler);
+
 /* What is measured. */
 typedef struct ps_variance_trials {
     bool is_one_set;
@@ -75,8 +78,14 @@ ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job);
 const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index);
 /* [question.num_integrands], after run */
 const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job);
-/* The logarithm of a row's variance, predicted or measured, after run. */
-void ps_variance_job_log(const ps_variance_job *job, size_t integrand, bool is_measured,
+/* The logarithm of a number of a row, after run. */
+typedef enum ps_variance_number {
+    PS_VARIANCE_PREDICTED,
+    PS_VARIANCE_LOWER,
+    PS_VARIANCE_UPPER,
+    PS_VARIANCE_MEASURED
+} ps_variance_number;
+void ps_variance_job_log(const ps_variance_job *job, size_t integrand, ps_variance_number number,
                          ps_log_variance *out);
 /* The power that `upper` has beyond the cut-off, after run. */
 const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job);

@@ -10,6 +10,12 @@
 
 /* ---- what is measured ---------------------------------------------------------------------- */
 
+bool ps_variance_has_one_set(const ps_sampler_request *sampler) {
+    ps_sampler_request plain = *sampler;
+    plain.homogenize = false;
+    return ps_sampler_has_constant_power(&plain);
+}
+
 /* The one set of a sampler without randomness is moved as often as several would be. */
 static ps_variance_trials choose_trials(const ps_variance_job *job) {
     const ps_variance_question *const question = job->question;
@@ -21,9 +27,7 @@ static ps_variance_trials choose_trials(const ps_variance_job *job) {
         return (ps_variance_trials){is_single, ps_variance_sets_measured(&job->files),
                                     is_single ? moves : question->num_shifts};
     }
-    ps_sampler_request plain = *spectrum->sampler;
-    plain.homogenize = false;
-    return ps_sampler_has_constant_power(&plain)
+    return ps_variance_has_one_set(spectrum->sampler)
                ? (ps_variance_trials){true, 1, num * question->num_shifts}
                : (ps_variance_trials){false, num, question->num_shifts};
 }

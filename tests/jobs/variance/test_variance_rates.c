@@ -299,8 +299,10 @@ static void errors_are_calibrated(void **state) {
             const double points = memory[0].points.value;
             if (found.num == 1) {
                 assert_false(memory[0].is_a_below);
-                add_score(&crossings, (ps_uncertain){log(points), memory[0].points.error / points},
-                          log(256));
+                add_score(
+                    &crossings,
+                    (ps_uncertain){.value = log(points), .error = memory[0].points.error / points},
+                    log(256));
             }
         }
         assert_in_range(num_crossings, 990, 1010);
