@@ -105,10 +105,10 @@ static void write_rate(ps_text *out, const char *what, const ps_rate *rate,
                    -rate->rate.value, rate->rate.error, rate->from, rate->to);
 }
 
-/* What a line does not say. */
-static void write_change(ps_text *out, const ps_rate *rate) {
-    const double score = fabs(rate->change.value) / rate->change.error;
-    if (score >= PS_RATES_TOLD_APART) {
+/* What a line does not say: one false alarm for all samplers together. */
+static void write_change(ps_text *out, const ps_request *request, const ps_rate *rate) {
+    const double p_value = ps_uncertain_p_value(&rate->change, 0);
+    if ((double)request->num_sources * p_value <= request->false_alarm_rate) {
         ps_text_append(out,
                        "; this is no one power: whenever N doubles, r of N^-r %s by %.2g with the "
                        "standard error %.1g",
@@ -136,7 +136,7 @@ static pspec_status add_exponents(view *self, ps_table *table, size_t sampler, s
                    request->integrands[integrand]);
     write_rate(&self->text, "predicted", &rates[0], &reasons[0]);
     if (reasons[0].status == PSPEC_OK) {
-        write_change(&self->text, &rates[0]);
+        write_change(&self->text, request, &rates[0]);
     }
     if (request->num_shifts > 0) {
         write_rate(&self->text, "; measured", &rates[1], &reasons[1]);
@@ -245,6 +245,12 @@ static pspec_status add_crossings(view *self, ps_table *table, const pair *two,
     return add_crossing(self, table, two, NULL, error);
 }
 
+/* Any two samplers are compared at every N. */
+static double rate_of_test(const ps_request *request) {
+    const double num = (double)request->num_sources;
+    return request->false_alarm_rate / (num * (num - 1) / 2 * (double)request->num_counts);
+}
+
 static pspec_status add_pair(view *self, ps_table *table, size_t a, size_t b, size_t integrand,
                              ps_error *error) {
     const ps_request *const request = self->request;
@@ -262,8 +268,8 @@ static pspec_status add_pair(view *self, ps_table *table, size_t a, size_t b, si
     }
     two.from = self->logs[0][0].points;
     two.to = self->logs[0][two.num - 1].points;
-    PS_TRY(
-        ps_crossings_find(&found, self->crossings, self->logs[0], self->logs[1], two.num, error));
+    PS_TRY(ps_crossings_find(&found, self->crossings, self->logs[0], self->logs[1], two.num,
+                             rate_of_test(request), error));
     return add_crossings(self, table, &two, &found, error);
 }
 

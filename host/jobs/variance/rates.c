@@ -1,88 +1,67 @@
 #include "jobs/variance/rates.h"
 
 #include "base/memory.h"
-#include "math/gsl/regression.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- lines --------------------------------------------------------------------------------- */
 
-/* Least squares of a polynomial of ln N, about the middle of ln N. */
-typedef struct polynomial {
-    size_t num, num_regressors;
-    double middle;
-    double *regressors, *weights; /* [num][num_regressors], [num] */
-    double *unit;                 /* [num]: the values of one place at a time */
-} polynomial;
-
-static void release(polynomial *self) {
-    free(self->regressors);
-    free(self->weights);
-    free(self->unit);
+/* Coefficients of least squares are sums of the values times factors of ln N alone: a line has the
+ * mean of the slopes between neighbours, with weights that nothing random is in. Weights by errors
+ * would be made of the same numbers as the values, and of what is no line each would be another
+ * mean. */
+static double find_middle(const double *x, size_t num) {
+    double middle = 0;
+    for (size_t i = 0; i < num; i++) {
+        middle += x[i] / (double)num;
+    }
+    return middle;
 }
 
-/* Single errors were measured, and those that came out small would count for more: the weights are
- * of a power law of errors, by least squares. */
-static void weigh(polynomial *self, const double *x, const double *errors) {
-    double mean = 0;
-    double product = 0;
+/* factors [num] hold a polynomial that all of lower degree are orthogonal to. */
+static void divide_by_square(double *factors, size_t num) {
     double square = 0;
-    for (size_t i = 0; i < self->num; i++) {
-        mean += log(errors[i]) / (double)self->num;
-        product += (x[i] - self->middle) * log(errors[i]);
-        square += (x[i] - self->middle) * (x[i] - self->middle);
+    for (size_t i = 0; i < num; i++) {
+        square += factors[i] * factors[i];
     }
-    for (size_t i = 0; i < self->num; i++) {
-        self->weights[i] = exp(-2 * (mean + product / square * (x[i] - self->middle)));
+    for (size_t i = 0; i < num; i++) {
+        factors[i] /= square;
     }
 }
 
-static pspec_status prepare(polynomial *self, const double *x, const double *errors,
-                            ps_error *error) {
-    PS_TRY(PS_NEW(&self->regressors, self->num * self->num_regressors, "a regression", error));
-    PS_TRY(PS_NEW(&self->weights, self->num, "a regression", error));
-    PS_TRY(PS_NEW(&self->unit, self->num, "a regression", error));
-    for (size_t i = 0; i < self->num; i++) {
-        self->middle += x[i] / (double)self->num;
+static void fit_slope(double *factors, const double *x, size_t num) {
+    const double middle = find_middle(x, num);
+    for (size_t i = 0; i < num; i++) {
+        factors[i] = x[i] - middle;
     }
-    for (size_t i = 0; i < self->num; i++) {
-        for (size_t k = 0; k < self->num_regressors; k++) {
-            self->regressors[i * self->num_regressors + k] = pow(x[i] - self->middle, (double)k);
-        }
+    divide_by_square(factors, num);
+}
+
+/* Of (ln N)^2. */
+static void fit_square(double *factors, const double *x, size_t num) {
+    const double middle = find_middle(x, num);
+    double squares = 0;
+    double cubes = 0;
+    for (size_t i = 0; i < num; i++) {
+        squares += pow(x[i] - middle, 2);
+        cubes += pow(x[i] - middle, 3);
     }
-    weigh(self, x, errors);
+    for (size_t i = 0; i < num; i++) {
+        const double u = x[i] - middle;
+        factors[i] = u * u - cubes / squares * u - squares / (double)num;
+    }
+    divide_by_square(factors, num);
+}
+
+/* *x [2][num], to be freed: ln N, and room for factors. */
+static pspec_status make_places(double **x, const ps_log_variance *logs, size_t num,
+                                ps_error *error) {
+    PS_TRY(PS_NEW(x, 2 * num, "a regression", error));
+    for (size_t i = 0; i < num; i++) {
+        (*x)[i] = log(logs[i].points);
+    }
     return PSPEC_OK;
-}
-
-/* factors [num_regressors][num]: the coefficients are sums of the values times these. */
-static pspec_status find_factors(polynomial *self, double *factors, ps_error *error) {
-    for (size_t i = 0; i < self->num; i++) {
-        ps_regression found;
-        memset(self->unit, 0, self->num * sizeof *self->unit);
-        self->unit[i] = 1;
-        PS_TRY(ps_regress(&found, self->num, self->num_regressors, self->regressors, self->unit,
-                          self->weights, error));
-        for (size_t k = 0; k < self->num_regressors; k++) {
-            factors[k * self->num + i] = found.coefficients[k];
-        }
-    }
-    return PSPEC_OK;
-}
-
-/* *factors is to be freed, also after an error; *middle is the ln N about which they are. */
-static pspec_status fit(double **factors, double *middle, size_t num_regressors, const double *x,
-                        const double *errors, size_t num, ps_error *error) {
-    polynomial self = {.num = num, .num_regressors = num_regressors};
-    pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, PS_NEW(factors, num * num_regressors, "a regression", error));
-    PS_TRY_OUT(status, prepare(&self, x, errors, error));
-    PS_TRY_OUT(status, find_factors(&self, *factors, error));
-    *middle = self.middle;
-out:
-    release(&self);
-    return status;
 }
 
 /* ---- rates --------------------------------------------------------------------------------- */
@@ -113,32 +92,6 @@ static pspec_status check_logs(const ps_log_variance *logs, size_t num, ps_error
                          num_different == 1 ? "is" : "are", num_different);
 }
 
-static pspec_status fit_logs(double **factors, size_t num_regressors, const ps_log_variance *logs,
-                             size_t num, ps_error *error) {
-    double *x = NULL;
-    double middle = 0;
-    PS_TRY(PS_NEW(&x, 2 * num, "a regression", error));
-    for (size_t i = 0; i < num; i++) {
-        x[i] = log(logs[i].points);
-        x[num + i] = logs[i].error;
-    }
-    const pspec_status status = fit(factors, &middle, num_regressors, x, x + num, num, error);
-    free(x);
-    return status;
-}
-
-/* The coefficient of (ln N)^power. */
-static pspec_status find_coefficient(ps_uncertain *out, size_t power, const ps_log_variance *logs,
-                                     size_t num, ps_error *error) {
-    double *factors = NULL;
-    const pspec_status status = fit_logs(&factors, power + 1, logs, num, error);
-    if (status == PSPEC_OK) {
-        *out = ps_log_variances_combine(logs, factors + power * num, num);
-    }
-    free(factors);
-    return status;
-}
-
 /* times: of either sign */
 static ps_uncertain scale(ps_uncertain one, double times) {
     one.value *= times;
@@ -149,18 +102,21 @@ static ps_uncertain scale(ps_uncertain one, double times) {
 
 pspec_status ps_rate_fit(ps_rate *out, const ps_log_variance *logs, size_t num, ps_error *error) {
     const double doubled = 2 * log(2);
-    ps_uncertain slope = PS_UNCERTAIN_NONE;
-    ps_uncertain square = PS_UNCERTAIN_NONE;
+    double *x = NULL;
     PS_TRY(check_logs(logs, num, error));
-    PS_TRY(find_coefficient(&slope, 1, logs, num, error));
-    if (num > 2) {
-        PS_TRY(find_coefficient(&square, 2, logs, num, error));
-    }
+    PS_TRY(make_places(&x, logs, num, error));
+    double *const factors = x + num;
     *out = (ps_rate){.num = num,
                      .from = logs[0].points,
                      .to = logs[num - 1].points,
-                     .rate = scale(slope, -1),
-                     .change = scale(square, -doubled)};
+                     .change = PS_UNCERTAIN_NONE};
+    fit_slope(factors, x, num);
+    out->rate = scale(ps_log_variances_combine(logs, factors, num), -1);
+    if (num > 2) {
+        fit_square(factors, x, num);
+        out->change = scale(ps_log_variances_combine(logs, factors, num), -doubled);
+    }
+    free(x);
     return PSPEC_OK;
 }
 
@@ -173,53 +129,51 @@ ps_uncertain ps_rate_between(const ps_log_variance *first, const ps_log_variance
 
 /* ---- crossings ----------------------------------------------------------------------------- */
 
-/* ratios: ln(a/b). -1: a has less, 1: b has, 0: not told apart. */
-static int which_has_less(const ps_log_variance *ratio) {
-    const bool is_told = fabs(ratio->value) >= PS_RATES_TOLD_APART * ratio->error;
+/* ratio: ln(a/b). -1: a has less, 1: b has, 0: not told apart. */
+static int which_has_less(const ps_log_variance *ratio, double p_value) {
+    const double one = 1;
+    const ps_uncertain found = ps_log_variances_combine(ratio, &one, 1);
+    const bool is_told = ps_uncertain_p_value(&found, 0) <= p_value;
     return !is_told || ratio->value == 0 ? 0 : ratio->value < 0 ? -1 : 1;
 }
 
-/* Where the line through these is 0: the middle less c/s, c and s its coefficients. */
+/* Where the line through these is 0: the middle less c/s, c the mean and s the slope. */
 static pspec_status cross(ps_crossing *out, const ps_log_variance *ratios, size_t num,
                           ps_error *error) {
     double *x = NULL;
-    double *factors = NULL;
-    double middle = 0;
-    pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, PS_NEW(&x, 2 * num, "a regression", error));
+    double c = 0;
+    PS_TRY(make_places(&x, ratios, num, error));
+    double *const factors = x + num;
     for (size_t i = 0; i < num; i++) {
-        x[i] = log(ratios[i].points);
-        x[num + i] = num > 2 ? ratios[i].error : 1;
+        c += ratios[i].value / (double)num;
     }
-    PS_TRY_OUT(status, fit(&factors, &middle, 2, x, x + num, num, error));
-    const double c = ps_log_variances_combine(ratios, factors, num).value;
-    const double s = ps_log_variances_combine(ratios, factors + num, num).value;
+    fit_slope(factors, x, num);
+    const double s = ps_log_variances_combine(ratios, factors, num).value;
     for (size_t i = 0; i < num; i++) {
-        factors[i] = -(factors[i] - c / s * factors[num + i]) / s;
+        factors[i] = -(1 / (double)num - c / s * factors[i]) / s;
     }
-    out->points.value = exp(middle - c / s);
+    out->points.value = exp(find_middle(x, num) - c / s);
     out->points.error = out->points.value * ps_log_variances_combine(ratios, factors, num).error;
     out->is_a_below = ratios[0].value < 0;
-out:
     free(x);
-    free(factors);
-    return status;
+    return PSPEC_OK;
 }
 
 /* From one that is told apart to the next one, which is told apart the other way. */
 static pspec_status find_between(ps_crossings *out, const ps_log_variance *ratios, size_t num,
-                                 ps_error *error) {
+                                 double p_value, ps_error *error) {
     size_t last = num;
+    int before = 0;
     for (size_t i = 0; i < num; i++) {
-        const int now = which_has_less(&ratios[i]);
-        const bool is_other = last < num && now == -which_has_less(&ratios[last]);
-        if (now != 0 && is_other) {
+        const int now = which_has_less(&ratios[i], p_value);
+        if (now != 0 && now == -before) {
             PS_TRY(cross(&out->found[out->num], ratios + last, i + 1 - last, error));
             out->num++;
         }
         out->num_a += now < 0;
         out->num_b += now > 0;
         last = now != 0 ? i : last;
+        before = now != 0 ? now : before;
     }
     return PSPEC_OK;
 }
@@ -255,7 +209,8 @@ bool ps_crossings_have_same_points(const ps_log_variance *a, const ps_log_varian
 }
 
 pspec_status ps_crossings_find(ps_crossings *out, ps_crossing *found, const ps_log_variance *a,
-                               const ps_log_variance *b, size_t num, ps_error *error) {
+                               const ps_log_variance *b, size_t num, double p_value,
+                               ps_error *error) {
     ps_log_variance *ratios = NULL;
     *out = (ps_crossings){.found = found};
     PS_TRY(PS_NEW(&ratios, num, "ratios of variances", error));
@@ -263,7 +218,7 @@ pspec_status ps_crossings_find(ps_crossings *out, ps_crossing *found, const ps_l
         const ps_log_variance at_a = move(b, num, i, a[i].points);
         ratios[i] = ps_log_variances_difference(&a[i], &at_a);
     }
-    const pspec_status status = find_between(out, ratios, num, error);
+    const pspec_status status = find_between(out, ratios, num, p_value, error);
     free(ratios);
     return status;
 }

@@ -12,7 +12,7 @@
 typedef struct ps_rate {
     size_t num;
     double from, to;     /* N */
-    ps_uncertain rate;   /* by a line, weighted by errors */
+    ps_uncertain rate;   /* by a line: a mean of the slopes from N to N, whatever the curve is */
     ps_uncertain change; /* of the rate when N doubles, by a parabola; nan of two N */
 } ps_rate;
 
@@ -21,9 +21,6 @@ pspec_status ps_rate_fit(ps_rate *out, const ps_log_variance *logs, size_t num,
                          ps_error *error) PS_MUST_CHECK;
 /* Between two N. */
 ps_uncertain ps_rate_between(const ps_log_variance *first, const ps_log_variance *second);
-
-/* Variances are told apart from so many standard errors of ln(a/b) on. */
-#define PS_RATES_TOLD_APART 3.0
 
 typedef struct ps_crossing {
     bool is_a_below;     /* before it a has the smaller variance, then b; else the other way */
@@ -39,10 +36,12 @@ typedef struct ps_crossings {
 /* Are their N the same, or differ by less than a tenth of the gap to the next N on a logarithmic
  * axis? Then b is taken at those of a, along a line to the next. */
 bool ps_crossings_have_same_points(const ps_log_variance *a, const ps_log_variance *b, size_t num);
-/* Of a and b at the same num N, as above, ascending. found [num] holds what is found. A crossing
- * lies between two N at which one and the other have less; a line is fitted to ln(a/b) from the one
+/* Of a and b at the same num N, as above, ascending. found [num] holds what is found. Two variances
+ * are told apart where a ratio such as theirs has no more than this probability. A crossing lies
+ * between two N at which one and the other have less; a line is fitted to ln(a/b) from the one
  * to the other, and to what lies between them, which is not told apart. */
 pspec_status ps_crossings_find(ps_crossings *out, ps_crossing *found, const ps_log_variance *a,
-                               const ps_log_variance *b, size_t num, ps_error *error) PS_MUST_CHECK;
+                               const ps_log_variance *b, size_t num, double p_value,
+                               ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -50,6 +50,9 @@ awk -F, -v r="$(keys rate)" -v e="$(keys rate_error)" '
     $1 == 64 && ($10 != "" || $11 != "") { exit 1 }
     $1 == 256 { exit !($10 - r < 1e-9 && r - $10 < 1e-9 && $11 - e < 1e-9 && e - $11 < 1e-9) }' out ||
     complain "two N: $(grep -v '^#' out)"
+# Student's quantile of 19 degrees of freedom, from tables
+keys student_95 | awk '{ bad += !($1 > 2.093023 && $1 < 2.093025) } END { exit bad || NR != 3 }' || complain "quantile: $(keys student_95)"
+[[ $(keys false_alarm_rate) == 0.001 && $(keys measured_error_is) == *student_95* ]] || complain "what errors are: $(grep -v '^# rate' out | head -n 14)"
 columns=$(grep -v '^#' out | cut -d, -f1-9)
 runs 0 --sampler jittered --integrand disk -n 64,144,256 -m 20
 [[ $(grep -v '^#' out) == "$columns" ]] || complain 'rates change the other columns'

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { MOST = 12 };
+static const double THREE_ERRORS = 0.0027; /* of normal numbers */
 
 /* Each value is the same part of all: no scatter but what blocks have. */
 static ps_log_variance make(double points, double variance, double error) {
@@ -183,26 +184,25 @@ static void what_is_no_line_has_a_sentence(void **state) {
     refuse(logs, 2, "at N = 16 is 0 or unknown");
 }
 
-/* Errors that grow by a power of N weigh as their squares: the line of normal equations. */
-static void errors_weigh_by_their_squares(void **state) {
+/* Of what is no line the rate is a mean of slopes with weights that errors have no part in:
+ * u (n - u) of the gap before number u of n, where gaps are equal. */
+static void a_rate_is_a_mean_of_slopes(void **state) {
     (void)state;
-    ps_log_variance logs[3];
+    const double values[] = {0, -1, -2.5, -4, -7};
+    ps_log_variance logs[5];
     ps_rate found;
     ps_error error = {0};
-    double sums[3] = {0}; /* of weights times 1, x, x^2 */
-    for (size_t i = 0; i < 3; i++) {
-        const double x = (double)i;
-        const double own = 0.1 * pow(2, x);
-        logs[i] = make_alone(i, exp(x), i == 2 ? -2.5 : -x, own);
-        for (size_t k = 0; k < 3; k++) {
-            sums[k] += pow(x, (double)k) / (own * own);
-        }
+    double slopes = 0;
+    double square = 0;
+    for (size_t i = 0; i < 5; i++) {
+        const double own = 0.1 * pow(2, (double)i);
+        logs[i] = make_alone(i, exp((double)i), values[i], own);
+        slopes += i > 0 ? (double)(i * (5 - i)) / 20 * (values[i - 1] - values[i]) : 0;
+        square += pow(((double)i - 2) / 10 * own, 2);
     }
-    const double square = sums[2] - sums[1] * sums[1] / sums[0];
-    const double bump = -0.5 / 0.16 * (2 - sums[1] / sums[0]);
-    assert_int_equal(ps_rate_fit(&found, logs, 3, &error), PSPEC_OK);
-    test_assert_near(found.rate.error, 1 / sqrt(square), 1e-14);
-    test_assert_near(found.rate.value, 1 - bump / square, 1e-14);
+    assert_int_equal(ps_rate_fit(&found, logs, 5, &error), PSPEC_OK);
+    test_assert_near(found.rate.value, slopes, 1e-14);
+    test_assert_near(found.rate.error, sqrt(square), 1e-14);
 }
 
 /* The logarithm of a mean with the relative error e is e^2/2 too small on average. */
@@ -276,6 +276,8 @@ static void errors_are_calibrated(void **state) {
     (void)state;
     static const uint64_t counts[] = {10, 40, 300};
     static const double squares[] = {1.35, 1.2, 1.2};
+    /* by Student's quantiles ten realizations do not always tell the ends apart */
+    static const size_t fewest[] = {960, 990, 990};
     for (size_t c = 0; c < 3; c++) {
         calibration rates = {0};
         calibration changes = {0};
@@ -292,7 +294,8 @@ static void errors_are_calibrated(void **state) {
             simulate(a, MOST, 1, 1.5, counts[c], &random);
             simulate(b, MOST, 0.0625, 1, counts[c], &random); /* N = 256 */
             assert_int_equal(ps_rate_fit(&rate, a, 8, &error), PSPEC_OK);
-            assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+            assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, THREE_ERRORS, &error),
+                             PSPEC_OK);
             add_score(&rates, rate.rate, 1.5);
             add_score(&changes, rate.change, 0);
             num_crossings += found.num;
@@ -305,7 +308,7 @@ static void errors_are_calibrated(void **state) {
                     log(256));
             }
         }
-        assert_in_range(num_crossings, 990, 1010);
+        assert_in_range(num_crossings, fewest[c], 1010);
         assert_calibrated("rates", counts[c], &rates, squares[c]);
         assert_calibrated("changes", counts[c], &changes, squares[c]);
         assert_calibrated("crossings", counts[c], &crossings, squares[c]);
@@ -327,7 +330,7 @@ static void lines_cross_where_they_do(void **state) {
         a[i] = make_alone(i, n, -1.5 * log(n), 0.02);
         b[i] = make_alone(MOST + i, n, -log(20 * n), 0.02);
     }
-    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, THREE_ERRORS, &error), PSPEC_OK);
     assert_int_equal(found.num, 1);
     assert_int_equal(found.num_a, 4);
     assert_int_equal(found.num_b, 8);
@@ -336,11 +339,11 @@ static void lines_cross_where_they_do(void **state) {
     /* ln(a/b) = (ln 400 - ln N) / 2 at both ends, of which a share t and 1 - t counts */
     const double t = log(400. / 256) / log(2);
     test_assert_near(memory[0].points.error, 400 * 2 * 0.02 * sqrt(2) * hypot(t, 1 - t), 1e-9);
-    assert_int_equal(ps_crossings_find(&found, memory, b, a, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, b, a, MOST, THREE_ERRORS, &error), PSPEC_OK);
     assert_true(found.num == 1 && memory[0].is_a_below);
     /* the end that is known less well counts by its share */
     a[8] = make_alone(8, 512, a[8].value, 0.03);
-    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, THREE_ERRORS, &error), PSPEC_OK);
     test_assert_near(memory[0].points.error,
                      400 * 2 * hypot((1 - t) * hypot(0.02, 0.02), t * hypot(0.03, 0.02)), 1e-9);
     /* not told apart between 64 and 2048: the line goes through all of them */
@@ -348,7 +351,7 @@ static void lines_cross_where_they_do(void **state) {
         a[i].error = a[i].deviations[i] = 0.25;
         b[i].error = b[i].deviations[MOST + i] = 0.02;
     }
-    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, THREE_ERRORS, &error), PSPEC_OK);
     assert_int_equal(found.num, 1);
     test_assert_near(memory[0].points.value, 400, 1e-9);
     assert_true(memory[0].points.error < 400 * 2 * 0.25);
@@ -358,13 +361,13 @@ static void lines_cross_where_they_do(void **state) {
         b[i] = make_alone(MOST + i, n, -log(20 * n), 0.02);
     }
     assert_true(ps_crossings_have_same_points(a, b, MOST));
-    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, THREE_ERRORS, &error), PSPEC_OK);
     assert_int_equal(found.num, 1);
     test_assert_near(memory[0].points.value, 400, 1e-9);
     for (size_t i = 0; i < MOST; i++) {
         a[i] = make_alone(i, a[i].points, a[i].value, 0.02);
     }
-    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, a, b, MOST, THREE_ERRORS, &error), PSPEC_OK);
     const double share[] = {log(256 / b[7].points) / log(b[8].points / b[7].points),
                             log(512 / b[8].points) / log(b[9].points / b[8].points)};
     const double at_a = hypot(1 - t, t);
@@ -375,7 +378,7 @@ static void lines_cross_where_they_do(void **state) {
     assert_false(ps_crossings_have_same_points(a, b, MOST));
     assert_false(ps_crossings_have_same_points(a, b + 1, 1));
     /* and not at all */
-    assert_int_equal(ps_crossings_find(&found, memory, a, a, MOST, &error), PSPEC_OK);
+    assert_int_equal(ps_crossings_find(&found, memory, a, a, MOST, THREE_ERRORS, &error), PSPEC_OK);
     assert_true(found.num == 0 && found.num_a == 0 && found.num_b == 0);
 }
 
@@ -386,7 +389,7 @@ int main(void) {
         cmocka_unit_test(laws_are_given_back),
         cmocka_unit_test(a_curve_has_its_change),
         cmocka_unit_test(errors_know_what_depends),
-        cmocka_unit_test(errors_weigh_by_their_squares),
+        cmocka_unit_test(a_rate_is_a_mean_of_slopes),
         cmocka_unit_test(logarithms_are_not_biased),
         cmocka_unit_test(what_is_no_line_has_a_sentence),
         cmocka_unit_test(errors_are_calibrated),
