@@ -19,12 +19,15 @@ static size_t count_patterns(const ps_kept_shape *shape, size_t columns, size_t 
                : by_room;
 }
 
-/* Numbers of all patterns that were announced, within bounds. */
-static size_t count_numbers(const ps_kept_shape *shape, size_t columns) {
+static size_t count_most(const ps_kept_shape *shape) {
     const uint64_t bytes = shape->most_bytes > 0 && shape->most_bytes < most_by_default
                                ? shape->most_bytes
                                : most_by_default;
-    const size_t most = (size_t)(bytes / sizeof(double));
+    return (size_t)(bytes / sizeof(double));
+}
+
+/* Numbers of all patterns that were announced, within bounds. */
+static size_t count_numbers(const ps_kept_shape *shape, size_t columns, size_t most) {
     size_t per_pattern = 0;
     size_t numbers = 0;
     return shape->num_realizations > 0 &&
@@ -38,7 +41,8 @@ static size_t count_numbers(const ps_kept_shape *shape, size_t columns) {
 pspec_status ps_kept_patterns_create(ps_kept_patterns *kept, const ps_kept_shape *shape,
                                      ps_error *error) {
     const size_t columns = shape->dimension + 1; /* with a weight */
-    *kept = (ps_kept_patterns){.room = count_numbers(shape, columns)};
+    const size_t most = count_most(shape);
+    *kept = (ps_kept_patterns){.room = count_numbers(shape, columns, most), .most = most};
     kept->capacity = count_patterns(shape, columns, kept->room);
     PS_TRY(PS_NEW(&kept->numbers, kept->room, "patterns for a second plan", error));
     PS_TRY(PS_NEW(&kept->patterns, kept->capacity, "patterns for a second plan", error));
@@ -84,10 +88,48 @@ static const double *copy_numbers(ps_kept_patterns *kept, const double *numbers,
     return copy;
 }
 
+/* Coordinates of a pattern, and its weights behind them. */
+static size_t count_coordinates(const pspec_pattern *pattern) {
+    return pattern->num_points * pattern->dimension;
+}
+
+static size_t count_all(const pspec_pattern *pattern) {
+    return count_coordinates(pattern) + (pattern->weights != NULL ? pattern->num_points : 0);
+}
+
+/* Numbers may have moved. */
+static void point_at_numbers(ps_kept_patterns *kept) {
+    size_t used = 0;
+    for (size_t i = 0; i < kept->num; i++) {
+        pspec_pattern *const pattern = &kept->patterns[i];
+        const double *const numbers = kept->numbers + used;
+        used += count_all(pattern);
+        pattern->points = numbers;
+        pattern->weights = pattern->weights != NULL ? numbers + count_coordinates(pattern) : NULL;
+    }
+}
+
+/* Room for one more pattern of so many numbers, also where fewer or smaller ones were announced. */
+static bool make_room(ps_kept_patterns *kept, size_t needed) {
+    static const char what[] = "patterns for a second plan";
+    void *patterns = kept->patterns;
+    void *numbers = kept->numbers;
+    const bool has_room = needed <= kept->most - kept->used &&
+                          ps_grow(&patterns, &kept->capacity, kept->num + 1, sizeof *kept->patterns,
+                                  what, NULL) == PSPEC_OK &&
+                          ps_grow(&numbers, &kept->room, kept->used + needed, sizeof *kept->numbers,
+                                  what, NULL) == PSPEC_OK;
+    kept->patterns = patterns;
+    if (numbers != kept->numbers) {
+        kept->numbers = numbers;
+        point_at_numbers(kept);
+    }
+    return has_room;
+}
+
 static bool add_one(ps_kept_patterns *kept, const pspec_pattern *pattern) {
-    const size_t coordinates = pattern->num_points * pattern->dimension;
-    const size_t needed = coordinates + (pattern->weights != NULL ? pattern->num_points : 0);
-    if (kept->num == kept->capacity || needed > kept->room - kept->used) {
+    const size_t coordinates = count_coordinates(pattern);
+    if (!make_room(kept, count_all(pattern))) {
         return false;
     }
     pspec_pattern *const copy = &kept->patterns[kept->num++];

@@ -1,6 +1,7 @@
 /* Copies of the patterns that an average has had, for who cannot be asked for them again: a second
- * plan begins with the first of them. Allocates all its room at once; what does not fit is not
- * kept, and then nothing can be had again.
+ * plan begins with the first of them. Allocates room for what was announced at once, and more where
+ * patterns are larger, or more of them, up to most_bytes; what does not fit is not kept, and then
+ * nothing can be had again.
  */
 #ifndef PS_API_KEPT_PATTERNS_H
 #define PS_API_KEPT_PATTERNS_H
@@ -19,9 +20,9 @@ typedef struct ps_kept_shape {
 typedef struct ps_kept_patterns {
     pspec_pattern *patterns; /* [num], pointing into numbers; borrowed by who runs them again */
     size_t num, capacity;
-    double *numbers; /* [room] coordinates and weights */
-    size_t used, room;
-    bool is_partial; /* one did not fit */
+    double *numbers;         /* [room] coordinates and weights */
+    size_t used, room, most; /* most: that room may become */
+    bool is_partial;         /* one did not fit */
 } ps_kept_patterns;
 
 pspec_status ps_kept_patterns_create(ps_kept_patterns *kept, const ps_kept_shape *shape,

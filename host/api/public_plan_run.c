@@ -119,11 +119,13 @@ static pspec_status settle(pspec_plan *plan, ps_error *error) {
         return note(plan, status);
     }
     const ps_accuracy *const accuracy = &plan->runner.accuracy;
-    return ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                   "these patterns have a mean power of %.3g, so %s precision has an error of "
-                   "%.2g, above the tolerance %g: make a plan of higher precision",
-                   accuracy->largest_mean_power, ps_precision_name(plan->choice.chosen->precision),
-                   accuracy->error, plan->problem.tolerance);
+    return ps_fail(
+        error, PSPEC_ERROR_TOLERANCE,
+        "these patterns, of up to %llu points, have a mean power of %.3g, so %s precision "
+        "has an error of %.2g, above the tolerance %g: make a plan of higher precision",
+        (unsigned long long)accuracy->largest_points, accuracy->largest_mean_power,
+        ps_precision_name(plan->choice.chosen->precision), accuracy->error,
+        plan->problem.tolerance);
 }
 
 pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out, const ps_bins **bins) {

@@ -52,6 +52,7 @@ typedef struct ps_accuracy {
     double length_error;
     double largest_share;      /* largest sum w^2 / (sum |w|)^2 of a realization */
     double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
+    uint64_t largest_points;   /* of a realization */
     bool was_checked;
     /* Largest deviation from the referee, of |S| in units of sqrt(sum w^2), of pair sums in (sum
      * |w|)^2 */

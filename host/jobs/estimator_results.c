@@ -105,6 +105,7 @@ const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
     ps_accuracy accuracy = estimator->accuracy;
     accuracy.error = ps_estimator_error_at(estimator, accuracy.largest_mean_power);
+    accuracy.largest_points = estimator->totals.largest_points;
     return accuracy;
 }
 

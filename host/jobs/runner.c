@@ -48,12 +48,22 @@ static pspec_status add_all(ps_runner *runner, ps_error *error) {
                                                           : PSPEC_OK;
 }
 
-/* The plan for the powers that were measured, if there is one; else all is as it was. */
+/* Errors grow with the number of points, too, of which a set may have more than were announced. */
+static void take_measured(ps_problem *problem, const ps_accuracy *accuracy) {
+    problem->expected_power = accuracy->largest_mean_power;
+    problem->weight_share = accuracy->largest_share;
+    if (accuracy->largest_points > problem->num_points) {
+        problem->num_points = accuracy->largest_points;
+        problem->planned_points = accuracy->largest_points;
+    }
+}
+
+/* The plan for the powers and numbers of points that were measured, if there is one; else all is as
+ * it was. */
 static pspec_status plan_again(ps_runner *runner, ps_error *error) {
     const ps_plan plan = *runner->plan; /* `chosen` is right again once it is copied back */
     const ps_problem problem = *runner->problem;
-    runner->problem->expected_power = runner->accuracy.largest_mean_power;
-    runner->problem->weight_share = runner->accuracy.largest_share;
+    take_measured(runner->problem, &runner->accuracy);
     pspec_status status = runner->kind->plan(runner->job, error);
     if (status == PSPEC_OK) {
         status = ps_plan_require(runner->plan, runner->problem, error);
@@ -82,7 +92,7 @@ static bool is_settled(const ps_runner *runner) {
 pspec_status ps_runner_settle(ps_runner *runner, ps_error *error) {
     enum {
         MOST_PLANS = 2
-    }; /* the second has the powers; one more, should another engine measure larger ones */
+    }; /* the second has powers and points; one more, should another engine measure larger ones */
     PS_TRY(measure(runner, error));
     for (int i = 0; i < MOST_PLANS && !is_settled(runner); i++) {
         PS_TRY(plan_again(runner, error));

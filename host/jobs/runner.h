@@ -1,6 +1,6 @@
 /* The one way through a job, of the program and of the library: plan -> estimator, which checks
  * itself -> realizations, with looks at the standard error between them -> another plan when the
- * powers that were measured are too large for this one -> the same realizations again.
+ * powers that were measured, or sets, are too large for this one -> the same realizations again.
  *
  * Kinds of jobs differ in what they give the estimator and in what they keep of it: ps_runner_kind.
  * What concerns every job belongs here, and has its place: a range of realizations begins and ends

@@ -60,10 +60,10 @@ typedef struct pspec_power_request {
  * memory. The choice depends on the request, the device and the limit alone; nothing is timed. It
  * is the choice of the program for the same question, and so are the bits of the averages.
  *
- * Powers are known only once they are measured. When they are so large that e exceeds the
- * tolerance, the plan chooses once more, for these powers, and runs the patterns again, of which
- * it keeps copies for that: at most 64 MiB, and at most a quarter of a memory limit. That happens
- * when a spectrum is asked for; later patterns go to the new engine. */
+ * Powers are known only once they are measured, and patterns may have more points than the request
+ * said. Where e then exceeds the tolerance, the plan chooses once more, for these, and runs the
+ * patterns again, of which it keeps copies for that: at most 64 MiB, and at most a quarter of a
+ * memory limit. That happens when a spectrum is asked for; later patterns go to the new engine. */
 PSPEC_EXPORT pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
                                             const pspec_power_request *request);
 /** What to compute on the sphere. Begin with #PSPEC_ANGULAR_REQUEST_INIT and set what differs. */
@@ -112,10 +112,10 @@ PSPEC_EXPORT const char *pspec_plan_text(const pspec_plan *plan);
  *
  * Small calls cost little: patterns are checked at once and copied (at most 64 MiB), and the engine
  * runs when there is a batch of them or a spectrum is asked for; whole batches of a call run at
- * once. Nothing is borrowed after the call, and nothing allocated, unless a pattern has more points
- * than the request said. Weights take memory, too: where the context has a limit and the first
- * pattern has weights, the plan is made anew for them, and #PSPEC_ERROR_MEMORY says that they do
- * not fit.
+ * once. Nothing is borrowed after the call, and nothing allocated, unless there are more patterns,
+ * or larger ones, than the request said. Weights take memory, too: where the context has a limit
+ * and the first pattern has weights, the plan is made anew for them, and #PSPEC_ERROR_MEMORY says
+ * that they do not fit.
  *
  * #PSPEC_ERROR_INPUT names the pattern (sets count from 1, since the plan began) and the point.
  * After any error but #PSPEC_ERROR_INVALID_ARGUMENT the plan takes no more: destroy it or begin
