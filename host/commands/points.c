@@ -173,7 +173,6 @@ static pspec_status sample_one(const ps_request *request, size_t question,
     ps_sampler_request sampler = {0};
     void *points = NULL;
     PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
-    PS_TRY(ps_points_check_memory(&sampler, 1, request->limits.constraints.memory_limit, error));
     const size_t most = ps_sampler_most_points(&sampler);
     PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
     /* gigabytes in small pages take half a second to give back, also where a signal ends it */
@@ -190,6 +189,8 @@ static pspec_status check_samplers(const ps_request *request, ps_error *error) {
     for (size_t i = 0; i < ps_request_num_questions(request); i++) {
         ps_sampler_request sampler = {0};
         PS_TRY(ps_sampler_request_make(&sampler, request, i, error));
+        PS_TRY(
+            ps_points_check_memory(&sampler, 1, request->limits.constraints.memory_limit, error));
     }
     return PSPEC_OK;
 }

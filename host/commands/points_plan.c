@@ -2,6 +2,7 @@
 #include "commands/points.h"
 
 #include "answers/points/points.h"
+#include "base/process/memory_limit.h"
 #include "jobs/point_phases.h"
 #include "jobs/spectrum/power_phases.h"
 #include "plan/specs.h"
@@ -12,14 +13,16 @@
 /* Points that are only drawn are of one realization, and not written. */
 static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t question,
                                 bool is_drawn, double *bytes, ps_error *error) {
+    const uint64_t limit = request->limits.constraints.memory_limit;
     ps_sampler_request sampler;
     PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
-    PS_TRY(ps_points_check_memory(&sampler, 1, request->limits.constraints.memory_limit, error));
-    *bytes = fmax(*bytes, ps_points_bytes(&sampler, 1));
+    const double own_bytes = ps_points_bytes(&sampler, 1);
+    PS_TRY(limit > 0 ? ps_points_check_memory(&sampler, 1, limit, error) : PSPEC_OK);
+    *bytes = fmax(*bytes, own_bytes);
     const double sets = is_drawn ? 1 : (double)request->num_realizations;
     const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
     ps_phases_sample(phases, &sampler, sets, &kept);
-    ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
+    ps_phases_touch(phases, own_bytes);
     if (!is_drawn) {
         ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
                         sets * (double)sampler.num_points * sampler.dimension);
@@ -32,6 +35,7 @@ pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *reques
     ps_phases phases = ps_plan_table_begin_phases(planner);
     const bool is_drawn = ps_request_only_draws(request);
     double bytes = 0; /* of the largest */
+    ps_memory_room room;
     if (request->num_sources != 1 && !(is_drawn && request->num_sources > 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
@@ -43,8 +47,12 @@ pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *reques
         PS_TRY(add_sampler(&phases, request, i, is_drawn, &bytes, error));
     }
     ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_host(planner, &phases, bytes,
-                                  "points of one sampler, one realization at a time", error);
+    ps_memory_room_find(&room, 0);
+    return ps_plan_table_add_host(
+        planner, &phases, bytes,
+        bytes <= (double)room.bytes ? "points of one sampler, one realization at a time"
+                                    : "one realization at a time, but there is no room for it now",
+        error);
 }
 
 pspec_status ps_points_plan_convert(ps_planner *planner, const ps_request *request,

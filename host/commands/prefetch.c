@@ -1,6 +1,7 @@
 #include "commands/prefetch.h"
 #include "request/point_source.h"
 
+#include "answers/points/points.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "commands/points.h"
@@ -56,6 +57,8 @@ static pspec_status begin(prefetch *out, const ps_request *request, size_t quest
     if (!ps_sets_are_dear(&out->sampler)) {
         return fail_cheap(out, error);
     }
+    PS_TRY(
+        ps_points_check_memory(&out->sampler, 1, request->limits.constraints.memory_limit, error));
     return out->options.place.cache_folder != NULL
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_IO,
@@ -85,12 +88,17 @@ static pspec_status check_room(const ps_request *request, ps_error *error) {
 
 /* ---- the work ------------------------------------------------------------------------------ */
 
-/* The first set shows whether the store takes any. */
-static pspec_status check_store(ps_sets *sets, ps_error *error) {
+/* A set that cannot be kept was made in vain, and so would be those behind it. Without a store none
+ * is read or kept. */
+static pspec_status check_store(const prefetch *self, ps_sets *sets, ps_error *error) {
     const ps_set_counts counts = ps_sets_counts(sets);
-    return counts.num_read + counts.num_kept > 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_IO, "%s", ps_sets_trouble(sets));
+    if (counts.num_lost == 0 && counts.num_read + counts.num_kept > 0) {
+        return PSPEC_OK;
+    }
+    const char *const trouble = ps_sets_trouble(sets); /* no thread keeps sets any more */
+    const uint64_t kept = ps_sets_count_kept(&self->sampler, &self->options.place, self->num);
+    return ps_fail(error, PSPEC_ERROR_IO, "%s; %" PRIu64 " of %" PRIu64 " not kept", trouble,
+                   self->num - kept, self->num);
 }
 
 static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hooks,
@@ -98,7 +106,7 @@ static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answ
     size_t num_points = 0;
     for (uint64_t r = 0; r < self->num; r++) {
         PS_TRY(ps_sets_next(sets, self->points, &num_points, &hooks->watch, error));
-        PS_TRY(check_store(sets, error));
+        PS_TRY(check_store(self, sets, error));
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, self->num, NULL, error));
     }
     return PSPEC_OK;

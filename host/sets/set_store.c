@@ -21,7 +21,7 @@ struct ps_set_store {
     const ps_sampler_request *request;
     ps_cache *cache;
     ps_text folder, key; /* the key without the realization */
-    atomic_uint_least64_t num_read, num_kept;
+    atomic_uint_least64_t num_read, num_kept, num_lost;
     ps_error trouble; /* of the thread that was the first to have some */
 };
 
@@ -76,6 +76,7 @@ pspec_status ps_set_store_open(ps_set_store **out, const ps_sampler_request *req
     store->request = request;
     atomic_init(&store->num_read, 0);
     atomic_init(&store->num_kept, 0);
+    atomic_init(&store->num_lost, 0);
     const pspec_status status = open_all(store, place, error);
     if (status != PSPEC_OK) {
         ps_set_store_close(store);
@@ -156,6 +157,7 @@ static void keep_set(ps_set_store *store, const ps_text *key, const double *poin
     if (status == PSPEC_OK) {
         atomic_fetch_add(&store->num_kept, 1);
     } else {
+        atomic_fetch_add(&store->num_lost, 1);
         note_trouble(store, &reason);
     }
     ps_text_free(&bytes);
@@ -181,7 +183,7 @@ pspec_status ps_set_store_make(ps_set_store *store, uint64_t realization, double
 
 ps_set_counts ps_set_store_counts(const ps_set_store *store) {
     return (ps_set_counts){atomic_load(&store->num_read), atomic_load(&store->num_kept),
-                           ps_cache_num_broken(store->cache)};
+                           atomic_load(&store->num_lost), ps_cache_num_broken(store->cache)};
 }
 
 const char *ps_set_store_trouble(const ps_set_store *store) {

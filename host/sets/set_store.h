@@ -39,6 +39,7 @@ pspec_status ps_set_store_make(ps_set_store *store, uint64_t realization, double
 /* What ps_set_store_make has done so far. */
 typedef struct ps_set_counts {
     uint64_t num_read, num_kept; /* taken from the store, put there */
+    uint64_t num_lost;           /* made, and refused by the store */
     unsigned num_damaged;        /* and made anew */
 } ps_set_counts;
 ps_set_counts ps_set_store_counts(const ps_set_store *store);

@@ -65,7 +65,7 @@ if (ulimit -v 1000000) 2>/dev/null; then
     says 1 'set 1 takes more than [0-9.]+[MG], half of what ulimit -v leaves, .*; --memory SIZE would allow more$' \
         bash -c 'ulimit -v 1000000; "$1" power --input-format rps -k 3 /dev/zero' _ "$program"
     # shellcheck disable=SC2016
-    says 1 'not enough memory for points: they take 7.451G, but ulimit -v leaves' \
+    says 1 '500000000 points in 2 dimensions take 7.451G of memory, but ulimit -v leaves' \
         bash -c 'ulimit -v 1000000; "$1" sample --sampler white -n 5e8 -o points.npy' _ "$program"
     # shellcheck disable=SC2016
     says 1 'needs 7.[0-9]+G of memory, but ulimit -v leaves .* kept for the OpenCL driver' \

@@ -76,6 +76,11 @@ plan run scene.yaml
 grep -q '^# phase: pictures; .*; 1 by gnuplot' plan.csv || complain "scene: $(<plan.csv)"
 grep -q '^a:2,,phase,' plan.csv || complain "rows of phases: $(<plan.csv)"
 
+# what a sampler takes while it makes a set is in the bytes and in the time for memory
+plan sample --sampler ccvt:M=4096 -n 1024
+grep -q '^# phase: memory; .* 2.35e+08 bytes' plan.csv || complain "memory: $(<plan.csv)"
+[[ $(awk -F, '$2 == "chosen" { print $4 }' plan.csv) == 2351* ]] || complain "bytes: $(<plan.csv)"
+
 # The yardstick stands beside the command and not in it: what else runs may change between the two, but not every time.
 for try in 1 2 3; do
     "$bench" --quick "$program" >table.txt 2>&1 && break || ((try < 3)) || complain "seconds: $(<table.txt)"

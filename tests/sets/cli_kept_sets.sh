@@ -109,6 +109,32 @@ wait $! || complain "the other prefetch: exit $?"
 runs 0 "${bnot[@]}" -m 6 -o second.txt
 cmp anew.txt second.txt || complain "points of two at once are others"
 
+# a disk that fills, here a limit of the size of files, ends it with the first set that cannot be kept
+forget
+large=(--sampler fpo:distance=0.8 -n 2000)
+runs 0 --prefetch "${large[@]}" -m 3
+(
+    ulimit -f 16 # KiB, of which a set takes 33
+    runs 1 --prefetch "${large[@]}" -m 12
+    says 'file size limit, see ulimit -f; 9 of 12 not kept'
+    exit $bad
+) || bad=1
+[[ $(num_kept) == 3 ]] || complain "$(num_kept) sets are kept, not 3"
+
+# ---- memory ----
+# what makes a set counts, and is refused before it begins
+(
+    ulimit -v 2000000
+    for how in '-o none.txt' --prefetch; do
+        # shellcheck disable=SC2086
+        runs 1 --sampler bnot -n 2e7 $how
+        says '20000000 points in 2 dimensions take 5.886G of memory with what makes a set of them, but ulimit -v leaves 1'
+    done
+    "$program" plan sample --sampler bnot -n 2e7 >out 2>err || complain "plan without room: $(<err)"
+    [[ $(<out) == *'phase: memory; '*' 6.32e+09 bytes'*'but there is no room for it now'* ]] || complain "plan: $(<out)"
+    exit $bad
+) || bad=1
+
 # ---- the least recently used go ----
 forget
 runs 0 "${bnot[@]}" -m 20 --kept-sets 40960 -o second.txt

@@ -41,16 +41,21 @@ pspec_status ps_points_check_memory(const ps_sampler_request *sampler, double nu
                                     uint64_t limit, ps_error *error) {
     const double bytes = ps_points_bytes(sampler, num_sets);
     const bool has_work = ps_sampler_work_bytes(sampler) > 0;
+    ps_memory_room room = {limit, "above the limit of"};
     char needed[PS_SIZE_TEXT];
     char allowed[PS_SIZE_TEXT];
-    return limit == 0 || bytes <= (double)limit
+    if (limit == 0) {
+        ps_memory_room_find(&room, 0);
+    }
+    return bytes <= (double)room.bytes
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_MEMORY,
-                         "%.0f points in %u dimensions take %s of memory%s, above the limit of %s",
+                         "%.0f points in %u dimensions take %s of memory%s, %s%s%s %s",
                          num_sets * (double)sampler->num_points, sampler->dimension,
                          ps_size_show(needed, bytes),
-                         has_work ? " with what makes a set of them" : "",
-                         ps_size_show(allowed, (double)limit));
+                         has_work ? " with what makes a set of them" : "", limit > 0 ? "" : "but ",
+                         room.by, limit > 0 ? "" : " leaves",
+                         ps_size_show(allowed, (double)room.bytes));
 }
 
 /* Sets that the answer has whole: all, the first for a picture, or none. */
