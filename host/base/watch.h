@@ -16,6 +16,9 @@
  * many, done are done. */
 typedef pspec_progress_report ps_watch_report;
 
+/* What a phase counts, the end of its name: "passes" of "sampler: fpo, passes". */
+const char *ps_watch_things(const char *phase);
+
 typedef struct ps_watch {
     int (*tell)(const ps_watch_report *report, void *payload); /* not 0: stop */
     void *payload;

@@ -62,12 +62,6 @@ static void format_duration(char *text, size_t bytes, double seconds) {
     }
 }
 
-/* "weights: iterations" is work for weights, of which iterations are counted. */
-static const char *find_things(const char *phase) {
-    const char *const colon = strstr(phase, ": ");
-    return colon != NULL ? colon + 2 : phase;
-}
-
 /* While the first thing is not done there is no rate: the line has the time that passed. */
 static void append_first(ps_text *line, const char *things, uint64_t total, double seconds) {
     char passed[DURATION_BYTES];
@@ -89,7 +83,7 @@ static void append_rate(ps_text *line, uint64_t done, uint64_t total, double rat
 }
 
 static void append_state(ps_text *line, const ps_watch_report *report, double seconds) {
-    const char *const things = find_things(report->phase);
+    const char *const things = ps_watch_things(report->phase);
     ps_text_append(line, "%.*s", (int)(things - report->phase), report->phase);
     if (report->done == 0) {
         append_first(line, things, report->total, seconds);

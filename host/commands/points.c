@@ -108,7 +108,9 @@ static pspec_status write_realizations(ps_sets *sets, uint64_t num_realizations,
         if (outlet->writer != NULL) {
             PS_TRY(write_points(set, outlet->writer, &watch, error));
         }
-        PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
+        const pspec_status status =
+            ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error);
+        PS_TRY(ps_sets_say_kept(sets, status, error));
     }
     return PSPEC_OK;
 }

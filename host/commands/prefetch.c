@@ -107,7 +107,9 @@ static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answ
     for (uint64_t r = 0; r < self->num; r++) {
         PS_TRY(ps_sets_next(sets, self->points, &num_points, &hooks->watch, error));
         PS_TRY(check_store(self, sets, error));
-        PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, self->num, NULL, error));
+        const pspec_status status =
+            ps_watch_tell(&hooks->watch, "realizations", r + 1, self->num, NULL, error);
+        PS_TRY(ps_sets_say_kept(sets, status, error));
     }
     return PSPEC_OK;
 }

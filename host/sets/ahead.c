@@ -155,7 +155,7 @@ static pspec_status wait_for(ps_ahead *ahead, const slot_state *state, uint64_t 
         }
         const bool has_report = ahead->num_begun > index && state->has_report;
         const ps_watch_report said =
-            has_report ? state->report : (ps_watch_report){"realizations", index, 0, NULL};
+            has_report ? state->report : (ps_watch_report){PS_AHEAD_WAITS, index, 0, NULL};
         pthread_mutex_unlock(&ahead->mutex);
         const pspec_status status =
             ps_watch_tell(watch, said.phase, said.done, said.total, said.detail, error);

@@ -10,6 +10,9 @@
 
 typedef struct ps_ahead ps_ahead;
 
+/* The phase of a wait for a thing whose maker has said nothing yet. */
+#define PS_AHEAD_WAITS "realizations"
+
 typedef struct ps_ahead_plan {
     /* Makes thing `index` in room `slot`; while it works it tells the watch, which asks it to stop
      * where nobody waits any more. Several threads call it, each with a slot of its own. */

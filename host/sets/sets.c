@@ -7,6 +7,7 @@
 #include "device/lender.h"
 #include "sets/ahead.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -226,8 +227,8 @@ void ps_sets_rewind(ps_sets *sets) {
     sets->next = sets->options.first;
 }
 
-pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,
-                          ps_error *error) {
+static pspec_status take(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,
+                         ps_error *error) {
     if (!sets->has_begun) {
         PS_TRY(begin(sets, error));
     }
@@ -247,10 +248,52 @@ pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, con
     return PSPEC_OK;
 }
 
+/* What was said last of the set that is waited for: of the makers, that it has not begun. */
+typedef struct listener {
+    const ps_watch *watch;
+    bool has_begun;
+} listener;
+
+static int listen(const ps_watch_report *report, void *payload) {
+    listener *const self = payload;
+    self->has_begun = strcmp(report->phase, PS_AHEAD_WAITS) != 0;
+    return self->watch->tell(report, self->watch->payload);
+}
+
+pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,
+                          ps_error *error) {
+    const uint64_t number = sets->next - sets->options.first + 1;
+    const uint64_t num = sets->end - sets->options.first;
+    listener self = {watch, false};
+    const ps_watch heard = {listen, &self};
+    const bool is_heard = watch != NULL && watch->tell != NULL;
+    const pspec_status status = take(sets, points, num_points, is_heard ? &heard : NULL, error);
+    if (status == PSPEC_ERROR_CANCELLED && error != NULL && self.has_begun && num > 1) {
+        const ps_error said = *error;
+        ps_fail(error, status, "%s of set %" PRIu64 " of %" PRIu64, said.message, number, num);
+    }
+    return ps_sets_say_kept(sets, status, error);
+}
+
 /* ---- the store ----------------------------------------------------------------------------- */
 
 ps_set_counts ps_sets_counts(const ps_sets *sets) {
     return sets->store != NULL ? ps_set_store_counts(sets->store) : (ps_set_counts){0};
+}
+
+pspec_status ps_sets_say_kept(ps_sets *sets, pspec_status status, ps_error *error) {
+    if (status != PSPEC_ERROR_CANCELLED || error == NULL) {
+        return status;
+    }
+    end_ahead(sets);
+    const ps_set_counts counts = ps_sets_counts(sets);
+    const uint64_t num = counts.num_read + counts.num_kept;
+    if (num == 0) {
+        return status;
+    }
+    const ps_error said = *error;
+    return ps_fail(error, status, "%s; %" PRIu64 " %s kept, the same command goes on", said.message,
+                   num, num == 1 ? "set is" : "sets are");
 }
 
 const char *ps_sets_trouble(ps_sets *sets) {

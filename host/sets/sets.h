@@ -29,9 +29,13 @@ pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
 void ps_sets_destroy(ps_sets *sets);
 
 /* The next realization, of which there must be one left, as ps_sampler_generate makes it. watch,
- * which may be NULL, is told at least ten times a second of work that takes long. */
+ * which may be NULL, is told at least ten times a second of work that takes long. Where it asks to
+ * stop, the sentence says in which set that was, and what ps_sets_say_kept says. */
 pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,
                           ps_error *error) PS_MUST_CHECK;
+/* Adds to the sentence of an interruption that sets are kept, where some are, and returns status.
+ * Ends what is made ahead, until the next call of ps_sets_next. */
+pspec_status ps_sets_say_kept(ps_sets *sets, pspec_status status, ps_error *error);
 /* Back to the first. */
 void ps_sets_rewind(ps_sets *sets);
 

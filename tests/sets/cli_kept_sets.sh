@@ -97,6 +97,7 @@ wait $! || code=$?
 [[ $code == 130 ]] || complain "interrupted: exit $code, $(<err)"
 had=$(num_kept)
 ((had >= 3)) || complain "interrupted: $had sets"
+grep -qE "; $had sets are kept, the same command goes on\$" err || complain "interrupted with $had sets: $(<err)"
 [[ -z $(find "$store" -name '.pointspec-*') ]] || complain "interrupted: $(ls -A "$store")"
 runs 0 --prefetch --sampler fpo -n 400 -m 3
 says '3 sets were kept already, 0 are made'
