@@ -35,24 +35,41 @@ static const char *verdict_of(const ps_candidate *candidate) {
     return candidate->is_feasible ? "slower" : candidate->is_excluded ? "excluded" : "infeasible";
 }
 
+/* Of an engine that could do it: how long all of it takes beside the chosen one, as the seconds of
+ * both rows say, which other phases may be the most of; then its own part. */
+static void say_reason(char *out, size_t bytes, const ps_candidate *candidate, double ratio) {
+    const double notable = 1.005; /* three digits show it */
+    if (!candidate->is_feasible || candidate->is_chosen) {
+        snprintf(out, bytes, "%s", candidate->reason);
+    } else if (ratio < notable && ratio * notable > 1) {
+        snprintf(out, bytes, "as long in all; powers alone %s", candidate->reason);
+    } else {
+        snprintf(out, bytes, "%.3g times %s in all; powers alone %s", ratio > 1 ? ratio : 1 / ratio,
+                 ratio > 1 ? "slower" : "faster", candidate->reason);
+    }
+}
+
 /* Each with its own seconds, `repeats` times, and those of all other phases. */
 static pspec_status add_candidates(const ps_planner *planner, const ps_plan *plan,
                                    const ps_phases *phases, double repeats, ps_error *error) {
+    const double all = ps_phases_seconds(phases);
     const double own = plan->chosen != NULL ? plan->chosen->seconds * repeats : 0;
-    const double others = ps_phases_seconds(phases) - own;
     for (size_t i = 0; i < plan->num_candidates; i++) {
         const ps_candidate *candidate = &plan->candidates[i];
+        const double seconds = candidate->seconds * repeats + all - own;
         char name[64];
+        char reason[sizeof candidate->reason + 64];
         snprintf(name, sizeof name, "%s:%s", candidate->engine->name,
                  ps_precision_name(candidate->precision));
+        say_reason(reason, sizeof reason, candidate, seconds / all);
         const bool has_numbers = candidate->is_applicable;
         const ps_cell cells[NUM_COLUMNS] = {
             PS_TEXT(name),
             PS_TEXT(verdict_of(candidate)),
-            has_numbers ? PS_NUMBER(candidate->seconds * repeats + others) : PS_MISSING,
+            has_numbers ? PS_NUMBER(seconds) : PS_MISSING,
             has_numbers ? PS_INTEGER(candidate->bytes) : PS_MISSING,
             has_numbers ? PS_NUMBER(candidate->error) : PS_MISSING,
-            PS_TEXT(candidate->reason),
+            PS_TEXT(reason),
         };
         PS_TRY(add_row(planner, cells, error));
     }
@@ -97,7 +114,7 @@ pspec_status ps_plan_table_add_phases(ps_planner *planner, const ps_phases *phas
 pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) {
     char text[64];
     snprintf(text, sizeof text, "%s%.3g", planner->is_at_most ? "at most " : "", planner->seconds);
-    return ps_table_add_meta(planner->table, "seconds", PS_TEXT(text), error);
+    return ps_table_set_meta(planner->table, "seconds", PS_TEXT(text), error);
 }
 
 pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases, double bytes,

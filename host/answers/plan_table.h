@@ -67,7 +67,7 @@ pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) PS_M
 /* Phases as header lines (of several jobs as rows, too), and their sum. */
 pspec_status ps_plan_table_add_phases(ps_planner *planner, const ps_phases *phases,
                                       ps_error *error) PS_MUST_CHECK;
-/* The last header line: seconds of all jobs. */
+/* The header line "seconds", where it was begun: the sum of all jobs. */
 pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) PS_MUST_CHECK;
 
 #endif

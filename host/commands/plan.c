@@ -12,6 +12,8 @@ static pspec_status fill(ps_planner *planner, const ps_verb *verb, const ps_requ
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
     PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
     PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error));
+    /* the total stands before the parts, of which a scene may have hundreds */
+    PS_TRY(ps_table_add_meta(table, "seconds", PS_MISSING, error));
     PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
     PS_TRY(verb->kind != NULL ? verb->kind->plan(planner, request, error)

@@ -81,6 +81,18 @@ pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value, 
     return PSPEC_OK;
 }
 
+pspec_status ps_table_set_meta(ps_table *table, const char *key, ps_cell value, ps_error *error) {
+    ps_cell copy;
+    size_t i = 0;
+    while (strcmp(table->meta[i].key, key) != 0) {
+        i++;
+    }
+    PS_TRY(copy_cell(&copy, value, error));
+    free_cell(&table->meta[i].value);
+    table->meta[i].value = copy;
+    return PSPEC_OK;
+}
+
 pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
                                 ps_error *error) {
     for (size_t i = 0; i < num; i++) {

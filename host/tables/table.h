@@ -57,6 +57,9 @@ pspec_status ps_table_create(ps_table **out, const char *command, const char *co
  * array). A value of kind missing is written as an empty value / null. */
 pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value,
                                ps_error *error) PS_MUST_CHECK;
+/* Another value for the first header entry of that key, which there is. */
+pspec_status ps_table_set_meta(ps_table *table, const char *key, ps_cell value,
+                               ps_error *error) PS_MUST_CHECK;
 /* Several of them. */
 typedef struct ps_meta {
     const char *key;

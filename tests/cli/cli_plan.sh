@@ -75,6 +75,23 @@ plan run scene.yaml
 [[ $(grep -c '^# phase: start' plan.csv) == 1 ]] || complain "scene: $(<plan.csv)"
 grep -q '^# phase: pictures; .*; 1 by gnuplot' plan.csv || complain "scene: $(<plan.csv)"
 grep -q '^a:2,,phase,' plan.csv || complain "rows of phases: $(<plan.csv)"
+# the total stands before the first of the jobs
+[[ $(grep -E '^# (seconds|job):' plan.csv | head -1) == '# seconds: '* ]] || complain "total: $(<plan.csv)"
+
+# a verdict is the ratio of the seconds beside it, however much of them the other phases are
+for points in 64 100000; do
+    plan power --sampler bnot -n $points -m 3 -k 32
+    awk -F, '$2 == "chosen" { chosen = $3 }
+        $2 == "slower" { seconds[++n] = $3; said[n] = $6 + 0; as_long[n] = $6 ~ /^as long in all; powers alone/ }
+        END {
+            for (i = 1; i <= n; i++) {
+                ratio = seconds[i] / chosen
+                ratio = ratio < 1 ? 1 / ratio : ratio
+                if (as_long[i] ? ratio > 1.005 : said[i] < ratio * .994 || said[i] > ratio * 1.006) { exit 1 }
+            }
+            exit n == 0
+        }' plan.csv || complain "verdicts: $(<plan.csv)"
+done
 
 # what a sampler takes while it makes a set is in the bytes and in the time for memory
 plan sample --sampler ccvt:M=4096 -n 1024
