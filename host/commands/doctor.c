@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "device/drivers.h"
 #include "plots/plot.h"
+#include "store/cache_folder.h"
 #include "store/cache_trust.h"
 
 #include <errno.h>
@@ -15,7 +16,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-enum { LINE_BYTES = 512 };
+enum { LINE_BYTES = 512, PATH_BYTES = 4096 /* the most that the system takes */ };
 
 /* ---- caches ---------------------------------------------------------------------------------- */
 
@@ -27,6 +28,28 @@ static void tell_space(const ps_doctor *doctor, const char *topic, const char *f
         const double little = 1 << 26; /* bytes, of which a program's kernels take a hundredth */
         ps_doctor_tell(doctor, left < little ? PS_FINDING_NOTE : PS_FINDING_GOOD, topic,
                        "%s has room for %s bytes", folder, ps_size_show(text, left));
+    }
+}
+
+/* Nothing but time is lost with any of it. */
+static void tell_contents(const ps_doctor *doctor, const char *folder) {
+    static const struct {
+        const char *name, *things;
+    } parts[] = {{"results", "results"}, {"sets", "kept sets of samplers"}};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        ps_error reason = {0};
+        char path[PATH_BYTES];
+        char size[PS_SIZE_TEXT];
+        size_t num = 0;
+        uint64_t bytes = 0;
+        snprintf(path, sizeof path, "%s/%s", folder, parts[i].name);
+        if (ps_cache_folder_usage(path, &num, &bytes, &reason) != PSPEC_OK) {
+            ps_doctor_tell(doctor, PS_FINDING_NOTE, "cache", "%s", reason.message);
+        } else {
+            ps_doctor_tell(doctor, PS_FINDING_GOOD, "cache",
+                           "%s has %zu %s, %s bytes; rm -r on it empties it", path, num,
+                           parts[i].things, ps_size_show(size, (double)bytes));
+        }
     }
 }
 
@@ -48,6 +71,7 @@ static void tell_own_cache(const ps_doctor *doctor) {
     } else {
         ps_doctor_tell(doctor, PS_FINDING_GOOD, "cache", "%s can be written by its owner alone",
                        folder);
+        tell_contents(doctor, folder);
         tell_space(doctor, "cache", folder);
     }
 }

@@ -1,6 +1,6 @@
 /* The folder of the cache of results: which of its files are ours, how much they take, which go
  * first. For files of host/store; ps_cache_folder_make is for whoever keeps a file there
- * (store/figures_file.h).
+ * (store/figures_file.h), and ps_cache_folder_usage for who says what there is.
  *
  * Ours are regular files named by 32 hexadecimal digits and ".result", and temporary files of
  * outputs (output_file.h). Nothing else is counted or removed, whatever folder a user names.

@@ -14,6 +14,10 @@ if "$program" devices 2>/dev/null | grep -q '^0,'; then
     line ok cache "$PWD/cache has room"
     [[ $(grep -vcE '^(ok|note) ' out) == 0 && ! -s err ]] || complain "a machine that works: $(<out)"
 fi
+line ok cache "$PWD/cache/results has 0 results, 0 bytes; rm -r on it empties it"
+"$program" sample --sampler bnot -n 1000 -m 2 -o bnot.txt
+"$program" doctor >out 2>err || true
+line ok cache "$PWD/cache/sets has 2 kept sets of samplers, 32K bytes; rm -r on it empties it"
 line ok drivers 'loads, listed in'
 line ok memory 'leaves the least'
 line ok threads 'may run on number'

@@ -40,7 +40,8 @@ const ps_command ps_command_doctor = {
     .description =
         "Looks at what pointspec depends on and says what it finds, a sentence a line: the OpenCL "
         "drivers and why one does not load, whether a kernel builds on every device and computes "
-        "what is known, the folders of caches, limits of memory, processors, gnuplot. Lines begin "
+        "what is known, the folders of caches and what they hold, limits of memory, processors, "
+        "gnuplot. Lines begin "
         "with ok, with note where something is missing that can be done without, or with WRONG. "
         "The exit status is 0 when the default device works, 3 when it does not.",
     .takes = PS_VERB_BIT(doctor),
