@@ -98,13 +98,14 @@ typedef struct ps_plot_axes {
 
 typedef enum ps_figure_form {
     /* One panel of powers with bars against normalized frequencies, their anisotropy below it, the
-     * image beside it; on the sphere the powers once more with logarithmic axes instead, unless
-     * these were asked for. It labels its axes itself, but for that of powers. */
+     * image beside it, the key of all below; on the sphere the powers once more with logarithmic
+     * axes instead, unless these were asked for. It labels its axes itself, but for that of
+     * powers. */
     PS_FIGURE_SPECTRA,
     /* Panels side by side, each with axes and a key of its own, which stands below it. One panel
      * has the page for itself. */
     PS_FIGURE_FRAME,
-    /* Panels of lines, three in a row, with the same axes and one key for all of them. */
+    /* Panels of lines, three in a row, with the same axes and one key for all below them. */
     PS_FIGURE_PANELS,
     PS_FIGURE_MARKS, /* the same of marks that nothing joins, each panel with axes of its own */
     PS_FIGURE_POINTS /* panels of points in frames, whose axes have the same unit */

@@ -53,41 +53,11 @@ static void print_data(const ps_figure *figure, FILE *stream) {
 
 /* ---- the script ------------------------------------------------------------------------------ */
 
-static size_t character(const char *text) {
-    const size_t length = ps_text_character(text);
-    return length > 0 ? length : 1; /* a byte that is none */
-}
-
-static size_t count_characters(const char *text) {
-    size_t num = 0;
-    for (; *text != '\0'; text += character(text)) {
-        num++;
-    }
-    return num;
-}
-
-static const char *skip_characters(const char *text, size_t num) {
-    for (size_t i = 0; i < num && *text != '\0'; i++) {
-        text += character(text);
-    }
-    return text;
-}
-
 /* In so many pixels: of what is longer the middle is left out, for N stands at the end. */
 static void print_title(const char *title, int width, FILE *stream) {
-    enum { LETTER = 11, CUT_BYTES = 1024, MOST_CUT = 200 };
-    const size_t num = title != NULL ? count_characters(title) : 0;
-    const size_t room = (size_t)width / LETTER;
-    const size_t most = room < MOST_CUT ? room : MOST_CUT;
-    if (num <= most) {
-        ps_script_print_text(title, stream);
-        return;
-    }
-    char cut[CUT_BYTES];
-    const int head = (int)(skip_characters(title, most / 2) - title);
-    snprintf(cut, sizeof cut, "%.*s…%s", head, title,
-             skip_characters(title, num - (most - 1 - most / 2)));
-    ps_script_print_text(cut, stream);
+    enum { LETTER = 11 };
+    char cut[PS_SCRIPT_CUT_BYTES];
+    ps_script_print_text(ps_script_cut(cut, title, (size_t)width / LETTER), stream);
 }
 
 /* left: where the part begins that the title stands over. */

@@ -2,7 +2,6 @@
 #include "plots/plot_script.h"
 
 #include <math.h>
-#include <string.h>
 
 /* In pixels. A panel among others is smaller than one alone, and the page has a line for the
  * title. */
@@ -17,9 +16,6 @@ enum {
     ABOVE_AMONG_OTHERS = 30,
     BELOW = 84 /* numbers and label of the axis, and what is between it and the key */
 };
-/* Lines of keys: pixels of one as gnuplot makes them, and in how many of them a label and a formula
- * stand. */
-static const double KEY_LINE = 23.8, LABEL_LINES = 1.05, FORMULA_LINES = 1.32;
 
 /* ---- where things are ------------------------------------------------------------------------ */
 
@@ -127,65 +123,23 @@ static bool is_named(const ps_series *series) {
     return series->label != NULL || series->formula != NULL;
 }
 
-static size_t count_named(const ps_panel *panel) {
-    size_t num = 0;
-    for (size_t i = 0; i < panel->num_series; i++) {
-        num += is_named(&panel->series[i]);
+/* A single series needs none. */
+static ps_script_key make_key(const ps_panel *panel, const cell *where) {
+    ps_script_key key = {.where = {.left = where->x + LEFT,
+                                   .right = where->x + where->width - RIGHT,
+                                   .bottom = where->y + where->height,
+                                   .page_width = where->page_width,
+                                   .page_height = where->page_height}};
+    for (size_t i = 0; panel->num_series > 1 && i < panel->num_series; i++) {
+        const ps_series *const series = &panel->series[i];
+        if (is_named(series)) {
+            ps_script_key_add(&key, series->formula, series->label);
+        }
     }
-    return num;
-}
-
-static size_t find_longest(const ps_panel *panel) {
-    size_t longest = 0;
-    for (size_t i = 0; i < panel->num_series; i++) {
-        const char *const label = panel->series[i].label;
-        longest = label != NULL && strlen(label) > longest ? strlen(label) : longest;
-    }
-    return longest;
-}
-
-/* Labels stand beside each other where they are short. */
-static size_t count_key_columns(const ps_panel *panel, const cell *where) {
-    const double letter = 25; /* pixels of the panel, for two columns with what they begin with */
-    return (double)find_longest(panel) * letter > where->width ? 1 : 2;
-}
-
-/* Of a row of the key, in lines. */
-static double find_spacing(const ps_panel *panel) {
-    size_t i = 0;
-    while (i < panel->num_series && panel->series[i].formula == NULL) {
-        i++;
-    }
-    return i < panel->num_series ? FORMULA_LINES : LABEL_LINES;
-}
-
-static void print_key(const ps_panel *panel, const cell *where, FILE *stream) {
-    const double middle = (where->x + (LEFT + where->width - RIGHT) / 2) / where->page_width;
-    const double bottom = 1 - (where->y + where->height) / where->page_height;
-    /* gnuplot takes letters for wider than they are, in pixels of two columns: it would have one
-     * column where there is room for two */
-    const double letter = 30;
-    const size_t columns = count_key_columns(panel, where);
-    const int most = (int)((where->width - LEFT - RIGHT) / letter);
-    const int longest = (int)find_longest(panel);
-    const bool is_narrow = columns > 1 && longest > most;
-    fprintf(stream,
-            "set key at screen %.4g,%.4g center bottom horizontal Left reverse maxcols %zu "
-            "samplen 2 spacing %g width %d\n",
-            middle, bottom + 7 / where->page_height, columns, find_spacing(panel),
-            is_narrow ? most - 1 - longest : 0);
+    return key;
 }
 
 /* ---- series ---------------------------------------------------------------------------------- */
-
-static void print_title(const ps_series *series, FILE *stream) {
-    if (is_named(series)) {
-        fputs(" title ", stream);
-        ps_script_print_formula(series->formula, series->label, stream);
-    } else {
-        fputs(" notitle", stream);
-    }
-}
 
 /* A column that is no smaller than the end of a logarithmic axis; bottom 0: of a linear one. */
 static void print_raised(const char *column, double bottom, FILE *stream) {
@@ -215,34 +169,37 @@ static void print_bars(const char *data, const ps_series *series, double bottom,
     fputs(" notitle, ", stream);
 }
 
-/* The name of its data; the width of its line, and what its marks are larger; the end of a
- * logarithmic axis, 0 of a linear one. */
+/* Its figure, key and the name of its data; the width of its line, and what its marks are larger;
+ * the end of a logarithmic axis, 0 of a linear one. */
 typedef struct drawn {
+    const ps_figure *figure;
+    const ps_script_key *key;
     const char *data;
     double width, more, bottom;
 } drawn;
+
+/* No line goes through a place that stands alone: it is marked. */
+static void print_line(const drawn *what, const ps_series *series, int mark, double size,
+                       FILE *stream) {
+    fputs(series->num > 1 ? "lines" : "", stream);
+    if (ps_script_has_lone(what->figure, series, series->y)) {
+        fprintf(stream, "points pointtype %d pointsize %g", mark, size + what->more);
+    }
+}
 
 static void print_curve(const drawn *what, const ps_series *series, FILE *stream) {
     if (series->low != NULL && series->high != NULL) {
         print_band(what->data, series, what->bottom, stream);
     }
     fprintf(stream, "%s using 1:2 with ", what->data);
-    if (series->num > 1) {
-        fputs("lines", stream);
-    } else { /* no line goes through a single place; the ring leaves room for a mark in it */
-        fprintf(stream, "points pointtype 6 pointsize %g", 1.4 + what->more);
-    }
+    print_line(what, series, 6, 1.4, stream); /* the ring leaves room for a mark in it */
     fprintf(stream, " linewidth %g ", series->num > 1 ? what->width : PS_SCRIPT_LINE_WIDTH);
     ps_script_print_style(series->kind, stream);
 }
 
 static void print_bound(const drawn *what, const ps_series *series, FILE *stream) {
     fprintf(stream, "%s using 1:2 with ", what->data);
-    if (series->num > 1) {
-        fputs("lines", stream);
-    } else {
-        fprintf(stream, "points pointtype 2 pointsize %g", 1 + what->more);
-    }
+    print_line(what, series, 2, 1, stream);
     fputs(" linewidth 1.2 dashtype 3 ", stream);
     ps_script_print_colour(series->kind, stream);
 }
@@ -278,7 +235,11 @@ static void print_series(const drawn *what, const ps_series *series, FILE *strea
                 series->num > 1 ? "lines" : "points pointtype 1 pointsize 1.4");
         break;
     }
-    print_title(series, stream);
+    if (is_named(series)) {
+        ps_script_print_entry(what->key, series->formula, series->label, stream);
+    } else {
+        fputs(" notitle", stream);
+    }
 }
 
 /* ---- panels ---------------------------------------------------------------------------------- */
@@ -316,14 +277,15 @@ static void print_ranges(const ps_figure *figure, const ps_panel *panel, double 
     ps_script_print_asked(figure, stream);
 }
 
-static void print_all_series(const ps_figure *figure, size_t index, double bottom, FILE *stream) {
+static void print_all_series(const ps_figure *figure, size_t index, const ps_script_key *key,
+                             double bottom, FILE *stream) {
     enum { DATA_BYTES = 64 };
     const ps_panel *const panel = &figure->panels[index];
     fputs("plot ", stream);
     for (size_t i = 0; i < panel->num_series; i++) {
         char data[DATA_BYTES];
         snprintf(data, sizeof data, "$data%zu_%zu", index, i);
-        print_series(&(drawn){data, ps_script_line_width(figure, panel, i),
+        print_series(&(drawn){figure, key, data, ps_script_line_width(figure, panel, i),
                               ps_script_more_size(figure, panel, i), bottom},
                      &panel->series[i], stream);
         fputs(i + 1 < panel->num_series ? ", " : "\n", stream);
@@ -340,11 +302,9 @@ static void print_labels(const ps_figure *figure, size_t index, FILE *stream) {
 static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     const ps_panel *const panel = &figure->panels[index];
     const cell where = find_cell(figure, index);
-    const size_t columns = count_key_columns(panel, &where);
-    const bool has_key = panel->num_series > 1;
-    const size_t num_rows = has_key ? (count_named(panel) + columns - 1) / columns : 0;
+    const ps_script_key key = make_key(panel, &where);
+    const double key_height = ps_script_key_height(&key);
     const double bottom = figure->is_log_y ? find_bottom(panel) : 0;
-    const double key_height = KEY_LINE * find_spacing(panel) * (double)num_rows;
     print_margins(&where, key_height, stream);
     print_labels(figure, index, stream);
     if (figure->num_panels > 1) {
@@ -361,12 +321,8 @@ static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
                           where.height - where.above - BELOW - key_height, stream);
     }
     print_ranges(figure, panel, bottom, stream);
-    if (has_key) {
-        print_key(panel, &where, stream);
-    } else {
-        fputs("unset key\n", stream);
-    }
-    print_all_series(figure, index, bottom, stream);
+    ps_script_print_key(&key, stream);
+    print_all_series(figure, index, &key, bottom, stream);
 }
 
 void ps_script_print_frames(const ps_figure *figure, FILE *stream) {

@@ -1,23 +1,63 @@
-/* The gnuplot script of panels side by side. */
+/* The gnuplot script of panels side by side, and their key below them. */
 #include "plots/plot_script.h"
 
 #include <math.h>
 
-enum { COLUMNS = 3, PANEL_WIDTH = 470, PANEL_HEIGHT = 370, HEAD = 44, MOST_KINDS = 32 };
+enum { COLUMNS = 3, MOST_KINDS = 32 };
+/* In pixels. */
+enum { PANEL_WIDTH = 470, PANEL_HEIGHT = 370, HEAD = 44, LEFT = 82, RIGHT = 20, ABOVE_KEY = 20 };
 
 /* Circles, squares, triangles: filled and hollow ones in turn. */
 static const int marks[] = {7, 6, 5, 4, 9, 8, 11, 10, 13, 12, 15, 14};
 enum { NUM_MARKS = sizeof marks / sizeof marks[0] };
 
-/* Panels, and a place for the key. */
 static size_t num_columns(const ps_figure *figure) {
-    return figure->num_panels + 1 < COLUMNS ? figure->num_panels + 1 : COLUMNS;
+    return figure->num_panels < COLUMNS ? figure->num_panels : COLUMNS;
 }
 
-static int page_height(const ps_figure *figure) {
-    const size_t columns = num_columns(figure);
-    return HEAD + PANEL_HEIGHT * (int)((figure->num_panels + columns) / columns);
+/* One panel is as wide as two. */
+static int page_width(const ps_figure *figure) {
+    return PANEL_WIDTH * (int)(figure->num_panels > 1 ? num_columns(figure) : 2);
 }
+
+static int panels_height(const ps_figure *figure) {
+    const size_t columns = num_columns(figure);
+    return HEAD + PANEL_HEIGHT * (int)((figure->num_panels + columns - 1) / columns);
+}
+
+/* ---- the key --------------------------------------------------------------------------------- */
+
+/* The first series of every kind that there is: entries[MOST_KINDS + 1]. */
+static size_t list_entries(const ps_figure *figure, const ps_series **entries) {
+    bool is_done[MOST_KINDS + 1] = {false};
+    size_t num = 0;
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
+            const ps_series *const series = &figure->panels[i].series[j];
+            const size_t kind = series->is_front ? MOST_KINDS : series->kind;
+            if (kind <= MOST_KINDS && !is_done[kind]) {
+                is_done[kind] = true;
+                entries[num++] = series;
+            }
+        }
+    }
+    return num;
+}
+
+static ps_script_key make_key(const ps_figure *figure) {
+    const ps_series *entries[MOST_KINDS + 1];
+    const size_t num = list_entries(figure, entries);
+    ps_script_key key = {.where = {.left = LEFT, .right = page_width(figure) - RIGHT}};
+    for (size_t i = 0; i < num; i++) {
+        ps_script_key_add(&key, NULL, entries[i]->label);
+    }
+    key.where.page_width = page_width(figure);
+    key.where.page_height = key.where.bottom =
+        panels_height(figure) + ABOVE_KEY + ceil(ps_script_key_height(&key));
+    return key;
+}
+
+/* ---- panels ---------------------------------------------------------------------------------- */
 
 /* gnuplot makes no axes for nothing. */
 static bool has_places(const ps_figure *figure, const ps_panel *panel) {
@@ -47,22 +87,18 @@ static void print_look(const ps_figure *figure, const ps_series *series, double 
     ps_script_print_style(series->kind / 2, stream);
 }
 
-/* Margins of cell number `cell`, in pixels of the page. */
-static void print_margins(const ps_figure *figure, size_t cell, FILE *stream) {
-    const double left = 82;
-    const double right = 20;
+static void print_margins(const ps_figure *figure, size_t panel, FILE *stream) {
     const double above = 30;
     const double below = 52;
     const size_t columns = num_columns(figure);
-    const double width = (double)columns * PANEL_WIDTH;
-    const double height = page_height(figure);
-    const double x = (double)(cell % columns) * PANEL_WIDTH;
-    const double y = HEAD + (double)(cell / columns) * PANEL_HEIGHT;
-    fprintf(stream,
-            "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
-            "set tmargin at screen %.4f\nset bmargin at screen %.4f\n",
-            (x + left) / width, (x + PANEL_WIDTH - right) / width, 1 - (y + above) / height,
-            1 - (y + PANEL_HEIGHT - below) / height);
+    const ps_script_key key = make_key(figure);
+    const double width = key.where.page_width / (double)columns;
+    const double x = (double)(panel % columns) * width;
+    const double y = HEAD + (double)(panel / columns) * PANEL_HEIGHT;
+    ps_script_print_margins(&(ps_script_box){x + LEFT, y + above, x + width - RIGHT,
+                                             y + PANEL_HEIGHT - below, key.where.page_width,
+                                             key.where.page_height},
+                            stream);
 }
 
 static void print_panel(const ps_figure *figure, size_t i, FILE *stream) {
@@ -90,30 +126,23 @@ static void print_panel(const ps_figure *figure, size_t i, FILE *stream) {
     putc('\n', stream);
 }
 
-/* One entry for every kind that there is. */
+/* In a panel of its own, of which nothing else is seen. */
 static void print_key(const ps_figure *figure, FILE *stream) {
-    bool is_done[MOST_KINDS + 1] = {false};
-    print_margins(figure, figure->num_panels, stream);
+    const ps_series *entries[MOST_KINDS + 1];
+    const size_t num = list_entries(figure, entries);
+    const ps_script_key key = make_key(figure);
+    ps_script_box where = key.where;
+    where.top = where.bottom - 1;
+    ps_script_print_margins(&where, stream);
+    ps_script_print_key(&key, stream);
     fputs("unset label 1\nunset title\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset "
-          "grid\n"
-          "set key center center Left reverse noenhanced box linecolor '#c0c0c0' samplen 2 "
-          "maxcols 1 font ',9'\n"
-          "set xrange [1:10]\nset yrange [1:10]\nplot ",
+          "grid\nset xrange [1:10]\nset yrange [1:10]\nplot ",
           stream);
-    for (size_t i = 0; i < figure->num_panels; i++) {
-        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
-            const ps_series *const series = &figure->panels[i].series[j];
-            const size_t kind = series->is_front ? MOST_KINDS : series->kind;
-            if (kind > MOST_KINDS || is_done[kind]) {
-                continue;
-            }
-            is_done[kind] = true;
-            fputs("NaN ", stream);
-            print_look(figure, series, PS_SCRIPT_LINE_WIDTH, stream);
-            fputs(" title ", stream);
-            ps_script_print_text(series->label, stream);
-            fputs(", ", stream);
-        }
+    for (size_t i = 0; i < num; i++) {
+        fputs("NaN ", stream);
+        print_look(figure, entries[i], PS_SCRIPT_LINE_WIDTH, stream);
+        ps_script_print_entry(&key, NULL, entries[i]->label, stream);
+        fputs(", ", stream);
     }
     fputs("NaN notitle\n", stream);
 }
@@ -160,8 +189,9 @@ static void print_ranges(const ps_figure *figure, FILE *stream) {
 }
 
 void ps_script_size_panels(const ps_figure *figure, int *width, int *height) {
-    *width = (int)num_columns(figure) * PANEL_WIDTH;
-    *height = page_height(figure);
+    const ps_script_key key = make_key(figure);
+    *width = page_width(figure);
+    *height = (int)key.where.page_height;
 }
 
 void ps_script_print_panels(const ps_figure *figure, FILE *stream) {
@@ -169,7 +199,7 @@ void ps_script_print_panels(const ps_figure *figure, FILE *stream) {
     ps_script_print_scale("y", figure->is_log_y, stream);
     fprintf(stream, "%sunset key\n", ps_script_ticks);
     ps_script_print_label("x", figure->x_label, "0,0.3", stream);
-    ps_script_print_label("y", figure->y_label, "0.4,0", stream);
+    ps_script_print_label("y", figure->y_label, "1,0", stream);
     if (figure->form == PS_FIGURE_PANELS) {
         print_ranges(figure, stream);
     }

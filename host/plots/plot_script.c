@@ -50,15 +50,51 @@ void ps_script_print_text(const char *text, FILE *stream) {
 }
 
 void ps_script_print_formula(const char *formula, const char *label, FILE *stream) {
+    enum { SIZE_BYTES = 32 };
     putc('"', stream);
-    if (formula != NULL) { /* larger, so that what is raised can be read in small pictures, too */
-        print_letters("{/*1.35 ", false, stream);
+    if (formula != NULL) {
+        char size[SIZE_BYTES];
+        snprintf(size, sizeof size, "{/*%g ", PS_SCRIPT_FORMULA_SIZE);
+        print_letters(size, false, stream);
         print_letters(formula, false, stream);
         print_letters("}", false, stream);
     }
     print_letters(formula != NULL && label != NULL ? ", " : NULL, false, stream);
     print_letters(label, true, stream);
     putc('"', stream);
+}
+
+static size_t character(const char *text) {
+    const size_t length = ps_text_character(text);
+    return length > 0 ? length : 1; /* a byte that is none */
+}
+
+size_t ps_script_count_characters(const char *text) {
+    size_t num = 0;
+    for (; text != NULL && *text != '\0'; text += character(text)) {
+        num++;
+    }
+    return num;
+}
+
+static const char *skip_characters(const char *text, size_t num) {
+    for (size_t i = 0; i < num && *text != '\0'; i++) {
+        text += character(text);
+    }
+    return text;
+}
+
+const char *ps_script_cut(char cut[PS_SCRIPT_CUT_BYTES], const char *text, size_t most) {
+    enum { MOST_CUT = 200, LEAST_CUT = 3 }; /* characters have up to four bytes */
+    const size_t num = ps_script_count_characters(text);
+    const size_t room = most > MOST_CUT ? MOST_CUT : most < LEAST_CUT ? LEAST_CUT : most;
+    if (num <= room) {
+        return text;
+    }
+    const int head = (int)(skip_characters(text, room / 2) - text);
+    snprintf(cut, PS_SCRIPT_CUT_BYTES, "%.*s…%s", head, text,
+             skip_characters(text, num - (room - 1 - room / 2)));
+    return cut;
 }
 
 void ps_script_print_value(double value, FILE *stream) {
@@ -115,4 +151,20 @@ bool ps_script_is_shown(const ps_figure *figure, const ps_series *series, size_t
     const double y = series->y[place];
     return isfinite(x) && isfinite(y) && (!figure->is_log_x || x > 0) &&
            (!figure->is_log_y || y > 0);
+}
+
+static bool is_place(const ps_figure *figure, const ps_series *series, const double *numbers,
+                     size_t place) {
+    return place < series->num && isfinite(numbers[place]) &&
+           (numbers != series->y || ps_script_is_shown(figure, series, place));
+}
+
+bool ps_script_has_lone(const ps_figure *figure, const ps_series *series, const double *numbers) {
+    for (size_t i = 0; i < series->num; i++) {
+        if (is_place(figure, series, numbers, i) && !is_place(figure, series, numbers, i - 1) &&
+            !is_place(figure, series, numbers, i + 1)) {
+            return true;
+        }
+    }
+    return false;
 }

@@ -38,7 +38,14 @@ void ps_script_print_text(const char *text, FILE *stream);
 /* The same for enhanced text: the formula as it is, and behind it the label, whose characters mean
  * what they are. */
 void ps_script_print_formula(const char *formula, const char *label, FILE *stream);
+/* How much larger a formula is than a label, so that what is raised can be read in small pictures,
+ * too. */
+#define PS_SCRIPT_FORMULA_SIZE 1.35
 void ps_script_print_value(double value, FILE *stream);
+size_t ps_script_count_characters(const char *text);
+/* The text, or without its middle, in `cut`, where it has more characters than `most`. */
+enum { PS_SCRIPT_CUT_BYTES = 1024 };
+const char *ps_script_cut(char cut[PS_SCRIPT_CUT_BYTES], const char *text, size_t most);
 void ps_script_print_colour(size_t kind, FILE *stream);
 void ps_script_print_style(size_t kind, FILE *stream);
 /* The label of the axis "x" or "y"; numbers of a logarithmic one, or nothing. */
@@ -53,6 +60,29 @@ typedef struct ps_script_box {
 } ps_script_box;
 
 void ps_script_print_margins(const ps_script_box *where, FILE *stream);
+
+/* ---- keys ------------------------------------------------------------------------------------ */
+
+/* Entries in rows below each other, as many side by side as have room, where nothing else is. */
+typedef struct ps_script_key {
+    ps_script_box where; /* the rows end at its bottom, in its middle; its top is not looked at */
+    size_t num;          /* of entries; 0: there is no key */
+    double longest;      /* letters of the longest one */
+    bool has_formula;
+} ps_script_key;
+
+/* Another entry; `where` has been set. */
+void ps_script_key_add(ps_script_key *key, const char *formula, const char *label);
+/* In pixels; 0 without entries. */
+double ps_script_key_height(const ps_script_key *key);
+/* For the next "plot", whose entries have a title of ps_script_print_entry: in one that would leave
+ * the page the middle of the label is left out. */
+void ps_script_print_key(const ps_script_key *key, FILE *stream);
+void ps_script_print_entry(const ps_script_key *key, const char *formula, const char *label,
+                           FILE *stream);
+
+/* ---- points ---------------------------------------------------------------------------------- */
+
 /* A panel of points, whose series are $NAME_0, .. */
 typedef struct ps_script_points {
     const ps_panel *panel;
@@ -98,6 +128,8 @@ void ps_script_print_log_ticks(const char *axis, ps_plot_span shown, FILE *strea
 extern const char ps_script_ticks[];
 /* Can this place of a series be shown with these axes? */
 bool ps_script_is_shown(const ps_figure *figure, const ps_series *series, size_t place);
+/* Does a line through these numbers of a series, NaN being gaps, miss one that stands alone? */
+bool ps_script_has_lone(const ps_figure *figure, const ps_series *series, const double *numbers);
 
 /* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
  * transposed so that x_1 runs to the right. */

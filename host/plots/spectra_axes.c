@@ -21,6 +21,14 @@ double ps_spectra_level(const ps_series *curve, size_t bin) {
     return curve->num_realizations >= 2 ? -10 * log10(curve->num_realizations) : (double)NAN;
 }
 
+double ps_spectra_profile(const ps_series *curve, size_t bin) {
+    return curve->low != NULL && curve->high != NULL ? curve->high[bin] : (double)NAN;
+}
+
+double ps_spectra_fit(const ps_series *curve, size_t bin) {
+    return curve->fit != NULL ? curve->fit[bin] : (double)NAN;
+}
+
 static void widen_by(ps_plot_span *span, const ps_panel *curves, ps_take_number *take) {
     for (size_t i = 0; i < curves->num_series; i++) {
         for (size_t bin = 0; bin < curves->series[i].num; bin++) {
@@ -33,22 +41,6 @@ bool ps_spectra_has(const ps_panel *curves, ps_take_number *take) {
     ps_plot_span all = ps_plot_span_none();
     widen_by(&all, curves, take);
     return !ps_plot_span_is_empty(all);
-}
-
-/* ---- keys ------------------------------------------------------------------------------------ */
-
-/* Pixels, measured in SVG, where letters are largest: a line, and from the border of the panel and
- * below; the part of the panel that a key may have. Low panels have the same letters as high ones.
- */
-static const double KEY_LINE = 24, KEY_FRAME = 16, MOST_KEY = 0.5;
-
-size_t ps_spectra_key_rows(double height) {
-    return (size_t)((MOST_KEY * height - KEY_FRAME) / KEY_LINE);
-}
-
-double ps_spectra_key_part(size_t num_lines, double height) {
-    const double rows = fmin((double)num_lines, (double)ps_spectra_key_rows(height));
-    return rows > 0 ? (KEY_FRAME + KEY_LINE * rows) / height : 0;
 }
 
 /* ---- powers ---------------------------------------------------------------------------------- */
@@ -81,19 +73,28 @@ double ps_spectra_find_most(const ps_panel *curves) {
     return most;
 }
 
-ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves, double key_part) {
+/* The upper profile of a curve that is in sight is, too. */
+static double with_profiles(const ps_panel *curves, double most) {
+    ps_plot_span all = {0, most};
+    for (size_t i = 0; i < curves->num_series; i++) {
+        if (ps_spectra_find_top(&curves->series[i]) <= most) {
+            widen_by(&all, &(ps_panel){NULL, 1, &curves->series[i]}, ps_spectra_profile);
+        }
+    }
+    return all.most;
+}
+
+ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves) {
     const double margin = figure->is_log_y ? 1.4 : 1.05;
-    const double room = 1 - key_part;
     if (!figure->is_log_y) {
-        return (ps_plot_span){0, margin * ps_spectra_find_most(curves) / room};
+        return (ps_plot_span){0, margin * with_profiles(curves, ps_spectra_find_most(curves))};
     }
     ps_plot_span all = ps_plot_span_above(curves);
     ps_plot_span tops = ps_plot_span_none();
     widen_by(&tops, curves, ps_spectra_top);
-    ps_plot_span_widen(&all, tops.most);
+    ps_plot_span_widen(&all, with_profiles(curves, tops.most));
     ps_plot_span_widen(&all, 1); /* white noise */
-    const double least = all.least / margin;
-    return (ps_plot_span){least, least * pow(all.most * margin / least, 1 / room)};
+    return (ps_plot_span){all.least / margin, all.most * margin};
 }
 
 /* ---- the other axes -------------------------------------------------------------------------- */
@@ -109,13 +110,12 @@ ps_plot_span ps_spectra_frequencies(const ps_figure *figure, const ps_panel *cur
 }
 
 /* Those of curves and of levels of noise. */
-ps_plot_span ps_spectra_anisotropies(const ps_panel *curves, double key_part) {
+ps_plot_span ps_spectra_anisotropies(const ps_panel *curves) {
     const double margin = 0.05; /* of what there is */
     const double least_margin = 0.5;
     ps_plot_span all = ps_plot_span_none();
     widen_by(&all, curves, ps_spectra_anisotropy);
     widen_by(&all, curves, ps_spectra_level);
     const double around = fmax(margin * (all.most - all.least), least_margin);
-    const double least = all.least - around;
-    return (ps_plot_span){least, least + (all.most + around - least) / (1 - key_part)};
+    return (ps_plot_span){all.least - around, all.most + around};
 }

@@ -1,5 +1,4 @@
-/* What the axes of spectra cover, with room for keys, which must not lie on curves. Private to
- * host/plots. */
+/* What the axes of spectra cover. Private to host/plots. */
 #ifndef PS_PLOTS_SPECTRA_AXES_H
 #define PS_PLOTS_SPECTRA_AXES_H
 
@@ -14,21 +13,19 @@ double ps_spectra_error(const ps_series *curve, size_t bin);
 double ps_spectra_anisotropy(const ps_series *curve, size_t bin);
 /* In dB, of pure noise beside which the anisotropy of the curve stands; nan: there is none. */
 double ps_spectra_level(const ps_series *curve, size_t bin);
+/* The upper profile, and what goes through powers; nan: there is none. */
+double ps_spectra_profile(const ps_series *curve, size_t bin);
+double ps_spectra_fit(const ps_series *curve, size_t bin);
 bool ps_spectra_has(const ps_panel *curves, ps_take_number *take);
-
-/* Lines of a key that stand below each other in a panel of this height, others beside them; and the
- * part of the height that a key of so many lines takes, 0 for none. */
-size_t ps_spectra_key_rows(double height);
-double ps_spectra_key_part(size_t num_lines, double height);
 
 /* The largest power of a curve with its bar; and of all, but for curves that are louder than all
  * others, which would flatten these: peaks of lattices beside noise. */
 double ps_spectra_find_top(const ps_series *curve);
 double ps_spectra_find_most(const ps_panel *curves);
 
-/* What axes show unless something else was asked for; key_part: of the height of the panel. */
-ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves, double key_part);
+/* What axes show unless something else was asked for. */
+ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves);
 ps_plot_span ps_spectra_frequencies(const ps_figure *figure, const ps_panel *curves);
-ps_plot_span ps_spectra_anisotropies(const ps_panel *curves, double key_part);
+ps_plot_span ps_spectra_anisotropies(const ps_panel *curves);
 
 #endif

@@ -1,4 +1,5 @@
 /* Frames: how their series look, where their axes end, panels of them. */
+#include "harness_plots.h"
 #include "plots/plot.h"
 #include "plots/plot_script.h"
 #include "test_folder.h"
@@ -8,23 +9,6 @@
 #include <stdarg.h>
 
 #include <cmocka.h>
-
-static bool has_gnuplot(void) {
-    return system("gnuplot --version >/dev/null 2>&1") == 0;
-}
-
-static bool script_contains(const ps_figure *plot, const char *what) {
-    char *script = NULL;
-    size_t length = 0;
-    ps_error error = {0};
-    FILE *const stream = open_memstream(&script, &length);
-    assert_non_null(stream);
-    assert_int_equal(ps_figure_write_script(plot, "svg", stream, &error), PSPEC_OK);
-    assert_int_equal(fclose(stream), 0);
-    const bool contains = strstr(script, what) != NULL;
-    free(script);
-    return contains;
-}
 
 /* A panel of a curve on its band, marks with bars, and a reference, in this order. */
 enum { NUM_LOOKS = 3, NUM_COUNTS = 4 };
@@ -61,25 +45,30 @@ static void looks_of_a_frame(void **state) {
                       .is_log_y = true,
                       .num_panels = 1,
                       .panels = &panel};
-    assert_true(script_contains(&plot, "\n 64 0.001 NaN NaN 0.0009 0.0011\n"));
-    assert_true(script_contains(&plot, "\n 64 0.001 0.0001 NaN NaN NaN\n"));
-    assert_true(script_contains(&plot, "\n 64 0.001\n"));
-    assert_true(script_contains(&plot, "plot $data0_0 using 1:($5 > 1e-07 ? $5 : 1e-07):6 with "
-                                       "filledcurves "));
-    assert_true(script_contains(&plot, ", $data0_0 using 1:2 with lines linewidth 1.6 linecolor "
-                                       "rgb '#D55E00' dashtype 1 title \"jittered\", "));
-    assert_true(script_contains(&plot, ", $data0_1 using 1:($3 > 0 ? $2 : NaN):($2-$3 > 1e-07 ? "
-                                       "$2-$3 : 1e-07):($2+$3) with yerrorbars "));
-    assert_true(script_contains(&plot, ", $data0_1 using 1:2 with points pointtype 7 pointsize 0.6 "
-                                       "linecolor rgb '#D55E00' notitle, "));
-    assert_true(script_contains(&plot, ", $data0_2 using 1:2 with lines linewidth 1 linecolor rgb "
-                                       "'#808080' dashtype 2 title \"white\"\n"));
-    assert_true(script_contains(&plot, "set yrange [1e-07:*]\n")); /* of the band at 16 */
-    assert_false(script_contains(&plot, "set title"));
+    assert_true(test_script_contains(&plot, "\n 64 0.001 NaN NaN 0.0009 0.0011\n"));
+    assert_true(test_script_contains(&plot, "\n 64 0.001 0.0001 NaN NaN NaN\n"));
+    assert_true(test_script_contains(&plot, "\n 64 0.001\n"));
+    assert_true(test_script_contains(&plot,
+                                     "plot $data0_0 using 1:($5 > 1e-07 ? $5 : 1e-07):6 with "
+                                     "filledcurves "));
+    assert_true(test_script_contains(&plot,
+                                     ", $data0_0 using 1:2 with lines linewidth 1.6 linecolor "
+                                     "rgb '#D55E00' dashtype 1 title \"jittered\", "));
+    assert_true(test_script_contains(&plot,
+                                     ", $data0_1 using 1:($3 > 0 ? $2 : NaN):($2-$3 > 1e-07 ? "
+                                     "$2-$3 : 1e-07):($2+$3) with yerrorbars "));
+    assert_true(test_script_contains(&plot,
+                                     ", $data0_1 using 1:2 with points pointtype 7 pointsize 0.6 "
+                                     "linecolor rgb '#D55E00' notitle, "));
+    assert_true(test_script_contains(&plot,
+                                     ", $data0_2 using 1:2 with lines linewidth 1 linecolor rgb "
+                                     "'#808080' dashtype 2 title \"white\"\n"));
+    assert_true(test_script_contains(&plot, "set yrange [1e-07:*]\n")); /* of the band at 16 */
+    assert_false(test_script_contains(&plot, "set title"));
     plot.is_log_y = false;
-    assert_true(script_contains(&plot, "using 1:($5):6 with filledcurves "));
-    assert_true(script_contains(&plot, ":($2-$3):($2+$3) with yerrorbars "));
-    assert_false(script_contains(&plot, "set yrange"));
+    assert_true(test_script_contains(&plot, "using 1:($5):6 with filledcurves "));
+    assert_true(test_script_contains(&plot, ":($2-$3):($2+$3) with yerrorbars "));
+    assert_false(test_script_contains(&plot, "set yrange"));
 }
 
 /* Neither numbers that rounding left nor a band that goes down to them spoil an axis, and a band
@@ -93,19 +82,19 @@ static void ends_of_a_logarithmic_axis(void **state) {
     ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .is_log_y = true, .num_panels = 1, .panels = &panel};
     series[0].low = variances;
-    assert_false(script_contains(&plot, "set yrange"));
+    assert_false(test_script_contains(&plot, "set yrange"));
     series[0].low = lows;
-    assert_true(script_contains(&plot, "set yrange [1e-07:*]\n"));
+    assert_true(test_script_contains(&plot, "set yrange [1e-07:*]\n"));
     series[0].low = series[0].high = NULL;
     series[0].y = rounding;
-    assert_true(script_contains(&plot, "set yrange [1e-06:*]\n"));
+    assert_true(test_script_contains(&plot, "set yrange [1e-06:*]\n"));
     series[0].floor = 5e-4; /* a hundredth of the least number above it is below it */
-    assert_true(script_contains(&plot, "set yrange [0.0005:*]\n"));
+    assert_true(test_script_contains(&plot, "set yrange [0.0005:*]\n"));
     series[0].floor = 1; /* nothing is above it */
-    assert_false(script_contains(&plot, "set yrange"));
+    assert_false(test_script_contains(&plot, "set yrange"));
     series[0].floor = 0;
     series[0].y = variances;
-    assert_false(script_contains(&plot, "set yrange"));
+    assert_false(test_script_contains(&plot, "set yrange"));
 }
 
 /* Within two decades a place has a tick that says its number; where it is asked for, there. */
@@ -118,11 +107,13 @@ static void ticks_of_few_places(void **state) {
     ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .is_log_x = true, .num_panels = 1, .panels = &panel};
     series[0].x = points;
-    assert_true(script_contains(&plot, "set xtics in mirror (50, 60, 70)\nset xrange [42.6"));
+    assert_true(test_script_contains(&plot, "set xtics in mirror (50, 60, 70)\nset xrange [42.6"));
     plot.axes = (ps_plot_axes){.has_x = true, .x = {10, 1000}};
-    assert_true(script_contains(&plot, "set xtics in mirror (10, 20, 50, 100, 200, 500, 1000)\n"));
+    assert_true(
+        test_script_contains(&plot, "set xtics in mirror (10, 20, 50, 100, 200, 500, 1000)\n"));
     plot.axes.x[1] = 2000;
-    assert_true(script_contains(&plot, "set xtics in mirror autofreq\nset format x '10^{%T}'\n"));
+    assert_true(
+        test_script_contains(&plot, "set xtics in mirror autofreq\nset format x '10^{%T}'\n"));
 }
 
 /* All panels have the same axes: those of what is more than rounding. */
@@ -135,10 +126,10 @@ static void axes_of_panels(void **state) {
     const ps_figure plot = {
         .form = PS_FIGURE_PANELS, .title = "", .is_log_y = true, .num_panels = 2, .panels = panels};
     series[1].y = rounding;
-    assert_true(script_contains(&plot, "set yrange [9.52380952e-16:0.0105]\n"));
+    assert_true(test_script_contains(&plot, "set yrange [9.52380952e-16:0.0105]\n"));
     series[1].floor = 1e-10;
-    assert_true(script_contains(&plot, "set yrange [9.52380952e-06:0.0105]\n"));
-    assert_true(script_contains(&plot, "set xrange [0:1075.2]\n"));
+    assert_true(test_script_contains(&plot, "set yrange [9.52380952e-06:0.0105]\n"));
+    assert_true(test_script_contains(&plot, "set xrange [0:1075.2]\n"));
 }
 
 /* A place that is alone has no line, and a box instead of a band. */
@@ -152,11 +143,12 @@ static void single_places_of_a_frame(void **state) {
     for (size_t i = 0; i < NUM_LOOKS; i++) {
         series[i].num = 1;
     }
-    assert_false(script_contains(&plot, "with lines"));
-    assert_true(script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 "));
-    assert_true(script_contains(&plot, "plot $data0_0 using 1:2:($1*0.985):($1*1.015):($5):6 with "
-                                       "boxxyerror fillstyle "));
-    assert_true(script_contains(&plot, "$data0_2 using 1:2 with points pointtype 1 "));
+    assert_false(test_script_contains(&plot, "with lines"));
+    assert_true(test_script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 "));
+    assert_true(test_script_contains(&plot,
+                                     "plot $data0_0 using 1:2:($1*0.985):($1*1.015):($5):6 with "
+                                     "boxxyerror fillstyle "));
+    assert_true(test_script_contains(&plot, "$data0_2 using 1:2 with points pointtype 1 "));
 }
 
 /* Panels with axes and a key of their own, also one in which there is nothing to see. */
@@ -183,18 +175,18 @@ static void draws_frames(void **state) {
         const char *const name = names[plot.num_panels % 3];
         char path[TEST_PATH_BYTES];
         ps_error said = {0};
-        if (has_gnuplot() &&
+        if (test_has_gnuplot() &&
             ps_figure_write(test_path(*state, name, path), &plot, &said) != PSPEC_OK) {
             fail_msg("%zu: %s", plot.num_panels, said.message);
         }
     }
     plot.num_panels = 4; /* two rows of two */
-    assert_true(script_contains(&plot, "set terminal svg enhanced size 1440,1320 "));
-    assert_true(script_contains(&plot, "set title \"the\\137first\\047s\" noenhanced"));
-    assert_true(script_contains(&plot, "plot $data3_0 using "));
-    assert_false(script_contains(&plot, "$data1_0 using"));
+    assert_true(test_script_contains(&plot, "set terminal svg enhanced size 1440,1320 "));
+    assert_true(test_script_contains(&plot, "set title \"the\\137first\\047s\" noenhanced"));
+    assert_true(test_script_contains(&plot, "plot $data3_0 using "));
+    assert_false(test_script_contains(&plot, "$data1_0 using"));
     plot.num_panels = 1;
-    assert_true(script_contains(&plot, "set terminal svg enhanced size 1000,700 "));
+    assert_true(test_script_contains(&plot, "set terminal svg enhanced size 1000,700 "));
 }
 
 /* gnuplot takes letters for wider than they are, and the longer a label, the more so. */
@@ -205,14 +197,21 @@ static void long_labels_of_a_frame(void **state) {
     const ps_panel panels[] = {{"1", NUM_LOOKS, series}, {"2", NUM_LOOKS, series}};
     const ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .num_panels = 2, .panels = panels};
-    assert_true(script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width 0\n"));
+    assert_true(test_script_contains(&plot, " maxcols 4 samplen 2 spacing 1.05 width 0\n"));
     series[0].label = "best bound: slope -12.6751"; /* 26 letters */
-    assert_true(script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width -7\n"));
+    assert_true(test_script_contains(&plot, " maxcols 2 samplen 2 spacing 1.05 width -4.37\n"));
     ps_figure wide = plot;
     wide.num_panels = 1; /* a page of its own has room for more of them */
-    assert_true(script_contains(&wide, " maxcols 2 samplen 2 spacing 1.05 width 0\n"));
-    series[0].label = "64, glossy:n=30, fibonacci-hemisph"; /* 34 letters */
-    assert_true(script_contains(&wide, " maxcols 2 samplen 2 spacing 1.05 width -6\n"));
+    assert_true(test_script_contains(&wide, " maxcols 2 samplen 2 spacing 1.05 width 0\n"));
+    series[0].label = "64, glossy:n=30, fibonacci-hemisphere, 4"; /* 40 letters */
+    assert_true(test_script_contains(&wide, " maxcols 2 samplen 2 spacing 1.05 width -5.87\n"));
+    /* The page ends after 58 letters: the middle is left out, and what tells names apart stays. */
+    series[0].label =
+        "begins aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa ends";
+    assert_true(test_script_contains(&plot, " maxcols 1 samplen 2 spacing 1.05 width -9.54\n"));
+    assert_true(test_script_contains(&plot, " title \"begins aaaaaaaaaaaaaaaaaaaaaa…"));
+    assert_true(test_script_contains(&plot, "a ends\""));
+    assert_false(test_script_contains(&plot, "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"));
 }
 
 /* A panel may have axes of its own: a plane has the same unit on both. */
@@ -229,14 +228,16 @@ static void planes_of_a_frame(void **state) {
                       .y_label = "y",
                       .num_panels = 2,
                       .panels = panels};
-    assert_false(script_contains(&plot, "set yrange"));
+    assert_false(test_script_contains(&plot, "set yrange"));
     plot.panel_axes = axes;
-    assert_true(script_contains(&plot, "set xlabel \"k\" offset 0,0\nset ylabel \"y\" "));
-    assert_true(script_contains(&plot, "set xlabel \"real\" offset 0,0\nset ylabel \"imaginary\""));
+    assert_true(test_script_contains(&plot, "set xlabel \"k\" offset 0,0\nset ylabel \"y\" "));
+    assert_true(
+        test_script_contains(&plot, "set xlabel \"real\" offset 0,0\nset ylabel \"imaginary\""));
     /* 4.2 up and down in 526 pixels, so much more in 601 */
-    assert_true(script_contains(&plot, "set xrange [-4.79885"));
-    assert_true(script_contains(&plot, "set yrange [-4.2:4.2]\n"));
-    assert_true(script_contains(&plot, "with points pointtype 7 pointsize 0.3 linecolor rgb '#b"));
+    assert_true(test_script_contains(&plot, "set xrange [-4.79885"));
+    assert_true(test_script_contains(&plot, "set yrange [-4.2:4.2]\n"));
+    assert_true(
+        test_script_contains(&plot, "with points pointtype 7 pointsize 0.3 linecolor rgb '#b"));
     ps_text with = {0};
     ps_text without = {0};
     ps_figure_add_key(&with, &plot);
@@ -319,15 +320,15 @@ static void marks_that_coincide(void **state) {
                             .num_panels = 1,
                             .panels = &panel};
     assert_true(
-        script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 pointsize 1.75"));
+        test_script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 pointsize 1.75"));
     assert_true(
-        script_contains(&plot, "$data0_1 using 1:2 with points pointtype 7 pointsize 0.95"));
+        test_script_contains(&plot, "$data0_1 using 1:2 with points pointtype 7 pointsize 0.95"));
     assert_true(
-        script_contains(&plot, "$data0_2 using 1:2 with points pointtype 6 pointsize 1.4 "));
+        test_script_contains(&plot, "$data0_2 using 1:2 with points pointtype 6 pointsize 1.4 "));
     assert_true(
-        script_contains(&plot, "$data0_3 using 1:2 with points pointtype 7 pointsize 0.6 "));
+        test_script_contains(&plot, "$data0_3 using 1:2 with points pointtype 7 pointsize 0.6 "));
     assert_true(
-        script_contains(&plot, "$data0_4 using 1:2 with points pointtype 6 pointsize 1.4 "));
+        test_script_contains(&plot, "$data0_4 using 1:2 with points pointtype 6 pointsize 1.4 "));
 }
 
 /* Rows of the key end where the label of the axis begins, however many there are. */
@@ -343,11 +344,11 @@ static void keys_leave_room_for_the_axis(void **state) {
         series[i].label = "a name that is so long that there is one column alone";
     }
     /* 84 and 6 rows of 25 pixels, measured in pictures, of 700 */
-    assert_true(script_contains(&plot, "set bmargin at screen 0.3342"));
-    assert_true(script_contains(&plot, "maxcols 1 samplen 2 spacing 1.05 "));
+    assert_true(test_script_contains(&plot, "set bmargin at screen 0.3342"));
+    assert_true(test_script_contains(&plot, "maxcols 1 samplen 2 spacing 1.05 "));
     series[0].formula = "d_l^2"; /* rows of 31.4 */
-    assert_true(script_contains(&plot, "set bmargin at screen 0.3893"));
-    assert_true(script_contains(&plot, "spacing 1.32 "));
+    assert_true(test_script_contains(&plot, "set bmargin at screen 0.3893"));
+    assert_true(test_script_contains(&plot, "spacing 1.32 "));
 }
 
 int main(void) {

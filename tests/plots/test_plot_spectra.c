@@ -1,4 +1,5 @@
 /* Pictures of spectra: what their axes cover, levels of noise, lines that lie on each other. */
+#include "harness_plots.h"
 #include "plots/plot_script.h"
 
 #include <math.h>
@@ -40,28 +41,6 @@ static void make_example(example *out, size_t num_curves) {
                             .axes = {.has_log = true, .is_log_x = true, .is_log_y = true}};
 }
 
-/* To be freed. */
-static char *write_script(const ps_figure *plot) {
-    char *script = NULL;
-    size_t length = 0;
-    ps_error error = {0};
-    FILE *const stream = open_memstream(&script, &length);
-    assert_non_null(stream);
-    assert_int_equal(ps_figure_write_script(plot, "svg", stream, &error), PSPEC_OK);
-    assert_int_equal(fclose(stream), 0);
-    return script;
-}
-
-static size_t count(const ps_figure *plot, const char *what) {
-    char *const script = write_script(plot);
-    size_t num = 0;
-    for (const char *at = script; (at = strstr(at, what)) != NULL; at += strlen(what)) {
-        num++;
-    }
-    free(script);
-    return num;
-}
-
 /* Behind `at`, in a script. */
 static ps_plot_span read_range(const char *at, const char *begin) {
     ps_plot_span out = {NAN, NAN};
@@ -76,7 +55,7 @@ static ps_plot_span read_range(const char *at, const char *begin) {
 
 /* The first range of this axis. */
 static ps_plot_span find_range(const ps_figure *plot, const char *axis) {
-    char *const script = write_script(plot);
+    char *const script = test_script(plot);
     char begin[32];
     snprintf(begin, sizeof begin, "set %srange [", axis);
     const ps_plot_span out = read_range(strstr(script, begin), begin);
@@ -87,7 +66,7 @@ static ps_plot_span find_range(const ps_figure *plot, const char *axis) {
 /* That of the panel below the powers. */
 static ps_plot_span find_lower_range(const ps_figure *plot) {
     static const char begin[] = "set yrange [";
-    char *const script = write_script(plot);
+    char *const script = test_script(plot);
     const char *const panel = strstr(script, "anisotropy / dB");
     assert_non_null(panel);
     const ps_plot_span out = read_range(strstr(panel, begin), begin);
@@ -120,7 +99,7 @@ static void axes_end_at_the_numerical_floor(void **state) {
     data.curves[0].floor = 1e-12;
     assert_true(find_range(&data.plot, "y").least > 2e-3);
     assert_true(find_range(&data.plot, "y").most > 1);
-    assert_int_equal(count(&data.plot, "set arrow 1 from"), 1);
+    assert_int_equal(test_script_count(&data.plot, "set arrow 1 from"), 1);
     data.curves[0].floor = 1; /* nothing is above it */
     const ps_plot_span y = find_range(&data.plot, "y");
     assert_true(y.least < 1 && y.most > 1);
@@ -128,7 +107,7 @@ static void axes_end_at_the_numerical_floor(void **state) {
     data.plot.axes.y[0] = 1e-3;
     data.plot.axes.y[1] = 0.5; /* white noise is not in it */
     assert_true(find_range(&data.plot, "y").most == 0.5);
-    assert_int_equal(count(&data.plot, "set arrow 1 from"), 0);
+    assert_int_equal(test_script_count(&data.plot, "set arrow 1 from"), 0);
 }
 
 /* Plain numbers where there are few decades, more of them where there is a part of one. */
@@ -137,10 +116,12 @@ static void ticks_of_short_axes(void **state) {
     const double noise[NUM] = {1.1, 0.9, 0.8, 1.2, 1, 1};
     example data;
     make_example(&data, 1);
-    assert_int_equal(count(&data.plot, "set xtics in mirror (0.05, 0.1, 0.2, 0.5, 1, 2)"), 2);
-    assert_int_equal(count(&data.plot, "set format y '10^{%T}'"), 1);
+    assert_int_equal(
+        test_script_count(&data.plot, "set xtics in mirror (0.05, 0.1, 0.2, 0.5, 1, 2)"), 2);
+    assert_int_equal(test_script_count(&data.plot, "set format y '10^{%T}'"), 1);
     data.curves[0].y = noise;
-    assert_int_equal(count(&data.plot, "set ytics in mirror (0.6, 0.8, 1, 1.2, 1.4, 1.6)"), 1);
+    assert_int_equal(
+        test_script_count(&data.plot, "set ytics in mirror (0.6, 0.8, 1, 1.2, 1.4, 1.6)"), 1);
 }
 
 /* The second panel of the sphere is the first one where both axes are logarithmic. */
@@ -149,68 +130,117 @@ static void the_sphere_has_one_panel_of_logarithms(void **state) {
     example data;
     make_example(&data, 1);
     data.plot.on_sphere = true;
-    assert_int_equal(count(&data.plot, "\nplot "), 1);
+    assert_int_equal(test_script_count(&data.plot, "\nplot "), 1);
     data.plot.axes.is_log_y = false;
-    assert_int_equal(count(&data.plot, "\nplot "), 2);
+    assert_int_equal(test_script_count(&data.plot, "\nplot "), 2);
     data.plot.axes = (ps_plot_axes){0};
-    assert_int_equal(count(&data.plot, "\nplot "), 2);
+    assert_int_equal(test_script_count(&data.plot, "\nplot "), 2);
 }
 
-/* Curves have the level of their own number of realizations. */
+static const char grey[] = "NaN with lines dashtype 2 linewidth 1.2 linecolor rgb '#707070' title ";
+
+/* Curves have the level of their own number of realizations; the key says it once. */
 static void levels_of_noise(void **state) {
     (void)state;
     example data;
+    char entry[128];
     make_example(&data, 3);
-    assert_int_equal(count(&data.plot, "title 'pure noise, -13.0 dB'"), 1);
+    snprintf(entry, sizeof entry, "%s\"pure noise\\054 \\055\\061\\063\\056\\060 dB\"", grey);
+    assert_int_equal(test_script_count(&data.plot, entry), 1);
     data.curves[1].num_realizations = 1000;
-    assert_int_equal(count(&data.plot, "linecolor rgb '#0072B2' title 'pure noise of M = 20, "
-                                       "-13.0 dB'"),
+    assert_int_equal(test_script_count(&data.plot,
+                                       "linecolor rgb '#0072B2' title \"pure noise of M "
+                                       "\\075 \\062\\060\\054 "),
                      1);
-    assert_int_equal(count(&data.plot, "linecolor rgb '#D55E00' title 'pure noise of M = 1000, "
-                                       "-30.0 dB'"),
+    assert_int_equal(test_script_count(&data.plot,
+                                       "linecolor rgb '#D55E00' title \"pure noise of M "
+                                       "\\075 \\061\\060\\060\\060\\054 "),
                      1);
-    assert_int_equal(count(&data.plot, "pure noise"), 2);
+    assert_int_equal(test_script_count(&data.plot, "pure noise"), 2);
     data.curves[0].num_realizations = data.curves[2].num_realizations = 1; /* the same every time */
-    assert_int_equal(count(&data.plot, "title 'pure noise, -30.0 dB'"), 1);
+    assert_int_equal(test_script_count(&data.plot, grey), 1);
     data.curves[1].num_realizations = 1;
-    assert_int_equal(count(&data.plot, "pure noise"), 0);
+    assert_int_equal(test_script_count(&data.plot, "pure noise"), 0);
 }
 
-/* So many pixels of a panel are above all that is in it. */
-static double find_room(ps_plot_span shown, double most, double height) {
-    return (shown.most - most) / (shown.most - shown.least) * height;
-}
-
-/* Keys have lines of 24 pixels, and lie on no curve: neither in the low panels of the sphere nor
- * beside anisotropies. */
-static void keys_lie_on_no_curve(void **state) {
+/* Keys are below the frames: the page is higher by their rows of 25 pixels, and the axis has no
+ * room for them. */
+static void keys_stand_below(void **state) {
     (void)state;
-    const double row = 24;
-    const double most = 1.2; /* the least that is shown of powers */
     example data;
-    make_example(&data, 3);
+    make_example(&data, 4);
     data.plot.axes = (ps_plot_axes){0};
-    assert_true(find_room(find_range(&data.plot, "y"), most, 344) > 3 * row);
-    assert_true(find_room(find_lower_range(&data.plot), -11, 193) > row);
-    data.curves[1].num_realizations = 1000;
-    assert_true(find_room(find_lower_range(&data.plot), -11, 193) > 2 * row);
-    data.plot.on_sphere = true;
-    assert_true(find_room(find_range(&data.plot, "y"), most, 244) > 3 * row);
-    assert_int_equal(count(&data.plot, "samplen 2 maxrows 4 noenhanced"), 1); /* half of 244 */
+    data.curves[0].label = "a name that is so long that there is one column alone, as in files";
+    assert_int_equal(test_script_count(&data.plot, " size 1000,825 "), 1);
+    assert_int_equal(test_script_count(&data.plot, " maxcols 1 samplen 2 spacing 1.05 "), 1);
+    data.curves[0].label = "a"; /* five entries in four columns: two rows */
+    assert_int_equal(test_script_count(&data.plot, " size 1000,750 "), 1);
+    assert_int_equal(test_script_count(&data.plot, "set bmargin at screen 0.18133\n"), 1);
+    assert_true(find_range(&data.plot, "y").most < 1.2 * 1.06); /* the least that is shown is 1.2 */
+    assert_true(find_lower_range(&data.plot).most < -11 + 0.51);
+    data.plot.on_sphere = true; /* where no noise has a level */
+    assert_int_equal(test_script_count(&data.plot, " size 1000,725 "), 1);
     data.panel.num_series = 1; /* no key, and no room for one */
-    assert_true(find_room(find_range(&data.plot, "y"), most, 244) < row);
+    assert_int_equal(test_script_count(&data.plot, " size 1000,700 "), 1);
+    assert_int_equal(test_script_count(&data.plot, "set key "), 0);
 }
 
-/* gnuplot makes boxes of one letter too narrow. */
-static void keys_of_short_names(void **state) {
+/* Both are in the key, once for all curves, and in sight. */
+static void profiles_and_fits_are_in_the_key(void **state) {
     (void)state;
+    const double low[NUM] = {1e-3, 0.01, 0.05, 0.3, 0.5, 0.5};
+    const double high[NUM] = {6e-3, 0.04, 0.2, 0.9, 1.3, 1.7};
+    const double fit[NUM] = {5e-3, 0.03, NAN, NAN, NAN, NAN};
     example data;
     make_example(&data, 2);
-    assert_int_equal(count(&data.plot, "Left reverse width 2 box"), 1);
-    assert_int_equal(count(&data.plot, "Left reverse width -1 box"), 1); /* of levels of noise */
-    data.curves[1].label = "jittered";
-    assert_int_equal(count(&data.plot, "Left reverse width -1 box"), 2);
-    assert_int_equal(count(&data.plot, "Left reverse width 2 box"), 0);
+    data.plot.axes = (ps_plot_axes){0};
+    assert_int_equal(test_script_count(&data.plot, "profile\""), 0);
+    assert_int_equal(test_script_count(&data.plot, "title \"fit near "), 0);
+    for (size_t i = 0; i < 2; i++) {
+        data.curves[i].low = low;
+        data.curves[i].high = high;
+        data.curves[i].fit = fit;
+    }
+    assert_int_equal(test_script_count(&data.plot,
+                                       "NaN with lines linewidth 1 dashtype 3 linecolor "
+                                       "rgb '#707070' title \"lower\\054 upper profile\""),
+                     1);
+    assert_int_equal(test_script_count(&data.plot,
+                                       "NaN with lines linecolor rgb '#000000' linewidth 1 "
+                                       "title \"fit near \\060\""),
+                     1);
+    assert_true(find_range(&data.plot, "y").most > 1.7);
+    data.panel.num_series = 1; /* which the title names */
+    assert_int_equal(test_script_count(&data.plot, "title \"fit near "), 1);
+    data.curves[0].fit = none;
+    assert_int_equal(test_script_count(&data.plot, "title \"fit near "), 0);
+}
+
+/* Rings beside which others are 0 have marks where the axis has no 0; so have anisotropies beside
+ * which there are none. */
+static void rings_that_stand_alone(void **state) {
+    (void)state;
+    const double peaks[NUM] = {0, 3, 0, 0, 0, 5};
+    const double alone[NUM] = {NAN, 9, NAN, NAN, NAN, 9};
+    static const char mark[] = " using 1:2 with linespoints pointtype 7 ";
+    example data;
+    make_example(&data, 1);
+    assert_int_equal(test_script_count(&data.plot, "linespoints"), 0);
+    data.curves[0].y = peaks;
+    assert_int_equal(test_script_count(&data.plot, mark), 1);
+    data.curves[0].anisotropy = alone;
+    assert_int_equal(test_script_count(&data.plot, " using 1:4 with linespoints pointtype 7 "), 1);
+    data.plot.axes = (ps_plot_axes){0}; /* a line goes down to 0 */
+    assert_int_equal(test_script_count(&data.plot, mark), 0);
+    data.plot.on_sphere = true; /* the lower panel has no 0 */
+    assert_int_equal(test_script_count(&data.plot, "NaN) with linespoints pointtype 7 "), 1);
+    data.plot = (ps_figure){.form = PS_FIGURE_FRAME,
+                            .title = "",
+                            .is_log_y = true,
+                            .num_panels = 1,
+                            .panels = &data.panel};
+    data.curves[0].look = PS_LOOK_CURVE;
+    assert_int_equal(test_script_count(&data.plot, " with linespoints pointtype 6 "), 1);
 }
 
 /* The axis of powers has the label of the figure, in both panels of the sphere. */
@@ -220,9 +250,9 @@ static void labels_of_powers(void **state) {
     make_example(&data, 1);
     data.plot.axes = (ps_plot_axes){0};
     data.plot.y_label = "sums";
-    assert_int_equal(count(&data.plot, "set ylabel 'sums' "), 1);
+    assert_int_equal(test_script_count(&data.plot, "set ylabel 'sums' "), 1);
     data.plot.on_sphere = true;
-    assert_int_equal(count(&data.plot, "set ylabel 'sums' "), 2);
+    assert_int_equal(test_script_count(&data.plot, "set ylabel 'sums' "), 2);
 }
 
 /* It stands over what is no panel of points, and loses its middle where it is too long. */
@@ -238,19 +268,19 @@ static void titles_have_their_place(void **state) {
     memset(title, 'a', sizeof title);
     memcpy(title, "\xc3\xa4", 2); /* one character */
     memcpy(title + 196, " end", 5);
-    assert_int_equal(count(&data.plot, "set label 1 \"title\" at screen 0.5,"), 1);
+    assert_int_equal(test_script_count(&data.plot, "set label 1 \"title\" at screen 0.5,"), 1);
     data.plot.points = &points;
     data.plot.frames = &frame;
-    assert_int_equal(count(&data.plot, "set label 1 \"title\" at screen 0.697,"), 1);
+    assert_int_equal(test_script_count(&data.plot, "set label 1 \"title\" at screen 0.697,"), 1);
     data.plot.title = title; /* 90 letters have room */
-    assert_int_equal(count(&data.plot, "aaaaaaaa…aaaaaaaa"), 1);
-    assert_int_equal(count(&data.plot, "aaa end\" at screen"), 1);
+    assert_int_equal(test_script_count(&data.plot, "aaaaaaaa…aaaaaaaa"), 1);
+    assert_int_equal(test_script_count(&data.plot, "aaa end\" at screen"), 1);
     title[90] = '\0';
-    assert_int_equal(count(&data.plot, "…"), 0);
+    assert_int_equal(test_script_count(&data.plot, "…"), 0);
     title[90] = 'a';
     title[91] = 'a';
     title[92] = '\0';
-    assert_int_equal(count(&data.plot, "…"), 1);
+    assert_int_equal(test_script_count(&data.plot, "…"), 1);
 }
 
 /* Curves of noise alone, and a panel of a single number. */
@@ -287,7 +317,7 @@ static void lines_that_coincide(void **state) {
     data.curves[1].look = PS_LOOK_MARKS;
     assert_true(ps_script_line_width(&data.plot, &data.panel, 1) ==
                 ps_script_line_width(&data.plot, &data.panel, 2));
-    assert_int_equal(count(&data.plot, "\nset pointintervalbox 0.01\n"), 1);
+    assert_int_equal(test_script_count(&data.plot, "\nset pointintervalbox 0.01\n"), 1);
 }
 
 /* White noise is the middle of the colours, wherever the scale ends. */
@@ -300,15 +330,15 @@ static void white_noise_is_neutral(void **state) {
     example data;
     make_example(&data, 1);
     data.plot.image = &picture;
-    assert_int_equal(count(&data.plot, "0.321928 '#f4f2ee', "), 1); /* log2(1.25) */
-    assert_int_equal(count(&data.plot, "set cbrange [0:1.80735]"), 1);
-    assert_int_equal(count(&data.plot, "'1' 0.321928"), 1);
+    assert_int_equal(test_script_count(&data.plot, "0.321928 '#f4f2ee', "), 1); /* log2(1.25) */
+    assert_int_equal(test_script_count(&data.plot, "set cbrange [0:1.80735]"), 1);
+    assert_int_equal(test_script_count(&data.plot, "'1' 0.321928"), 1);
     image[3] = 0;
-    assert_int_equal(count(&data.plot, "0.321928 '#f4f2ee', "), 1);
-    assert_int_equal(count(&data.plot, "set cbrange [0:0.436"), 1); /* 2 */
-    assert_int_equal(count(&data.plot, "'1' 0.321928"), 1);
+    assert_int_equal(test_script_count(&data.plot, "0.321928 '#f4f2ee', "), 1);
+    assert_int_equal(test_script_count(&data.plot, "set cbrange [0:0.436"), 1); /* 2 */
+    assert_int_equal(test_script_count(&data.plot, "'1' 0.321928"), 1);
     picture.maximum = 100; /* that of another image */
-    assert_int_equal(count(&data.plot, "set cbrange [0:1.80735]"), 1);
+    assert_int_equal(test_script_count(&data.plot, "set cbrange [0:1.80735]"), 1);
     assert_int_equal(ps_plot_find_maximum(&own, &picture, &error), PSPEC_OK);
     assert_true(own == 2);
 }
@@ -329,10 +359,12 @@ static void points_beside_spectra(void **state) {
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         const ps_point_frame frame = {forms[i], 0, 1, "x", "y", false};
         data.plot.frames = &frame;
-        assert_int_equal(count(&data.plot, "$points_0 << EOD\n 0 0\n"), 1); /* 0 is no gap */
-        assert_int_equal(count(&data.plot, ", $points_0 using "), 1);
-        assert_int_equal(count(&data.plot, "set terminal svg enhanced size 1650,700 "), 1);
-        assert_int_equal(count(&data.plot, "\nunset label\nset border 31 "), 1);
+        assert_int_equal(test_script_count(&data.plot, "$points_0 << EOD\n 0 0\n"),
+                         1); /* 0 is no gap */
+        assert_int_equal(test_script_count(&data.plot, ", $points_0 using "), 1);
+        assert_int_equal(test_script_count(&data.plot, "set terminal svg enhanced size 1650,725 "),
+                         1);
+        assert_int_equal(test_script_count(&data.plot, "\nunset label\nset border 31 "), 1);
         ps_figure_add_key(&second, &data.plot);
         assert_true(second.length > first.length);
     }
@@ -347,8 +379,9 @@ int main(void) {
         cmocka_unit_test(ticks_of_short_axes),
         cmocka_unit_test(the_sphere_has_one_panel_of_logarithms),
         cmocka_unit_test(levels_of_noise),
-        cmocka_unit_test(keys_lie_on_no_curve),
-        cmocka_unit_test(keys_of_short_names),
+        cmocka_unit_test(keys_stand_below),
+        cmocka_unit_test(profiles_and_fits_are_in_the_key),
+        cmocka_unit_test(rings_that_stand_alone),
         cmocka_unit_test(labels_of_powers),
         cmocka_unit_test(titles_have_their_place),
         cmocka_unit_test(anisotropies_have_a_range),

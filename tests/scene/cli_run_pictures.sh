@@ -76,10 +76,10 @@ SCENE
     [[ $(grep -c '>equal<\|>optimal<' many/rules-e2-1.svg) == 2 && $(grep -c '<title>' many/rules-e2-1.svg) -ge 11 ]] ||
         complain "not all curves are drawn: $(grep '<title>' many/rules-e2-1.svg)"
     for label in white-hemisphere fibonacci-hemisphere jittered:lift=hemisphere; do
-        [[ $(grep -c "<text>$label" many/rules-e2-1.svg) == 1 ]] || complain "$label is not once in the key"
+        [[ $(grep -c "<tspan[^>]*>$label" many/rules-e2-1.svg) == 1 ]] || complain "$label is not once in the key"
     done
     for n in 1 2 3 4 5 6 7 8 9 10; do
-        grep -q "<text>glossy:n=$n<" many/one-key-error.svg || complain "n=$n is not drawn"
+        grep -q "<tspan[^>]*>glossy:n=$n<" many/one-key-error.svg || complain "n=$n is not drawn"
     done
     # titles of all kinds
     cat >titles.yaml <<'SCENE'
