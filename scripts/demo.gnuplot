@@ -3,7 +3,7 @@
 set terminal pngcairo size 1200,700 background "#ffffff" font "DejaVu Sans,11"
 set output folder."/comparison.png"
 set datafile separator ","
-set title "Radially averaged power, N = 1024; bars: one standard error"
+set title "Radially averaged power; bars: one standard error"
 set xlabel "normalized frequency |k| / sqrt(N)"
 set ylabel "power (white noise: 1)"
 set xrange [0:3]
