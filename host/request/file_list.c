@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char magic[] = "*?[\\";
@@ -131,13 +132,65 @@ pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *reque
     return ps_file_list_read(out, shown, source->files, error);
 }
 
+/* A file that is there, under one of its names. */
+typedef struct known_file {
+    struct stat facts;
+    const char *path;
+} known_file;
+
+static int compare_files(const void *first, const void *second) {
+    const known_file *const a = first;
+    const known_file *const b = second;
+    if (a->facts.st_dev != b->facts.st_dev) {
+        return a->facts.st_dev < b->facts.st_dev ? -1 : 1;
+    }
+    if (a->facts.st_ino != b->facts.st_ino) {
+        return a->facts.st_ino < b->facts.st_ino ? -1 : 1;
+    }
+    return strcmp(a->path, b->path);
+}
+
+/* Realizations and sets that are compared are taken for independent ones: of one that counts twice
+ * standard errors would be 0, or too small. A name without a file is for whoever opens it. */
+static pspec_status check_different(const ps_file_list *lists, const ps_request *request,
+                                    ps_error *error) {
+    const size_t num_lists = ps_request_num_questions(request);
+    known_file *files = NULL;
+    size_t num = 0;
+    for (size_t i = 0; i < num_lists; i += request->num_counts) {
+        num += lists[i].num;
+    }
+    PS_TRY(PS_NEW(&files, num, "names of files", error));
+    num = 0;
+    for (size_t i = 0; i < num_lists; i += request->num_counts) {
+        for (size_t j = 0; j < lists[i].num; j++) {
+            files[num].path = lists[i].paths[j];
+            num += stat(files[num].path, &files[num].facts) == 0;
+        }
+    }
+    qsort(files, num, sizeof *files, compare_files);
+    pspec_status status = PSPEC_OK;
+    for (size_t i = 1; i < num && status == PSPEC_OK; i++) {
+        const known_file *const two = &files[i - 1];
+        if (two[0].facts.st_dev == two[1].facts.st_dev &&
+            two[0].facts.st_ino == two[1].facts.st_ino) {
+            status = ps_fail(error, PSPEC_ERROR_INPUT,
+                             "\"%s\" and \"%s\" are one file, which would count twice as if its "
+                             "points were independent ones; name it once",
+                             two[0].path, two[1].path);
+        }
+    }
+    free(files);
+    return status;
+}
+
 pspec_status ps_file_lists_make(ps_file_list **out, const ps_request *request, ps_error *error) {
     const size_t num = ps_request_num_questions(request);
     PS_TRY(PS_NEW(out, num, "lists of files", error));
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_file_list_of_question(&(*out)[i], request, i, error));
     }
-    return PSPEC_OK;
+    return check_different(*out, request, error);
 }
 
 void ps_file_lists_free(ps_file_list *lists, size_t num) {

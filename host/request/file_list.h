@@ -27,7 +27,7 @@ void ps_file_list_free(ps_file_list *list);
 pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *request, size_t question,
                                       ps_error *error) PS_MUST_CHECK;
 
-/* One list for each question. */
+/* One list for each question; a file is in one set and once, whatever its names are. */
 pspec_status ps_file_lists_make(ps_file_list **out, const ps_request *request,
                                 ps_error *error) PS_MUST_CHECK;
 void ps_file_lists_free(ps_file_list *lists, size_t num);

@@ -52,7 +52,8 @@ END
 # one set alone is the files under a name; two sets need no sampler, and then nothing is random
 runs 0 "${host[@]}" -k 4 --set jit=j1.txt
 [[ $(rows out) == "$(alone power "${host[@]}" -k 4 j1.txt)" && $(key sampler) == jit && -z $(key seed) ]] || complain "one set: $(<out)"
-runs 0 "${host[@]}" -k 4 --set a=j1.txt --set b=j1.txt
+cp j1.txt same.txt
+runs 0 "${host[@]}" -k 4 --set a=j1.txt --set b=same.txt
 [[ $(rows_of a) == "$(rows_of b)" && -n $(rows_of a) ]] || complain "twice the same: $(<out)"
 "$program" plan power "${host[@]}" -k 4 --set a=j1.txt --sampler white -n 64 >plan.csv 2>err || complain "plan: $(<err)"
 [[ $(grep -c '^a,host_direct:.*,chosen,' plan.csv) == 1 && $(grep -c '^white,host_direct:.*,chosen,' plan.csv) == 1 ]] ||
@@ -88,15 +89,15 @@ runs 0 "${disk[@]}" --set 'jit=j*.txt' --set 'lhs=l*.txt' --sampler white -n 64 
     $(key ranking_first) == jit && $(key ranking_points) == 64 ]] || complain "ranking: $(key ranking)"
 rows out | awk -F, '{ v[$1] = $3; f[$1] = $12; s[$1] = $15 }
     END { r = v["lhs"] / v["jit"] / f["lhs"]; exit !(r > 0.95 && r < 1.05 && s["lhs"] > 3 && s["white"] > 3) }' || complain "factor: $(<out)"
-# a file beside itself is not told apart; of a single set all that is random are moves, and a few sets tell no error
-runs 0 "${disk[@]}" --set a=j1.txt --set b=j1.txt --rank
+# a set beside its copy is not told apart; of a single set all that is random are moves, and a few sets tell no error
+runs 0 "${disk[@]}" --set a=j1.txt --set b=same.txt --rank
 [[ $(rows out | cut -d, -f11-13 | paste -sd' ') == '1,1,0 1,1,0' ]] || complain "beside itself: $(<out)"
 runs 0 "${disk[@]}" --select-sets 1 --set a=j1.txt --set b=l1.txt --rank
 [[ $(key ranking) == *'b has '*' times as much, by sums over pairs of points; '* ]] || complain "one set each: $(key ranking)"
 runs 0 "${disk[@]}" --select-sets 1..3 --set a=j1.txt --set b=l1.txt --rank
 [[ $(key ranking) == *'times as much, from too few sets for an error'* ]] || complain "three sets each: $(key ranking)"
 # measured ones are moved by moves of their own
-runs 0 --integrand disk "${host[@]}" -k 8 --set a=j1.txt --set b=j1.txt
+runs 0 --integrand disk "${host[@]}" -k 8 --set a=j1.txt --set b=same.txt
 [[ $(rows_of a | cut -d, -f2) == "$(rows_of b | cut -d, -f2)" && $(rows_of a | cut -d, -f6) != "$(rows_of b | cut -d, -f6)" ]] ||
     complain "moves: $(<out)"
 runs 0 --integrand disk "${host[@]}" -k 8 --set a=j1.txt --sampler white -n 64 -m 2
@@ -108,6 +109,12 @@ refuses 'variances are formed from sums of each set' "${disk[@]}" --set a=saved.
 
 # ---- what is refused ----
 command=power
+# a file counts once, whatever its names are, in one set or in two that are compared
+ln -s j1.txt link.txt
+for twice in 'j1.txt ./j1.txt' 'link.txt j1.txt' '--set a=j1.txt,j*.txt' '--set a=j1.txt --set b=j1.txt' '--set a=j1.txt --set b=l*.txt'; do
+    read -ra words <<<"$twice"
+    refuses 'are one file, which would count twice' -k 4 "${words[@]}"
+done
 refuses '--set a: no file matches "none*.txt"' --set 'a=none*.txt'
 runs 1 --set a=none.txt
 says 'cannot read none.txt'
