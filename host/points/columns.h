@@ -23,7 +23,8 @@ typedef struct ps_layout {
     ps_lift lift;          /* rows are points (x, y) of the plane, which become vectors */
     bool has_weight_column;
     bool drops_weight;
-    bool by_shape; /* nothing but the shape of an array and its first point told that */
+    bool has_own_box; /* coordinates are in units of a box that the file states */
+    bool by_shape;    /* nothing but the shape of an array and its first point told that */
 } ps_layout;
 
 /* The facts that decide about the layout of a file. */

@@ -251,19 +251,21 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
         const bool is_inside = row[j] >= 0 && row[j] < 1;
         if (!is_inside && !options->wrap) {
             const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);
-            const bool may_be_weight = j > 0 && j + 1 == layout->dimension &&
-                                       !layout->has_weight_column && options->dimension == 0;
+            const bool may_be_weight = !layout->has_own_box && j > 0 &&
+                                       j + 1 == layout->dimension && !layout->has_weight_column &&
+                                       options->dimension == 0;
             const bool may_be_angles =
                 options->domain == PS_DOMAIN_ANY && layout->dimension == 3 && may_be_degrees(row);
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1); %s%s",
-                           where, show_number(text, row[j]),
-                           may_be_angles     ? "are these degrees? --columns phi-theta-w:degrees"
-                           : is_vector       ? "a unit vector? Points of the torus are meant here"
-                           : is_near(row[j]) ? "--wrap would reduce it mod 1"
-                                             : "in other units? --box X0,X1 takes [X0,X1) to it",
-                           may_be_weight && !is_vector && !may_be_angles
-                               ? " (a weight? --weights column)"
-                               : "");
+            return ps_fail(
+                error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1)%s; %s%s", where,
+                show_number(text, row[j]), layout->has_own_box ? " of the box" : "",
+                may_be_angles ? "are these degrees? --columns phi-theta-w:degrees"
+                : is_vector   ? "a unit vector? Points of the torus are meant here"
+                : is_near(row[j]) || layout->has_own_box
+                    ? "--wrap would reduce it mod 1"
+                    : "in other units? --box X0,X1 takes [X0,X1) to it",
+                may_be_weight && !is_vector && !may_be_angles ? " (a weight? --weights column)"
+                                                              : "");
         }
     }
     return PSPEC_OK;

@@ -82,6 +82,7 @@ static pspec_status resolve_layout(ps_point_reader *reader, const double *first,
         .options = &reader->options,
     };
     PS_TRY(ps_columns_resolve(&reader->layout, &question, error));
+    reader->layout.has_own_box = reader->has_own_box;
     reader->has_layout = true;
     return PSPEC_OK;
 }

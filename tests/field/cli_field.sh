@@ -214,6 +214,9 @@ awk 'NF == 5 && $1 != "ITEM:" { $3 *= 10; $4 *= 10; $5 *= 10 } { sub(/xs ys zs/,
 reads "$scaled" absolute.dump
 sed 's/x y z/xu yu zu/; s/^0.0 10.0/-10 10/' absolute.dump >unwrapped.dump
 reads '0.55 0.6 0.65|0.8 0.6 0.9' --select-points ..2 --select-sets 1 unwrapped.dump
+# atoms that left the box, however far, are wrapped: --box would be refused
+refuses 'line 14: coordinate 3.1 is outside [0,1) of the box; --wrap would reduce it mod 1' power "$folder/unwrapped.dump"
+reads '0.1 0.05 0.75|0.1 0.25 0.25|0.5 0.5 0.5' --wrap "$folder/unwrapped.dump"
 reads '0.1 0.7 0.8|0.6 0.7 0.3|#|0.1 0.7 0.81|0.6 0.7 0.3' --select type=2 "$dump"
 reads '0.2 0.1|0.7 0.6' --columns ys,xs --select id=1 <(sed -n '1,9p; 10p; 13p' "$dump" | sed 's/^4$/2/; s/^4 2/1 2/')
 reads '0.1 0.2|0.6 0.2' -d 2 --select type=1 --select-sets 1 "$dump"

@@ -90,6 +90,7 @@ pspec_status ps_frame_open(ps_point_reader *reader, ps_frame_header *header, ps_
     PS_TRY(header(reader, error));
     ps_text_state *const state = reader->state;
     ps_text_set_columns(reader, state->header.num_chosen);
+    reader->has_own_box = state->num_corners > 0;
     reader->own_columns = ps_columns_meaning(reader->options.column_names);
     reader->chosen = reader->options.column_names != NULL ? state->header.used : NULL;
     ps_point_options *const options = &reader->options;
