@@ -89,6 +89,13 @@ runs 0 "${disk[@]}" --set 'jit=j*.txt' --set 'lhs=l*.txt' --sampler white -n 64 
     $(key ranking_first) == jit && $(key ranking_points) == 64 ]] || complain "ranking: $(key ranking)"
 rows out | awk -F, '{ v[$1] = $3; f[$1] = $12; s[$1] = $15 }
     END { r = v["lhs"] / v["jit"] / f["lhs"]; exit !(r > 0.95 && r < 1.05 && s["lhs"] > 3 && s["white"] > 3) }' || complain "factor: $(<out)"
+# titles say the sets of each
+runs 0 "${disk[@]}" --set 'jit=j*.txt' --sampler white -n 64 -m 5 --plot variance.svg
+grep -q 'disk, M = 12 of jit, 5 of white<' variance.svg || complain "title: $(grep -o '[^>]*M = [^<]*' variance.svg)"
+grep -v '^#' j1.txt | head -n 60 >j60.dat
+grep -v '^#' j1.txt | head -n 64 >j64.dat
+"$program" power -k 4 j60.dat j64.dat --plot power.svg -o power.csv 2>err || complain "different N: $(<err)"
+grep -q '2 files, mean N = 62 (sets of 60 to 64), 2 realizations<' power.svg || complain "title of different N: $(grep -o '[^>]*N = [^<]*' power.svg)"
 # a set beside its copy is not told apart; of a single set all that is random are moves, and a few sets tell no error
 runs 0 "${disk[@]}" --set a=j1.txt --set b=same.txt --rank
 [[ $(rows out | cut -d, -f11-13 | paste -sd' ') == '1,1,0 1,1,0' ]] || complain "beside itself: $(<out)"

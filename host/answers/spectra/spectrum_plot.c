@@ -119,18 +119,28 @@ static pspec_status make_points(ps_points_picture *picture, const ps_power_job *
     return PSPEC_OK;
 }
 
-/* Samplers choose N themselves where nside or the like says it. */
+/* Samplers choose N themselves where nside or the like says it; of sets with different N it is a
+ * mean, and which they have is said. */
 static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t num) {
-    double least = ps_power_job_spectrum(jobs[0])->mean_points;
-    double most = least;
-    for (size_t i = 1; i < num; i++) {
-        const double points = ps_power_job_spectrum(jobs[i])->mean_points;
-        least = fmin(least, points);
-        most = fmax(most, points);
+    double least = INFINITY;
+    double most = 0;
+    size_t smallest = SIZE_MAX;
+    size_t largest = 0;
+    bool varies = false;
+    for (size_t i = 0; i < num; i++) {
+        const ps_spectrum *const own = ps_power_job_spectrum(jobs[i]);
+        least = fmin(least, own->mean_points);
+        most = fmax(most, own->mean_points);
+        smallest = own->smallest_points < smallest ? own->smallest_points : smallest;
+        largest = own->largest_points > largest ? own->largest_points : largest;
+        varies = varies || own->smallest_points < own->largest_points;
     }
-    ps_text_append(title, ", N = %.6g", least);
+    ps_text_append(title, ", %sN = %.6g", varies ? "mean " : "", least);
     if (most > least) {
         ps_text_append(title, " to %.6g", most);
+    }
+    if (varies) {
+        ps_text_append(title, " (sets of %zu to %zu)", smallest, largest);
     }
 }
 

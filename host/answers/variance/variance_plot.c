@@ -350,7 +350,7 @@ static pspec_status write_figure(void *payload, const ps_figure *figure, ps_erro
 
 /* Of one integrand there is no panel to name it. */
 static void append_title(const ps_request *request, const ps_table *table, ps_text *out) {
-    const double sets = ps_cell_number(ps_table_find_meta(table, "realizations"));
+    const double sets = ps_variance_sets(request, table, NULL);
     const double shifts = ps_cell_number(ps_table_find_meta(table, "shifts"));
     ps_text_append(out, "%s", request->num_integrands == 1 ? request->integrands[0] : "variance");
     if (request->num_sources == 1) {
@@ -358,6 +358,8 @@ static void append_title(const ps_request *request, const ps_table *table, ps_te
     }
     if (sets > 0) {
         ps_text_append(out, ", M = %.0f", sets);
+    } else if (request->num_sources > 1) {
+        ps_variance_sets(request, table, out);
     }
     if (sets > 0 && shifts > 0) {
         ps_text_append(out, ", %.0f trial%s", sets * shifts, sets * shifts > 1 ? "s" : "");

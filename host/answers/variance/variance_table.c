@@ -218,3 +218,20 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
     free(spectra);
     return status;
 }
+
+double ps_variance_sets(const ps_request *request, const ps_table *table, ps_text *each) {
+    double all = ps_cell_number(ps_table_find_meta(table, "realizations"));
+    const char *key = NULL;
+    size_t found = 0;
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        const double sets = ps_cell_number(ps_table_meta(table, i, &key));
+        if (strcmp(key, "realizations") == 0 && found++ % request->num_counts == 0) {
+            all = sets == all ? all : NAN;
+            if (each != NULL) {
+                ps_text_append(each, "%s%.0f of %s", found > 1 ? ", " : ", M = ", sets,
+                               ps_request_name(request, found - 1));
+            }
+        }
+    }
+    return all;
+}

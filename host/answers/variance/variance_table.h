@@ -19,4 +19,7 @@ pspec_status ps_variance_chart(const ps_chart *chart, ps_error *error) PS_MUST_C
 pspec_status ps_variance_plot(const ps_request *request, const ps_table *table,
                               ps_error *error) PS_MUST_CHECK;
 
+/* The number of sets of all samplers, or nan; with a text, which may be NULL, that of each. */
+double ps_variance_sets(const ps_request *request, const ps_table *table, ps_text *each);
+
 #endif
