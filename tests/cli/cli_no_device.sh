@@ -18,6 +18,10 @@ refused "no OpenCL driver found: OCL_ICD_VENDORS names $PWD/empty, where no file
 refused "$PWD/nowhere cannot be read: No such file" OCL_ICD_VENDORS="$PWD/nowhere"
 refused "no OpenCL driver starts: $PWD/missing/a.icd: /usr/lib/no-such-driver.so: cannot open" OCL_ICD_VENDORS="$PWD/missing"
 ! grep -q "install" err || complain "install: $(<err)"
+# a scene of the host's engine asks for no device
+printf 'scene: 1\nresults:\n  - {result: power, samplers: white, points: 16, max-frequency: 4, engine: host_direct, plot: false}\n' >host.yaml
+POINTSPEC_CACHE_DIR=$PWD/cache OCL_ICD_VENDORS=$PWD/empty "$program" run host.yaml -o host --quiet >out 2>err ||
+    complain "a scene without a device: $(<err)"
 if "$program" devices 2>/dev/null | grep -q ',Portable Computing Language,'; then
     unset POCL_CACHE_DIR XDG_CACHE_HOME
     refused "POCL_DEVICES names, \"none\"" POCL_DEVICES=none

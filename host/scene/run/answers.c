@@ -86,11 +86,14 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
 }
 
 /* One device for all questions: its programs are built once. */
-pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
+pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
+                                const ps_run_question *question, ps_error *error) {
+    const ps_plan_constraints *const constraints = &question->asked.request.limits.constraints;
     if (run->device == NULL) {
         run->device = run->hooks.device;
     }
-    if (run->device != NULL || result->asked->kind->is_of_host) {
+    if (run->device != NULL || result->asked->kind->is_of_host ||
+        !ps_plan_may_need_device(constraints)) {
         return PSPEC_OK;
     }
     run->owns_device = true;
@@ -104,7 +107,7 @@ static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_questi
     PS_TRY(ps_run_fetch(run, question, &question->answer, &question->seconds, &question->is_cached,
                         error));
     if (!question->is_cached) {
-        PS_TRY(ps_run_open_device(run, result, error));
+        PS_TRY(ps_run_open_device(run, result, question, error));
         const ps_answer_hooks hooks = {.watch = run->hooks.watch, .device = run->device};
         PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
                               &hooks, error));

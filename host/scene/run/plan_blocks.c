@@ -24,7 +24,7 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
         return ps_plan_table_add_cached(planner, error);
     }
     if (!run->lacks_device) {
-        const pspec_status status = ps_run_open_device(run, result, error);
+        const pspec_status status = ps_run_open_device(run, result, question, error);
         run->lacks_device = status == PSPEC_ERROR_NO_DEVICE;
         if (status != PSPEC_OK && !run->lacks_device) {
             return status;

@@ -99,9 +99,9 @@ pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
-/* The device of all questions: its programs are built once. None where the result needs none. */
+/* The device of all questions: its programs are built once. None where the question needs none. */
 pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
-                                ps_error *error) PS_MUST_CHECK;
+                                const ps_run_question *question, ps_error *error) PS_MUST_CHECK;
 /* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache
  * that cannot be had is no error, but a warning. */
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
