@@ -22,9 +22,9 @@ enum { PS_PROFILE_ROWS = 64 }; /* more kernels than the product has; further one
 
 struct ps_device {
     ps_device_limits limits;
-    uint64_t own_max_allocation;     /* see ps_device_set_max_allocation */
-    uint64_t own_local_bytes;        /* see ps_device_set_local_bytes */
-    unsigned own_float_lanes;        /* see ps_device_set_native_lanes */
+    uint64_t own_max_allocation; /* see ps_device_set_max_allocation */
+    uint64_t own_local_bytes;    /* see ps_device_set_local_bytes */
+    unsigned own_float_lanes;    /* see ps_device_set_native_lanes */
     unsigned own_double_lanes;
     bool own_unified_memory;         /* see ps_device_set_unified_memory */
     bool own_dedicated_local_memory; /* see ps_device_set_dedicated_local_memory */
