@@ -37,10 +37,11 @@ distances() {
             }'
 }
 
-# Lines "NAME ROOM" of all tests of files.
+# Lines "NAME ROOM" of all tests of files, and of the engines that one of these asks one by one.
 tests_of_rooms() {
     find tests -name 'test_*.c' -o -name 'cli_*.sh' -o -path 'tests/project/*.sh' |
         sed -E 's|^tests/([^/]*)/(.*/)?([^/]*)\.[a-z]*$|\3 \1|; s|^test_||'
+    sed -n 's/^engine_contract_.*/& engines/p' "$build/known_tests.txt"
     echo faults faults
     echo fuzz_corpus fuzz
 }
