@@ -162,6 +162,36 @@ printf '"","w"\n"0","1"\n"1","2"\n' >w.csv
 printf 'w,v\n1,2\n' >w.csv
 refuses 'line 1: columns w,v;weights are one' power -k 2 points.txt --weights w.csv
 
+# ---- what parts the fields of a text with names; a count of them that differs from the names'
+reads '0.1 0.2|0.3 0.4|0.5 0.6' --columns x,y "$folder/trees.tsv"
+reads '0.1 0.2|0.3 0.4' --columns x,y "$folder/doubled_quotes.csv"
+reads '0.1 0.2' --columns x,y --select 'place=3 km E of "A"' "$folder/doubled_quotes.csv"
+reads '0.1 0.2|0.3 0.4' --columns x,y <(printf '\tx\t\ty\n0\t.1\t\t.2\n1\t.3\ta b, c\t.4\n')
+reads '0.1 0.2|0.3 0.4' --columns x,y <(printf 'x\ty\tplace, m\n.1\t.2\tN, O, P\n.3\t.4\t\n')
+reads '0.1 0.2' --columns x,y <(printf 'x;y;n\n.1;.2;a, b, c\n')
+reads '0.1 0.2' --columns x,y <(printf 'x y species\n.1\t.2\tFagus sylvatica\n')
+reads '0.1 0.2|0.3 0.4|0.5 0.6' --columns x,y <(printf '\xef\xbb\xbf"x","y","n"\r\n.1,.2,"a\r\n9,9,""b"\r\n.3,.4,c\r\n.5,.6,5" d\r\n')
+reads '0.1 0.2' --columns 1,2 <(printf '"x\nm","y\nm"\n.1,.2\n')
+reads '0.1 0.2|0.3 0.4' <(printf 'x,y,\n.1,.2,\n.3,.4,\n') # a separator at the end of every line
+reads '0.1 0.2|0.3 0.4' --columns x,y <(printf '"mag" "x" "y"\n"1" 5 .1 .2\n"2" 6 .3 .4\n') # write.table
+reads '0.1 0.2|0.3 0.4' --columns x,y <(printf 'x y n\n1 .1 .2 a\n2 .3 .4 b\n') # without quotes
+reads '0.1 0.2|0.3 0.4' --columns x,y <(printf '   mag   x   y\n0  5.2  .1  .2\n1  5.2  .3  .4\n') # to_string
+reads '0.1 0.2|0.3 0.4' --columns x,y <(printf 'mag,x,y\na,5,.1,.2\nb,6,.3,.4\n')
+awk 'BEGIN { print "x,y,n"; for (i = 0; i < 40000; i++) print i / 40000 ",.5,\"a\nb\"" }' >long.csv # beyond a buffer
+[[ $("$program" convert --columns x,y long.csv) == "$(awk 'BEGIN { for (i = 0; i < 40000; i++) print i / 40000, 0.5 }')" ]] ||
+    complain 'long.csv: other points than it has'
+shifted='and the row after has;nothing says that it is the first that has no name;by number'
+refuses "4 names of columns, $shifted" convert --columns x,y <(printf 'id,x,y,z\n1,.1,.2,.3,\n2,.4,.5,.6,\n') # a separator at the end
+refuses "3 names of columns, $shifted" convert --columns x,y <(printf 'id,x,y\n1,.1,.2,.3\n')
+refuses "3 names of columns, $shifted" convert --columns x,y <(printf 'tree,x,y\n1,.1,.2,.3\n')
+tr '\t' ' ' <"$folder/trees.tsv" >blanks.txt
+refuses "5 names of columns, $shifted" convert --columns x,y blanks.txt
+reads '0.1 0.2|0.3 0.4|0.5 0.6' --columns 2,3 blanks.txt
+refuses 'line 3: 4 columns, where the header names 3' convert --columns x,y <(printf 'x,y,n\n.1,.2,a\n.3,.4,b,c\n') -o none
+refuses '"0.2"a" is not a number' convert <(printf 'x,y\n"0.1","0.2"a\n')
+refuses 'line 3: a quote begins a column, and none closes it within 1000 lines' \
+    convert --columns x,y <(printf 'x,y,n\n.1,.2,a\n.3,.4,"b\n.5,.6,c\n') -o none
+
 # ---- rows of texts with names by what a column holds, as text or as a number
 printf 'type,x,y\n1,.1,.2\n2,.3,.4\n1,.5,.6\n' >types.csv
 reads '0.1 0.2|0.5 0.6' --select type=1 types.csv

@@ -160,6 +160,31 @@ static pspec_status check_commas(const ps_point_reader *reader, const char *row,
                    reader->input.name, state->lines.line_number + (begins ? 0 : num_after));
 }
 
+/* Is the line at the cursor one of names? They tell what parts the rows of the file; *row is the
+ * first, num_after lines after them, and NULL where there is none. */
+static pspec_status find_names(ps_point_reader *reader, bool *are_there, const char **row,
+                               size_t *num_after, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    const char unnamed = state->separator;
+    *are_there = false;
+    PS_TRY(ps_text_join(state, 0, error));
+    PS_TRY(peek_row(lines, row, num_after, error));
+    PS_TRY(check_commas(reader, *row, *num_after, error));
+    if (*row != NULL) {
+        state->separator = ps_text_header_separator(lines->cursor, *row, unnamed);
+        PS_TRY(ps_text_join(state, 0, error));
+        PS_TRY(find_header(reader, are_there, error));
+        PS_TRY(peek_row(lines, row, num_after, error)); /* it may have moved */
+    }
+    if (!*are_there) {
+        state->separator = unnamed;
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_text_join(state, *num_after, error));
+    return peek_row(lines, row, num_after, error);
+}
+
 pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
@@ -169,10 +194,7 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     size_t num_after = 0;
     bool is_there = false;
     char where[PS_PLACE_BYTES];
-    PS_TRY(peek_row(lines, &row, &num_after, error));
-    PS_TRY(check_commas(reader, row, num_after, error));
-    PS_TRY(row != NULL ? find_header(reader, &is_there, error) : PSPEC_OK);
-    PS_TRY(peek_row(lines, &row, &num_after, error)); /* it may have moved */
+    PS_TRY(find_names(reader, &is_there, &row, &num_after, error));
     if (!is_there) {
         return choose_columns(reader, error);
     }
@@ -188,7 +210,8 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     }
     reader->chosen = state->header.chooses ? state->header.used : NULL;
     PS_TRY(check_similar(reader, where, error));
-    state->header.chooses = state->header.chooses || has_quotes(row) || select != NULL;
+    state->header.chooses = state->header.chooses || has_quotes(row) || select != NULL ||
+                            state->separator == '\t'; /* for other rows tabs are blanks */
     for (size_t i = 0; i < num_after; i++) {
         ps_lines_skip(lines);
     }

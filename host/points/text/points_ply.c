@@ -124,7 +124,7 @@ static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices,
     char line[LINE_BYTES + 1] = "";
     for (bool is_first = true; strncmp(line, "end_header", sizeof "end_header" - 1) != 0;
          is_first = false) {
-        ps_field words[MOST_WORDS] = {{NULL, 0, false}};
+        ps_field words[MOST_WORDS] = {{.text = NULL}};
         unsigned num = 0;
         bool is_more = true;
         PS_TRY(read_line(reader, line, error));

@@ -147,8 +147,10 @@ static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) 
     if (state->header.chooses) {
         snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name,
                  state->lines.line_number);
-        return ps_text_header_refuse(&state->header, state->lines.cursor, state->separator, where,
-                                     error);
+        const char *const line = state->lines.cursor;
+        return ps_text_header_refuse(
+            &state->header, line,
+            ps_text_header_line_separator(&state->header, line, state->separator), where, error);
     }
     PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
     if (num_columns == reader->columns) { /* blanks, in a file of commas */
@@ -162,41 +164,48 @@ static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) 
 }
 
 /* Lines one by one: columns that are not chosen may hold anything. */
-static void read_chosen(const ps_point_reader *reader, ps_rows_read *out) {
+static pspec_status read_chosen(const ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
     while (lines->cursor < lines->lines_end && out->num < out->capacity) {
         const char *const text = ps_skip_blanks(lines->cursor);
         double *const row = out->rows + out->num * reader->columns;
-        const char *const end =
-            *text == '#' || ps_ends_line(text)
-                ? NULL
-                : ps_text_header_row(&state->header, lines->cursor, state->separator, row);
-        if (end == NULL) {
-            return;
+        if (*text == '#' || ps_ends_line(text)) {
+            return PSPEC_OK;
         }
-        const bool is_taken = ps_row_filter_takes(&state->filter, lines->cursor, state->separator);
+        const pspec_status joined = ps_text_join(state, 0, error);
+        if (joined != PSPEC_OK) {
+            return out->num > 0 ? PSPEC_OK : joined;
+        }
+        const char separator =
+            ps_text_header_line_separator(&state->header, lines->cursor, state->separator);
+        const char *const end = ps_text_header_row(&state->header, lines->cursor, separator, row);
+        if (end == NULL) {
+            return PSPEC_OK;
+        }
+        const bool is_taken = ps_row_filter_takes(&state->filter, lines->cursor, separator);
         lines->cursor = end + 1;
         lines->line_number++;
         out->num += is_taken;
         state->has_dropped = state->has_dropped || !is_taken;
     }
+    return PSPEC_OK;
 }
 
 /* Reads rows of the whole lines in the buffer, up to the first line that is something else. */
-static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
+static pspec_status read_rows(const ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
     double *const rows = out->rows + out->num * reader->columns;
     size_t num_rows = 0;
     if (state->header.chooses) {
-        read_chosen(reader, out);
-        return;
+        return read_chosen(reader, out, error);
     }
     lines->cursor = ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows,
                                   out->capacity - out->num, &num_rows);
     lines->line_number += num_rows;
     out->num += num_rows;
+    return PSPEC_OK;
 }
 
 pspec_status ps_text_fail_selection(const ps_point_reader *reader, ps_error *error) {
@@ -258,9 +267,10 @@ pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *
         if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {
             return end_input(reader, out, kind == PS_LINE_BLANK, error);
         }
-        const char *const before = state->lines.cursor;
-        read_rows(reader, out);
-        if (state->lines.cursor == before) {
+        const size_t before = state->lines.line_number;
+        const size_t num_before = out->num;
+        PS_TRY(read_rows(reader, out, error));
+        if (state->lines.line_number == before && out->num == num_before) {
             return out->num > 0 ? PSPEC_OK : refuse_line(reader, error);
         }
     }

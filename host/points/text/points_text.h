@@ -39,6 +39,9 @@ pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind,
  * the first line that is not a '#' line. */
 pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
                                 ps_error *error) PS_MUST_CHECK;
+/* Makes one line of those that the row num_after lines after the one at the cursor takes: line
+ * breaks in quotes become blanks. Pointers into the buffer do not survive this call. */
+pspec_status ps_text_join(ps_text_state *state, size_t num_after, ps_error *error) PS_MUST_CHECK;
 /* Fixes the number of columns of all rows. */
 void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
 /* A line of names before the rows says which columns there are. */

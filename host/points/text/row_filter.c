@@ -46,7 +46,7 @@ pspec_status ps_row_filter_find(ps_row_filter *out, const char *select, const ch
 }
 
 bool ps_row_filter_takes(const ps_row_filter *filter, const char *line, char separator) {
-    ps_field field = {NULL, 0, false};
+    ps_field field = {.text = NULL};
     bool is_more = true;
     double number = 0;
     if (filter->value == NULL) {
@@ -57,8 +57,7 @@ bool ps_row_filter_takes(const ps_row_filter *filter, const char *line, char sep
             return false;
         }
     }
-    const bool is_same = field.length == strlen(filter->value) &&
-                         strncmp(field.text, filter->value, field.length) == 0;
+    const bool is_same = ps_field_is(field, filter->value, strlen(filter->value));
     return is_same || (filter->is_number && field.length > 0 &&
                        ps_decimal_parse(field.text, &number) == field.text + field.length &&
                        number == filter->number);

@@ -7,33 +7,64 @@
 #include <ctype.h>
 #include <string.h>
 
-static bool ends_field(const char *text, char separator, bool is_quoted) {
-    if (ps_ends_line(text) || *text == '\n') {
-        return true;
+/* Tabs are blanks, unless they part fields. */
+static const char *skip_blanks(const char *text, char separator) {
+    while (*text == ' ' || (*text == '\t' && separator != '\t')) {
+        text++;
     }
-    return is_quoted ? *text == '"' : *text == separator || (separator == ' ' && *text == '\t');
+    return text;
+}
+
+static bool ends_field(const char *text, char separator) {
+    return ps_ends_line(text) || *text == separator || (separator == ' ' && *text == '\t');
+}
+
+/* The quote that closes the field, which two of them do not, or the end of the line. */
+static const char *find_quote(const char *text) {
+    while (!ps_ends_line(text) && (*text != '"' || text[1] == '"')) {
+        text += *text == '"' ? 2 : 1;
+    }
+    return text;
 }
 
 bool ps_field_next(const char **text, char separator, bool *is_more, ps_field *out) {
-    const char *at = ps_skip_blanks(*text);
+    const char *at = skip_blanks(*text, separator);
     if (ps_ends_line(at) && (separator == ' ' || !*is_more)) {
         return false;
     }
     out->is_quoted = *at == '"';
-    at += out->is_quoted;
-    out->text = at;
-    while (!ends_field(at, separator, out->is_quoted)) {
-        at++;
-    }
+    out->text = at + out->is_quoted;
+    at = out->is_quoted ? find_quote(out->text) : at;
+    out->is_open = out->is_quoted && *at != '"';
     out->length = (size_t)(at - out->text);
+    const char *const after = at + (out->is_quoted && !out->is_open);
+    at = skip_blanks(after, separator);
+    /* Behind quotes only a separator is right: with anything else it is no name and no number. */
+    if (!out->is_quoted || (!ends_field(at, separator) && (separator != ' ' || at == after))) {
+        while (!ends_field(at, separator)) {
+            at++;
+        }
+        out->length = (size_t)(at - out->text);
+    }
     while (!out->is_quoted && out->length > 0 &&
            strchr(" \t", out->text[out->length - 1]) != NULL) {
         out->length--;
     }
-    at = ps_skip_blanks(at + (out->is_quoted && *at == '"'));
+    at = skip_blanks(at, separator);
     *is_more = separator != ' ' && *at == separator;
     *text = at + *is_more;
     return true;
+}
+
+bool ps_field_is(ps_field field, const char *name, size_t length) {
+    size_t num = 0;
+    for (size_t i = 0; i < field.length; i++, num++) {
+        if (num == length || field.text[i] != name[num]) {
+            return false;
+        }
+        i += field.is_quoted && field.text[i] == '"'; /* two stand for one */
+    }
+    return num == length;
 }
 
 bool ps_field_is_number(ps_field token) {
@@ -89,7 +120,7 @@ int ps_field_find(const char *names, char separator, const char *name, size_t le
     ps_field field;
     bool is_more = true;
     for (int i = 0; ps_field_next(&names, separator, &is_more, &field); i++) {
-        if (field.length == length && strncmp(field.text, name, length) == 0) {
+        if (ps_field_is(field, name, length)) {
             return i;
         }
     }

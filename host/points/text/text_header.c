@@ -30,6 +30,29 @@ bool ps_text_header_is(const char *line, char separator) {
            num_names + num_numbers > 0;
 }
 
+char ps_text_header_separator(const char *names, const char *row, char otherwise) {
+    enum { ARE_NAMES = 1 << 20, AGREE = 1 << 21, MOST = ARE_NAMES - 1 };
+    static const char separators[] = {';', ',', '\t'};
+    unsigned best = 0;
+    for (size_t i = 0; i < sizeof separators; i++) {
+        const unsigned num = ps_fields_count(names, separators[i]);
+        const unsigned num_fields = ps_fields_count(row, separators[i]);
+        const unsigned are_names = ps_text_header_is(names, separators[i]) ? ARE_NAMES : 0;
+        const unsigned agree = num_fields == num || num_fields == num + 1 ? AGREE : 0;
+        const unsigned score = (num < MOST ? num : MOST) + are_names + agree;
+        if (num > 1 && score > best) {
+            best = score;
+            otherwise = separators[i];
+        }
+    }
+    return otherwise;
+}
+
+char ps_text_header_line_separator(const ps_text_header *header, const char *line, char separator) {
+    const bool has_tab = memchr(line, '\t', strcspn(line, "\n")) != NULL;
+    return header->is_there && separator == ' ' && has_tab ? '\t' : separator;
+}
+
 bool ps_text_header_is_numbered(const char *line, char separator) {
     ps_field token;
     bool is_more = true;
@@ -56,13 +79,9 @@ bool ps_text_header_is_decimal(const char *line, char separator) {
 
 /* ---- which columns ----------------------------------------------------------------------- */
 
-static bool is_same(ps_field token, const char *name, size_t length) {
-    return token.length == length && strncmp(token.text, name, length) == 0;
-}
-
 static bool is_unnamed(ps_field token) {
     static const char unnamed[] = "Unnamed: 0"; /* an index that was read and written again */
-    return token.length == 0 || is_same(token, unnamed, sizeof unnamed - 1);
+    return token.length == 0 || ps_field_is(token, unnamed, sizeof unnamed - 1);
 }
 
 /* The name says that it is no coordinate. */
@@ -125,7 +144,7 @@ static bool next_wanted(const char **names, ps_field *out) {
 /* Where the name stands among others; num: it is none of them. */
 static unsigned find_name(const ps_field *names, unsigned num, ps_field wanted) {
     unsigned found = 0;
-    while (found < num && !is_same(names[found], wanted.text, wanted.length)) {
+    while (found < num && !ps_field_is(names[found], wanted.text, wanted.length)) {
         found++;
     }
     return found;
@@ -198,8 +217,9 @@ static pspec_status read_names(ps_text_header *out, ps_field names[PS_MOST_FILE_
     bool is_more = true;
     if (num_fields > PS_MOST_FILE_COLUMNS || num_names + first != num_fields) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: %u names of columns, but the line after it has %u (at most %d)", where,
-                       num_names, num_fields, PS_MOST_FILE_COLUMNS);
+                       "%s: %u names of columns, but the line after it has %u (at most %d)%s",
+                       where, num_names, num_fields, PS_MOST_FILE_COLUMNS,
+                       separator == ' ' ? "; text with blanks stands in quotes" : "");
     }
     names[0] = (ps_field){.text = line};
     out->lacks_name = first == 1;
@@ -212,6 +232,37 @@ static pspec_status read_names(ps_text_header *out, ps_field names[PS_MOST_FILE_
     }
     out->num_columns = num_fields;
     return PSPEC_OK;
+}
+
+static bool ends_empty(const char *row, char separator) {
+    ps_field field = {.text = row};
+    bool is_more = true;
+    while (ps_field_next(&row, separator, &is_more, &field)) {
+    }
+    return field.length == 0 && !field.is_quoted;
+}
+
+/* Where rows have a field more than there are names: is it the first name that is missing, and
+ * neither a separator at the end of rows, nor text that blanks parted, nor the name of a last
+ * column? names[0] is that of the missing one. */
+static bool lacks_first(const ps_text_header *header, const ps_field *names, const char *line,
+                        const char *row, char separator) {
+    ps_field first;
+    ps_field field;
+    bool is_more = true;
+    unsigned num_texts = 0;
+    unsigned num_quoted = 0;
+    if (is_named_index(names[1]) || ends_empty(row, separator)) {
+        return false;
+    }
+    ps_field_next(&row, separator, &is_more, &first);
+    while (ps_field_next(&row, separator, &is_more, &field)) {
+        num_texts += !field.is_quoted && !ps_field_is_number(field);
+        num_quoted += field.is_quoted;
+    }
+    const bool is_quoted = first.is_quoted && num_quoted < header->num_columns - 1;
+    const bool has_place = *line == ' ' || !ps_field_is_number(first); /* as pandas prints it */
+    return is_quoted || header->places[1] >= 0 || (has_place && num_texts == 0);
 }
 
 /* What the names have in common at the beginning, or at the end. */
@@ -249,7 +300,7 @@ static bool are_similar(const ps_field *names, unsigned num) {
         first = i == 0 ? value : first;
         are = are && value == first + i;
     }
-    return are && !(num > 1 && is_same(names[num - 1], "w", 1));
+    return are && !(num > 1 && ps_field_is(names[num - 1], "w", 1));
 }
 
 static pspec_status check_chosen(ps_text_header *out, const char *where, ps_error *error) {
@@ -271,27 +322,38 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
     ps_field found[PS_MOST_FILE_COLUMNS];
     unsigned num_numbers = 0;
     *out = (ps_text_header){.is_there = true};
-    PS_TRY(read_names(out, found, line, ps_fields_count(row, separator), separator, where, error));
+    const char part = ps_text_header_line_separator(out, row, separator);
+    PS_TRY(read_names(out, found, line, ps_fields_count(row, part), separator, where, error));
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->places[i] = -1;
     }
     const bool is_chosen_by_number = names != NULL && !are_among(found, out->num_columns, names) &&
                                      ps_columns_numbers(names, NULL, 0, &num_numbers);
     if (is_chosen_by_number) {
-        PS_TRY(choose_numbered(out, found, names, where, error));
+        /* which names are theirs is not clear where one is missing */
+        PS_TRY(choose_numbered(out, out->lacks_name ? NULL : found, names, where, error));
     } else if (names != NULL) {
         PS_TRY(choose_named(out, found, names, where, error));
     }
+    const bool is_end_empty = ends_empty(row, part); /* separators after the last column */
     for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
         const bool is_selected =
-            select != NULL && is_same(found[i], select, ps_row_filter_name(select));
-        if (!is_selected && (i > 0 || out->num_columns == 1 || !is_index(found[i]))) {
+            select != NULL && ps_field_is(found[i], select, ps_row_filter_name(select));
+        const bool is_end = i + 1 == out->num_columns && found[i].length == 0 && is_end_empty;
+        if (!is_selected && !is_end && (i > 0 || out->num_columns == 1 || !is_index(found[i]))) {
             choose(out, i, found[i]);
         }
     }
+    if (out->lacks_name && !is_chosen_by_number && !lacks_first(out, found, line, row, part)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "%s: %u names of columns, and the row after has %u; nothing says that it is the "
+            "first that has no name (--columns chooses by number, as in 1,2)",
+            where, out->num_columns - 1, out->num_columns);
+    }
     /* Where a name is missing, those that are wanted may be the names of other columns. */
-    out->has_index =
-        out->places[0] < 0 && is_unnamed(found[0]) && (names == NULL || out->lacks_name);
+    out->has_index = out->places[0] < 0 && is_unnamed(found[0]) && !is_chosen_by_number &&
+                     (names == NULL || out->lacks_name);
     out->are_similar = are_similar(found + (out->places[0] < 0), out->num_chosen);
     return check_chosen(out, where, error);
 }

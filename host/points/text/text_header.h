@@ -38,14 +38,20 @@ typedef struct ps_text_header {
  * empty name of an index. */
 bool ps_text_header_is(const char *line, char separator);
 
+/* What parts the fields of a file whose first two rows these are, the first one of names: that of
+ * ; , and the tab by which they agree; `otherwise` where none of them is there. */
+char ps_text_header_separator(const char *names, const char *row, char otherwise);
+/* The same of a line of it: one with a tab is parted by tabs alone. */
+char ps_text_header_line_separator(const ps_text_header *header, const char *line, char separator);
+
 /* Is it "0", "0,1" and so on: labels of columns that nobody named, or a point? */
 bool ps_text_header_is_numbered(const char *line, char separator);
 /* Have all numbers of this row a decimal point or an exponent? Labels have none. */
 bool ps_text_header_is_decimal(const char *line, char separator);
 
-/* Reads the names at line and looks at the row after it; where: "FILE, line 1". names: the chosen
- * ones, separated by commas, or NULL: all but an index and the column of select, "type=1" or
- * NULL. */
+/* Reads the names at line and looks at the row after it, which has as many fields, or one more
+ * where all tells that the first name is missing; where: "FILE, line 1". names: the chosen ones,
+ * separated by commas, or NULL: all but an index and the column of select, "type=1" or NULL. */
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
                                  char separator, const char *names, const char *select,
                                  const char *where, ps_error *error) PS_MUST_CHECK;
