@@ -104,7 +104,8 @@ spectrum plain.txt >without
 cmp -s by_columns without && complain "weights change nothing"
 spectrum --columns xyw --weights equal weighted.txt | cmp -s - without ||
     complain "--weights equal keeps the weights of the file"
-quietly power -k 4 --engine host_direct plain.txt three.npy plain.txt
+cp plain.txt copy.txt
+quietly power -k 4 --engine host_direct plain.txt three.npy copy.txt
 grep -q '^# input_format: utk-text; npy$' out || complain "formats in the header: $(grep input_ out)"
 printf '2\n1\n' >list.txt
 spectrum --weights list.txt plain.txt | cmp -s - by_columns || complain "--weights FILE"

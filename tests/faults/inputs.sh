@@ -80,8 +80,8 @@ results:
   - {result: truncation, brdf: diffuse, max-degree: 1, plot: false}
 EOF
     printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml
-    cp points.txt sets.txt
-    printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, no-self-check: true, sets: {a: [sets.txt, sets.txt], b: se*.txt}, samplers: white, points: 4, max-frequency: 2, plot: false}\n' >sets.yaml
+    for name in sets twin1 twin2; do cp points.txt $name.txt; done
+    printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, no-self-check: true, sets: {a: [twin1.txt, twin2.txt], b: se*.txt}, samplers: white, points: 4, max-frequency: 2, plot: false}\n' >sets.yaml
     printf 'scene: 1\nresults:\n  - {result: sample, samplers: [white, zphi], points: 8, arrays: true}\n' >sampled.yaml
     printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [zphi, white-sphere], points: 8, max-degree: 2, integrands: [cap, square]}\n' >charted.yaml
     printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [white, jittered], points: [4, 9], max-frequency: 2, realizations: 8, integrands: disk, shifts: 0, rates: auto, rank: true, bounds: [0..1, 0.5..1]}\n' >joined.yaml

@@ -75,7 +75,8 @@ make --sampler white -n 8 -s 5 -m 2 -o few.txt
 make --sampler white -n 24 -s 6 -m 2 -o many.txt
 runs 0 "${few[@]}" --integrand disk --in-place few.txt many.txt
 is realizations 2
-runs 0 "${few[@]}" --integrand disk --in-place --select-sets 1 few.txt many.txt few.txt many.txt
+cp few.txt few_more.txt && cp many.txt many_more.txt
+runs 0 "${few[@]}" --integrand disk --in-place --select-sets 1 few.txt many.txt few_more.txt many_more.txt
 is points 16
 is points_smallest 8
 is points_largest 24
