@@ -70,7 +70,8 @@ static void equal_ones_are_told_apart_one_time_in_a_thousand(void **state) {
         const double rate = 1e-3 / (double)(num * (num + 1) / 2);
         int num_alarms = 0;
         for (uint64_t seed = 0; seed < NUM_RANKINGS; seed++) {
-            ps_random random = ps_random_init(seed, 1 + c, cases[c].realizations);
+            ps_random random =
+                ps_random_init(seed, (ps_random_stream)(1 + c), cases[c].realizations);
             ps_log_variance logs[MOST_SAMPLERS + 1];
             double least = 1;
             simulate_alone(logs, num, cases[c].realizations, &random);
