@@ -45,11 +45,19 @@ static bool fits(const build *one, uint32_t length) {
     return local_bytes_of(one, length) <= ps_device_get_limits(device)->local_bytes;
 }
 
-/* As launches of engines do, where the kernel or the device allows fewer. */
+/* As launches of engines do, where the kernel or the device allows fewer. (Oclgrind wants the device
+ * to be named, although the program has one only.) */
 static size_t group_of(cl_kernel kernel, size_t wanted) {
     size_t most = 0;
+    cl_program program = NULL;
+    cl_device_id id = NULL;
     assert_int_equal(
-        clGetKernelWorkGroupInfo(kernel, NULL, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL),
+        clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof program, (void *)&program, NULL),
+        CL_SUCCESS);
+    assert_int_equal(clGetProgramInfo(program, CL_PROGRAM_DEVICES, sizeof id, (void *)&id, NULL),
+                     CL_SUCCESS);
+    assert_int_equal(
+        clGetKernelWorkGroupInfo(kernel, id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL),
         CL_SUCCESS);
     return wanted < most ? wanted : most;
 }
