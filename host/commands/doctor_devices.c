@@ -55,15 +55,6 @@ static pspec_status compute(const char *device, bool *is_good, ps_error *error) 
     return status;
 }
 
-/* Of all kernels, whatever is computed here. */
-static pspec_status check_kept(ps_error *error) {
-    ps_text programs = {0};
-    pspec_status status = ps_kept_programs(&programs, error);
-    status = status == PSPEC_OK ? ps_kept_check(&programs, NULL, error) : status;
-    ps_text_free(&programs);
-    return status;
-}
-
 static void try_device(const ps_doctor *doctor, const ps_device_limits *limits, size_t index,
                        bool is_default, bool *is_good) {
     char number[24];
@@ -72,8 +63,7 @@ static void try_device(const ps_doctor *doctor, const ps_device_limits *limits, 
     const ps_finding_kind bad = is_default ? PS_FINDING_WRONG : PS_FINDING_NOTE;
     *is_good = false;
     snprintf(number, sizeof number, "%zu", index);
-    if ((ps_device_is_pocl(limits) && check_kept(&reason) != PSPEC_OK) ||
-        compute(number, is_good, &reason) != PSPEC_OK) {
+    if (compute(number, is_good, &reason) != PSPEC_OK) {
         ps_doctor_tell(doctor, bad, "device", "number %zu, \"%s\"%s, fails: %s", index,
                        limits->name, which, reason.message);
         return;

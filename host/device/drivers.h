@@ -50,16 +50,8 @@ pspec_status ps_drivers_pocl_cache(ps_text *out, ps_error *error) PS_MUST_CHECK;
  * can. */
 void ps_drivers_pocl_cache_problem(const char *path, ps_text *out);
 
-/* PoCL ends the process where the name of that folder is too long, where it cannot write, or where
- * the limits of files leave too little to compile: fails, as above, in its place. */
+/* PoCL ends the process where the name of that folder is too long, and compiles nothing where it
+ * cannot write: fails, as above, in its place. */
 pspec_status ps_drivers_check_pocl(ps_error *error) PS_MUST_CHECK;
-
-/* The folders of all programs in it, with a zero after each. */
-pspec_status ps_kept_programs(ps_text *out, ps_error *error) PS_MUST_CHECK;
-/* PoCL ends the process, too, where a file of a kernel that it takes from there is cut or empty:
- * fails with PSPEC_ERROR_DEVICE where one of these programs has such a file of a kernel of that
- * name; NULL: of any. Some microseconds a program. */
-pspec_status ps_kept_check(const ps_text *programs, const char *kernel,
-                           ps_error *error) PS_MUST_CHECK;
 
 #endif

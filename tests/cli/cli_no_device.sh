@@ -28,21 +28,6 @@ if "$program" devices 2>/dev/null | grep -q ',Portable Computing Language,'; the
     refused "PoCL cannot keep kernels in /proc/none/.cache/pocl/kcache: /proc/none: No such file" HOME=/proc/none
     refused "PoCL cannot keep kernels in /proc/none" POCL_CACHE_DIR=/proc/none
     refused "letters, above its limit" POCL_CACHE_DIR="$long"
-    # PoCL ends the process where it cannot compile, or where what it has kept is cut.
-    for limit in '-n 12 ulimit -n' '-f 1 ulimit -f'; do
-        read -r option number word <<<"$limit"
-        code=0
-        (ulimit "$option" "$number"; POCL_CACHE_DIR=$PWD/cold exec "${power[@]}" 2>err >/dev/null) || code=$?
-        [[ $code == 1 && $(wc -l <err) == 1 && $(<err) == *"$word"*host_direct* ]] || complain "$limit: exit $code: $(<err)"
-    done
-    mkdir -p kept/AB/CDE/torus_fold/8-1-1
-    : >kept/AB/CDE/torus_fold/8-1-1/torus_fold.so
-    cut="$PWD/kept/AB/CDE/torus_fold/8-1-1/torus_fold.so is damaged; remove that file, or the folder of all"
-    code=0
-    POCL_CACHE_DIR=$PWD/kept "${power[@]}" --engine torus_direct >out 2>err || code=$?
-    [[ $code == 1 && $(wc -l <err) == 1 && $(<err) == *$cut*POCL_CACHE_DIR* ]] || complain "a kernel that is cut: exit $code: $(<err)"
-    POCL_CACHE_DIR=$PWD/kept "$program" doctor >out 2>err || code=$?
-    [[ $code == 3 && $(<out) == *WRONG*device*$cut* ]] || complain "doctor: a kernel that is cut: exit $code: $(<out)"
     for kib in 200000 250000 300000 350000; do # PoCL ends the process where its threads get no stacks
         code=0
         # Sanitizers map more than that before the program begins.
