@@ -1,7 +1,7 @@
 /* The contract of host/engines/engine.h, for every engine in every precision and variant, by sets
  * of every kind and number of points beside each other. What an engine alone promises is in the
- * tests of its folder. The argument is the name of an engine, which has a process to itself; without
- * one all engines are asked.
+ * tests of its folder. The argument is the name of an engine, which has a process to itself;
+ * without one all engines are asked.
  */
 #include "harness_contract.h"
 #include "harness_sphere.h"

@@ -45,8 +45,8 @@ static bool fits(const build *one, uint32_t length) {
     return local_bytes_of(one, length) <= ps_device_get_limits(device)->local_bytes;
 }
 
-/* As launches of engines do, where the kernel or the device allows fewer. (Oclgrind wants the device
- * to be named, although the program has one only.) */
+/* As launches of engines do, where the kernel or the device allows fewer. (Oclgrind wants the
+ * device to be named, although the program has one only.) */
 static size_t group_of(cl_kernel kernel, size_t wanted) {
     size_t most = 0;
     cl_program program = NULL;
