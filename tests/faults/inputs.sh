@@ -80,8 +80,10 @@ results:
   - {result: truncation, brdf: diffuse, max-degree: 1, plot: false}
 EOF
     printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml
-    for name in sets twin1 twin2; do cp points.txt $name.txt; done
-    printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, no-self-check: true, sets: {a: [twin1.txt, twin2.txt], b: se*.txt}, samplers: white, points: 4, max-frequency: 2, plot: false}\n' >sets.yaml
+    # A sentence must have the name of a file that the command line names: the ends of these are.
+    for name in sets asets bsets; do cp points.txt $name.txt; done
+    cp more.txt amore.txt
+    printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, no-self-check: true, sets: {a: [asets.txt, bsets.txt], b: se*.txt}, samplers: white, points: 4, max-frequency: 2, plot: false}\n' >sets.yaml
     printf 'scene: 1\nresults:\n  - {result: sample, samplers: [white, zphi], points: 8, arrays: true}\n' >sampled.yaml
     printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [zphi, white-sphere], points: 8, max-degree: 2, integrands: [cap, square]}\n' >charted.yaml
     printf 'scene: 1\nresults:\n  - {result: variance, engine: host_direct, samplers: [white, jittered], points: [4, 9], max-frequency: 2, realizations: 8, integrands: disk, shifts: 0, rates: auto, rank: true, bounds: [0..1, 0.5..1]}\n' >joined.yaml
