@@ -21,7 +21,7 @@ static pspec_status fail_listing(cl_int code, const char *call, ps_error *error)
     const bool is_absent =
         code == CL_SUCCESS || code == PS_CL_PLATFORM_NOT_FOUND || code == CL_DEVICE_NOT_FOUND;
     if (code == CL_OUT_OF_HOST_MEMORY) {
-        return ps_drivers_fail_memory(error);
+        return ps_drivers_fail_memory(call, error);
     }
     return is_absent ? ps_drivers_fail(error) : ps_device_fail(code, call, error);
 }

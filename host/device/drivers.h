@@ -41,8 +41,9 @@ pspec_status ps_drivers_fail(ps_error *error);
  * when the limits of address space, data or stacks leave less than they take. */
 pspec_status ps_drivers_check_room(ps_error *error) PS_MUST_CHECK;
 /* The sentence for drivers that found no memory although the check before them passed: what a
- * driver takes differs from start to start. Always fails, with PSPEC_ERROR_NO_DEVICE. */
-pspec_status ps_drivers_fail_memory(ps_error *error);
+ * driver takes differs from start to start. Always fails, with PSPEC_ERROR_NO_DEVICE where address
+ * space is limited, which explains it, else as the call that failed. */
+pspec_status ps_drivers_fail_memory(const char *call, ps_error *error);
 
 /* Where PoCL keeps compiled kernels; empty where it chooses a folder itself. */
 pspec_status ps_drivers_pocl_cache(ps_text *out, ps_error *error) PS_MUST_CHECK;

@@ -155,15 +155,14 @@ pspec_status ps_drivers_check_room(ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_drivers_fail_memory(ps_error *error) {
+pspec_status ps_drivers_fail_memory(const char *call, ps_error *error) {
     uint64_t limit = 0;
     return has_limit(RLIMIT_AS, &limit)
                ? ps_fail(error, PSPEC_ERROR_NO_DEVICE,
                          "an OpenCL driver found no memory within the limit of %" PRIu64
                          " bytes of address space (ulimit -v)%s",
                          limit, no_device_needed)
-               : ps_fail(error, PSPEC_ERROR_NO_DEVICE, "an OpenCL driver found no memory%s",
-                         no_device_needed);
+               : ps_fail(error, PSPEC_ERROR_DEVICE, "%s failed: CL_OUT_OF_HOST_MEMORY", call);
 }
 
 /* ---- the sentence --------------------------------------------------------------------------- */
