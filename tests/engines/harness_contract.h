@@ -53,6 +53,8 @@ void *contract_state(const contract_way *way);
  * NULL. */
 double *contract_coefficients(const contract_way *way, void *state, const pspec_pattern *set,
                               double *powers);
+/* The power of frequency or degree i, of coefficients. */
+double contract_power_of(const contract_way *way, const double *c, size_t i);
 /* Error of a set whose powers are `found`, in the units of the problem, against sums in extended
  * precision; and what the engine announces for it. */
 double contract_error(const contract_way *way, void *state, const pspec_pattern *set,

@@ -3,10 +3,12 @@
 
 #include "harness_pairs.h"
 #include "harness_shapes.h"
+#include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
 #include "engines/error_units.h"
 #include "engines/host/host_direct.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,6 +44,19 @@ double *contract_coefficients(const contract_way *way, void *state, const pspec_
         test_read_rows(way->engine, state, &way->frequencies, way->device, &rows, powers);
     }
     return found;
+}
+
+double contract_power_of(const contract_way *way, const double *c, size_t i) {
+    if (way->what->dimension > 0) {
+        return c[2 * i] * c[2 * i] + c[2 * i + 1] * c[2 * i + 1];
+    }
+    const int32_t l = way->frequencies.vectors[i];
+    double sum = 0;
+    for (int32_t m = 0; m <= l; m++) {
+        const double *const at = c + 2 * test_coefficient(way->frequencies.max_frequency, l, m);
+        sum += (m == 0 ? 1 : 2) * (at[0] * at[0] + at[1] * at[1]);
+    }
+    return PS_FOUR_PI / (2.0 * l + 1) * sum;
 }
 
 static double error_on_sphere(const contract_way *way, void *state, const pspec_pattern *set,
