@@ -188,6 +188,7 @@ tr '\t' ' ' <"$folder/trees.tsv" >blanks.txt
 refuses "5 names of columns, $shifted" convert --columns x,y blanks.txt
 reads '0.1 0.2|0.3 0.4|0.5 0.6' --columns 2,3 blanks.txt
 refuses 'line 3: 4 columns, where the header names 3' convert --columns x,y <(printf 'x,y,n\n.1,.2,a\n.3,.4,b,c\n') -o none
+refuses 'is not a number' convert <(printf 'x;"y\n1;2"\n') -o none # quotes take the only row
 refuses '"0.2"a" is not a number' convert <(printf 'x,y\n"0.1","0.2"a\n')
 refuses 'line 3: a quote begins a column, and none closes it within 1000 lines' \
     convert --columns x,y <(printf 'x,y,n\n.1,.2,a\n.3,.4,"b\n.5,.6,c\n') -o none

@@ -87,13 +87,21 @@ static bool is_good(const fuzz_reading *reading) {
     return reading->status == PSPEC_OK && !reading->was_cut;
 }
 
+/* Are both refused, one because the options do not fit the file, which the other has not come to?
+ */
+static bool met_other_fault(const fuzz_reading *a, const fuzz_reading *b) {
+    return a->status != PSPEC_OK && b->status != PSPEC_OK &&
+           (a->status == PSPEC_ERROR_INVALID_ARGUMENT || b->status == PSPEC_ERROR_INVALID_ARGUMENT);
+}
+
 /* One way to read gives the points of the other. A pipe, whose length is not known, may bring
  * points before it fails; it also cannot hold large arrays in Fortran order. Sentences are not
  * compared: of a file with two faults the size of the blocks decides which is met first. */
 static void compare_ways(const fuzz_reading *whole, const fuzz_reading *blocks,
                          const fuzz_choices *choices) {
     const bool same_source = choices->whole_from_pipe == choices->blocks_from_pipe;
-    if (same_source && !whole->was_cut && !blocks->was_cut && whole->status != blocks->status) {
+    if (same_source && !whole->was_cut && !blocks->was_cut && whole->status != blocks->status &&
+        !met_other_fault(whole, blocks)) {
         fuzz_fail("whole: %d (%s), in blocks of %zu: %d (%s)", (int)whole->status,
                   whole->error.message, choices->block_points, (int)blocks->status,
                   blocks->error.message);

@@ -173,9 +173,12 @@ static pspec_status find_names(ps_point_reader *reader, bool *are_there, const c
     PS_TRY(check_commas(reader, *row, *num_after, error));
     if (*row != NULL) {
         state->separator = ps_text_header_separator(lines->cursor, *row, unnamed);
-        PS_TRY(ps_text_join(state, 0, error));
+        PS_TRY(ps_text_join(state, 0, error)); /* it may take the only row, */
+        PS_TRY(peek_row(lines, row, num_after, error));
+    }
+    if (*row != NULL) {
         PS_TRY(find_header(reader, are_there, error));
-        PS_TRY(peek_row(lines, row, num_after, error)); /* it may have moved */
+        PS_TRY(peek_row(lines, row, num_after, error)); /* and that may have moved */
     }
     if (!*are_there) {
         state->separator = unnamed;
