@@ -13,6 +13,8 @@ function(add_program_test name)
     $<TARGET_FILE:pointspec_program> ${ARGN})
   if(name IN_LIST PORTABLE_TESTS)
     set_tests_properties(${name} PROPERTIES LABELS unit)
+  elseif(name IN_LIST SWEEP_TESTS)
+    set_tests_properties(${name} PROPERTIES LABELS "unit;sweep")
   endif()
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "POCL_CACHE_DIR=${POINTSPEC_TEST_CACHE}")
@@ -58,7 +60,7 @@ add_program_test(cli_units)     # the number of compute units chooses nothing
 add_program_test(cli_bench)      # run time against error, figures per device: rows, files, what is refused
 if(POINTSPEC_BUILD_BENCH)
   add_program_test(cli_plan $<TARGET_FILE:bench_plan>) # seconds against those that commands take, phases
-  set_tests_properties(cli_plan PROPERTIES LABELS "unit;sweep" RUN_SERIAL TRUE)
+  set_tests_properties(cli_plan PROPERTIES RUN_SERIAL TRUE)
 endif()
 add_program_test(cli_run)       # scenes: the folder, the cache, records, what is refused
 add_program_test(cli_picture)   # --plot fails: numbers stay
@@ -73,7 +75,6 @@ add_program_test(cli_run_points) # points as a result of a scene
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name
 add_program_test(cli_tolerance) # --tol and --floor, torus and sphere: kept or refused; threads change no bit
-set_tests_properties(cli_tolerance PROPERTIES LABELS "unit;sweep")
 add_program_test(cli_no_device) # why there is no device; plan and devices without one
 add_program_test(cli_doctor)    # what works here, and what is said where something does not
 add_program_test(cli_examples)  # the examples of every --help

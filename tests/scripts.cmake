@@ -27,6 +27,6 @@ add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/project/no_blas.sh
 if(NOT POINTSPEC_SANITIZE)
   add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_symbols.sh
     $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static> ${PROJECT_BINARY_DIR}/pointspec_joined.o)
-  add_script_test(install install ${CMAKE_CURRENT_SOURCE_DIR}/project/test_install.sh
+  add_script_test(install "unit;sweep" ${CMAKE_CURRENT_SOURCE_DIR}/project/test_install.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
 endif()

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# docs.sh PROGRAM SOURCE_DIR: every ```sh block of the README, the tutorial, the recipes, the conventions, the
-# formats, samplers, quadrature, variance, reproduction, gate, needs and scenes runs, in the order of the page, in one empty folder for each page; ```python blocks too where there is numpy.
-# Lines that begin with ./dev are left out. Indented lines behind a block are what it prints: tests/project/printed.awk
-# compares. Then relative links of all pages are looked up, and lists of pages are compared with those of --help.
+# docs.sh PROGRAM SOURCE_DIR [PAGE...]: every ```sh block of the pages runs, in the order of the page, in one empty folder
+# for each page; ```python blocks too where there is numpy. Lines that begin with ./dev are left out. Indented lines
+# behind a block are what it prints: tests/project/printed.awk compares. Without pages they are the README and the
+# tutorial, relative links of all pages are looked up, lists of pages are compared with those of --help, and every
+# scene is planned.
 set -euo pipefail
 program=$(realpath "$1")
 source_dir=$(realpath "$2")
@@ -115,15 +116,19 @@ check_lists() {
     same_names "the floors of the architecture"
 }
 
-check_lists
-for page in README.md docs/user/tutorial.md docs/user/recipes.md docs/user/conventions.md docs/user/formats.md docs/user/quadrature.md docs/user/variance.md docs/user/reproduction.md docs/user/gate.md docs/user/needs.md docs/user/scenes.md docs/user/samplers.md docs/samplers/poisson_disks.md docs/samplers/optimized.md docs/samplers/forces.md; do
+pages=("${@:3}")
+if ((${#pages[@]} == 0)); then
+    pages=(README.md docs/user/tutorial.md)
+    check_lists
+    # The scenes that pages run are shorter than some of those that lie there.
+    for scene in "$source_dir"/docs/scenes/*.yaml; do
+        "$program" plan run "$scene" >"$scratch/plan" 2>&1 || { echo "$scene: $(<"$scratch/plan")" >&2; bad=1; }
+    done
+    for page in "$source_dir"/*.md "$source_dir"/docs/*/*.md; do
+        check_links "$page"
+    done
+fi
+for page in "${pages[@]}"; do
     run_page "$page"
-done
-# The scenes that pages run are shorter than some of those that lie there.
-for scene in "$source_dir"/docs/scenes/*.yaml; do
-    "$program" plan run "$scene" >"$scratch/plan" 2>&1 || { echo "$scene: $(<"$scratch/plan")" >&2; bad=1; }
-done
-for page in "$source_dir"/*.md "$source_dir"/docs/*/*.md; do
-    check_links "$page"
 done
 exit $bad
