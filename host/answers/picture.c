@@ -40,6 +40,11 @@ static pspec_status check_range(const char *axis, bool is_log, bool has_range, c
                          axis, range[0]);
 }
 
+pspec_status ps_picture_check_axes(const ps_plot_axes *axes, ps_error *error) {
+    PS_TRY(check_range("x", axes->is_log_x, axes->has_x, axes->x, error));
+    return check_range("y", axes->is_log_y, axes->has_y, axes->y, error);
+}
+
 pspec_status ps_picture_check(const ps_request *request, bool is_all, const ps_answer_hooks *hooks,
                               ps_error *error) {
     ps_text path = {0};
@@ -59,8 +64,7 @@ pspec_status ps_picture_check(const ps_request *request, bool is_all, const ps_a
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--plot draws .png, .svg and .pdf, not \"%s\"", request->plot);
     }
-    PS_TRY(check_range("x", axes->is_log_x, axes->has_x, axes->x, error));
-    PS_TRY(check_range("y", axes->is_log_y, axes->has_y, axes->y, error));
+    PS_TRY(ps_picture_check_axes(axes, error));
     pspec_status status = ps_plot_find_gnuplot(&path, &reason);
     if (status == PSPEC_ERROR_MEMORY || (status != PSPEC_OK && is_all)) {
         *error = reason;

@@ -8,6 +8,9 @@
  * keeps_answer: what is written nowhere is kept by who asked for it. */
 bool ps_picture_is_all(const ps_request *request, bool keeps_answer);
 
+/* What --plot-log and --plot-range say together: no logarithmic axis begins at 0 or below. */
+pspec_status ps_picture_check_axes(const ps_plot_axes *axes, ps_error *error) PS_MUST_CHECK;
+
 /* Before the work: can the ending be drawn, and is there gnuplot? Without it a warning, or an error
  * where the picture is all. */
 pspec_status ps_picture_check(const ps_request *request, bool is_all, const ps_answer_hooks *hooks,

@@ -36,6 +36,9 @@ typedef struct ps_scene_entry {
     ps_scene_value *values; /* [num_values + num_more] */
 } ps_scene_entry;
 
+enum { PS_SCENE_NUM_AXES = 2 }; /* keys of axes: plot-log and plot-range */
+extern const ps_option_id ps_scene_axes[PS_SCENE_NUM_AXES];
+
 typedef struct ps_scene_result {
     const ps_kind *kind;
     const char *name, *title; /* name: letters, digits, - and _; unique in the scene */
@@ -47,6 +50,9 @@ typedef struct ps_scene_result {
     ps_scene_entry
         *entries;    /* of the result, then those of the defaults that it takes and does not say */
     bool wants_plot; /* unless the file says no */
+    /* Of its pictures, which are no part of its questions; NULL: not said */
+    const char *axes_texts[PS_SCENE_NUM_AXES];
+    ps_plot_axes axes; /* what these say */
     /* The file asks for pictures of the averaged periodogram of every question. */
     bool wants_pictures;
     bool wants_arrays;       /* the file asks for the array of every question, */

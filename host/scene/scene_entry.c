@@ -1,4 +1,5 @@
 /* The values of one key of a scene. */
+#include "answers/picture.h"
 #include "base/counts.h"
 #include "base/text.h"
 #include "request/option_text.h"
@@ -236,5 +237,38 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
         PS_TRY(resolve_paths(scene, file, result->kind, option, &out->values[i]));
         PS_TRY(check_value(file, result->kind, option, key, &out->values[i]));
     }
+    return PSPEC_OK;
+}
+
+/* ---- axes of pictures -------------------------------------------------------------------- */
+
+const ps_option_id ps_scene_axes[] = {PS_OPTION_PLOT_LOG, PS_OPTION_PLOT_RANGE};
+
+int ps_scene_find_axes(const char *key) {
+    int axes = PS_SCENE_NUM_AXES - 1;
+    while (axes >= 0 && strcmp(ps_options[ps_scene_axes[axes]].name, key) != 0) {
+        axes--;
+    }
+    return axes;
+}
+
+bool ps_scene_has_axes(const ps_kind *kind, int axes) {
+    return axes >= 0 && (ps_options[ps_scene_axes[axes]].commands & kind->bit) != 0;
+}
+
+pspec_status ps_scene_take_axes(const ps_scene_file *file, ps_scene_result *result, int axes,
+                                const ps_scene_node *value) {
+    const ps_option_id id = ps_scene_axes[axes];
+    const char *const key = ps_options[id].name;
+    ps_request scratch = ps_request_default;
+    ps_error reason = {0};
+    PS_TRY(ps_scene_take_text(file, value, key, &result->axes_texts[axes]));
+    scratch.plot_axes = result->axes; /* what the other key said */
+    if (ps_option_apply(&scratch, id, ps_kind_words(result->kind, id), result->axes_texts[axes],
+                        &reason) != PSPEC_OK ||
+        ps_picture_check_axes(&scratch.plot_axes, &reason) != PSPEC_OK) {
+        return complain_of_value(file, value->line, key, id, &reason);
+    }
+    result->axes = scratch.plot_axes;
     return PSPEC_OK;
 }

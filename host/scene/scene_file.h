@@ -72,6 +72,14 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_scene_result *result, int option, const char *key,
                                  const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
 
+/* Which of ps_scene_axes a key is; -1: none. */
+int ps_scene_find_axes(const char *key);
+/* Has the kind pictures whose axes these are about? */
+bool ps_scene_has_axes(const ps_kind *kind, int axes);
+/* Takes the value of a key of axes. */
+pspec_status ps_scene_take_axes(const ps_scene_file *file, ps_scene_result *result, int axes,
+                                const ps_scene_node *value) PS_MUST_CHECK;
+
 /* What reads a scene. */
 typedef struct ps_scene_reader {
     ps_scene *scene;

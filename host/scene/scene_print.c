@@ -100,6 +100,12 @@ static void print_result(const ps_scene_result *result, ps_text *out) {
         ps_scene_print_text(result->title, out);
     }
     ps_text_append(out, ", \"plot\": \"%s\"", result->wants_plot ? "true" : "false");
+    for (int i = 0; i < PS_SCENE_NUM_AXES; i++) {
+        if (result->axes_texts[i] != NULL) {
+            ps_text_append(out, ", \"%s\": ", ps_options[ps_scene_axes[i]].name);
+            ps_scene_print_text(result->axes_texts[i], out);
+        }
+    }
     if (result->wants_pictures) {
         ps_text_append(out, ", \"pictures\": \"true\"");
     }

@@ -13,8 +13,9 @@ void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *kn
     }
 }
 
-static const char *const own_keys[] = {"result", "name",  "title",    "plot", "pictures",
-                                       "arrays", "files", "samplers", "sets", "integrands"};
+static const char *const own_keys[] = {"result",   "name",       "title",    "plot",
+                                       "plot-log", "plot-range", "pictures", "arrays",
+                                       "files",    "samplers",   "sets",     "integrands"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 static const char sets_key[] = "sets";
@@ -161,6 +162,10 @@ static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *ou
     if (strcmp(key, "arrays") == 0 && (out->kind->has_arrays || out->kind->has_coefficients)) {
         return take_arrays(reader, value, out);
     }
+    const int axes = ps_scene_find_axes(key);
+    if (ps_scene_has_axes(out->kind, axes)) {
+        return ps_scene_take_axes(reader->file, out, axes, value);
+    }
     const int option = find_option(out->kind, key);
     if (option < 0) {
         return complain_of_key(reader, out->kind, line, key);
@@ -244,10 +249,13 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
         const ps_scene_node *value = NULL;
         PS_TRY(ps_scene_pair(reader->file, reader->defaults, i, &key, &value));
         const int option = find_option(out->kind, key);
+        const int axes = ps_scene_find_axes(key);
         own.num_entries = num_own;
-        if (option >= 0 && !is_settled(&own, option)) {
+        if (ps_scene_has_axes(out->kind, axes) && out->axes_texts[axes] == NULL) {
+            PS_TRY(ps_scene_take_axes(reader->file, out, axes, value));
+        } else if (option >= 0 && !is_settled(&own, option)) {
             PS_TRY(take_entry(reader, out, option, key, value));
-        } else if (option < 0 && !is_any_option(key)) {
+        } else if (option < 0 && axes < 0 && !is_any_option(key)) {
             return complain_of_key(reader, out->kind, value->line, key);
         }
     }

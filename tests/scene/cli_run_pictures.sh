@@ -49,7 +49,42 @@ results:
   - {result: power, name: disks, samplers: [poisson-disk], points: 64, realizations: 3, max-frequency: 8, pictures: true}
 SCENE
 
+# Keys of axes: one value each, of results and of defaults, where the kind has such pictures.
+axes() { # LINES OF YAML: a result of white points with them
+    printf 'scene: 1\nresults:\n  - result: %s\n    sampler: white\n    points: 16\n' "$1" >axes.yaml
+    printf '    %s\n' "${@:2}" >>axes.yaml
+    runs 2 axes.yaml -o axes
+}
+axes power 'plot-log: z' && says 'axes.yaml:6: plot-log: "z" is not one of x, y, xy, none'
+axes power 'plot-log: [x, y]' && says 'axes.yaml:6: plot-log: one value is wanted here, not a list'
+axes power 'plot-range: 3..1' && says 'axes.yaml:6: plot-range: 3..1 is no interval'
+axes power 'plot-range: 0..1' 'plot-log: x' && says 'axes.yaml:7: plot-log: --plot-range: the x axis is logarithmic by --plot-log, and cannot begin at 0'
+axes sample 'plot-log: x' && says 'axes.yaml:6: plot-log: not a key of this result'
+
 if command -v gnuplot >/dev/null; then
+    cat >axes.yaml <<'SCENE'
+scene: 1
+defaults: {engine: host_direct, plot-log: none, plot-range: "0.5..1.5"}
+results:
+  - {result: power, name: asked, title: T, sampler: jittered, points: 64, realizations: 4, max-frequency: 16}
+  - {result: power, name: own, title: T, sampler: jittered, points: 64, realizations: 4, max-frequency: 16, plot-log: x, plot-range: "0.25..1.5,0.01..4"}
+  - {result: truncation, name: lobes, brdf: [diffuse, "glossy:n=30"], max-degree: 6, plot-range: 1..4}
+  - {result: variance, name: mean, sampler: white, points: 16..64, integrand: half-plane, shifts: 0, plot-log: xy, plot-range: "20..50,1e-6..1"}
+  - {result: sample, name: points, sampler: white, points: 16}
+SCENE
+    ticks() { # FILE: labels of its axes that are numbers
+        grep -o '<tspan[^>]*>[-+0-9. ]*<' "axes/$1.svg" | sed 's/.*> *//; s/ *<//' | grep . | tr '\n' ' '
+    }
+    runs 0 axes.yaml -o axes
+    cmp -s <(grep -v '^#' axes/asked.csv) <(grep -v '^#' axes/own.csv) || complain "axes changed numbers"
+    grep -q '^own,power,1,1,' out || complain "axes are part of the question: $(<out)"
+    [[ $(ticks own) == *'3.5 4 '*' 0.5 1 ' && $(ticks asked) == *' 0.6 0.8 1 1.2 1.4 ' ]] || complain "axes: $(ticks own), $(ticks asked)"
+    [[ $(ticks lobes-points) == *'1 1.5 2 2.5 3 3.5 4 ' ]] || complain "of a truncation: $(ticks lobes-points)"
+    [[ $(ticks mean) == '10 -6 10 -5 '*' 10 0 20 25 30 35 40 45 50 ' ]] || complain "of a variance: $(ticks mean)"
+    runs 0 axes/record.json -o again
+    for file in own lobes-points mean; do
+        cmp -s "axes/$file.svg" "again/$file.svg" || complain "a record has another $file"
+    done
     runs 0 varying.yaml -o varying
     [[ -s varying/disks.svg && -s varying/disks-picture-1.svg ]] || complain "no picture: $(ls varying)"
     # one scale of colours for the images of a result: the same numbers at its ends

@@ -77,6 +77,7 @@ pspec_status ps_draw_chart(const ps_artist *artist, const ps_picture *what) {
     ps_plot_title(artist, what, "", &title);
     PS_TRY_OUT(status, ps_text_check(&title, artist->error));
     const ps_chart chart = {.title = ps_text_string(&title),
+                            .axes = asked->axes,
                             .num_parts = what->num_curves * num_counts,
                             .parts = self.parts,
                             .take = take_figure,

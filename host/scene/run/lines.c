@@ -291,6 +291,7 @@ pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
                         .y_label = kind.y_label,
                         .is_log_x = kind.is_log_x && !has_bars(what),
                         .is_log_y = kind.is_log_y && !has_bars(what),
+                        .axes = artist->result->asked->axes,
                         .image = image,
                         .on_sphere = artist->result->asked->kind->samples == PS_DOMAIN_SPHERE};
     status = draw_panels(artist, what, &figure, &set);
