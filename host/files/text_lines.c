@@ -156,6 +156,18 @@ size_t ps_token_length(const char *text) {
     return length;
 }
 
+bool ps_token_is_one_of(const char *text, const char *words) {
+    const size_t length = ps_token_length(text);
+    for (const char *word = words; *word != '\0';) {
+        const size_t expected = strcspn(word, "|");
+        if (length == expected && strncmp(text, word, length) == 0) {
+            return true;
+        }
+        word += expected + (word[expected] == '|');
+    }
+    return false;
+}
+
 const char *ps_token_show(char shown[PS_TOKEN_BYTES], const char *text, size_t length) {
     enum { LONGEST = 4, SHOWN = 30 }; /* one byte may become "\xHH"; 30 tell which token it was */
     size_t used = 0;

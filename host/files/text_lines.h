@@ -52,6 +52,9 @@ static inline bool ps_ends_line(const char *text) {
 /* Characters up to a blank, a comma, a semicolon or the end of the line. */
 size_t ps_token_length(const char *text);
 
+/* Is the token at text one of these words, which bars separate? */
+bool ps_token_is_one_of(const char *text, const char *words);
+
 /* The token at text, made printable and shortened for a message. */
 enum { PS_TOKEN_BYTES = 128 };
 const char *ps_token_show(char shown[PS_TOKEN_BYTES], const char *text, size_t length);

@@ -16,7 +16,7 @@ static const ps_point_format *const formats[] = {
     &ps_format_utk_text, &ps_format_csv,      &ps_format_psa_text,   &ps_format_gbn,
     &ps_format_edat,     &ps_format_eps,      &ps_format_utk_binary, &ps_format_rps,
     &ps_format_npy,      &ps_format_openquad, &ps_format_utk1,       &ps_format_lammps,
-    &ps_format_xyz,      &ps_format_ply};
+    &ps_format_xyz,      &ps_format_ply,      &ps_format_obj};
 enum { NUM_FORMATS = sizeof formats / sizeof formats[0] };
 
 static const ps_point_format *find_named(const char *name) {

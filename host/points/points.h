@@ -52,7 +52,7 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
 /* Names of all formats and of all layouts of columns, for options. */
 #define PS_POINT_FORMATS "utk-text|csv|psa-text|gbn|edat|eps|utk-binary|rps|npy|openquad"
 /* And with those that are only read. */
-#define PS_INPUT_FORMATS PS_POINT_FORMATS "|utk1|lammps|xyz|ply"
+#define PS_INPUT_FORMATS PS_POINT_FORMATS "|utk1|lammps|xyz|ply|obj"
 #define PS_SPHERE_COLUMNS                                                                          \
     "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w|theta-phi:degrees|"    \
     "theta-phi-w:degrees|phi-theta:degrees|phi-theta-w:degrees"

@@ -133,26 +133,6 @@ pspec_status ps_foreign_refuse(const char *file, const ps_foreign_format *format
                    format->advice);
 }
 
-/* Is the first word one of these, separated by bars? */
-static bool begins_with(const char *line, const char *words) {
-    const size_t length = ps_token_length(line);
-    for (const char *word = words; *word != '\0';) {
-        const size_t expected = strcspn(word, "|");
-        if (length == expected && strncmp(line, word, length) == 0) {
-            return true;
-        }
-        word += expected + (word[expected] == '|');
-    }
-    return false;
-}
-
-/* "v 0 0 1": a letter, where other texts have the name of a column, before a number. */
-static bool is_vertex(const char *line) {
-    double value = 0;
-    return begins_with(line, "v|vn|vt") &&
-           ps_decimal_parse(ps_skip_blanks(line + ps_token_length(line)), &value) != NULL;
-}
-
 /* "{" or "[[0.1, 0.2]": nothing that begins a row or a name. */
 static bool is_json(const char *line) {
     const char *const next = *line == '{' || *line == '[' ? ps_skip_blanks(line + 1) : line;
@@ -163,10 +143,8 @@ pspec_status ps_foreign_check_line(const char *file, const char *line, ps_error 
     ps_foreign_format found = {NULL, 0, NULL, meshes};
     const char *const text = ps_skip_blanks(line);
     const char *const after = ps_skip_blanks(text + ps_token_length(text));
-    if (begins_with(text, "OFF|COFF|NOFF|STOFF|4OFF|nOFF") && ps_ends_line(after)) {
+    if (ps_token_is_one_of(text, "OFF|COFF|NOFF|STOFF|4OFF|nOFF") && ps_ends_line(after)) {
         found.name = "an OFF file";
-    } else if (is_vertex(text) || (begins_with(text, "mtllib|usemtl") && !ps_ends_line(after))) {
-        found.name = "an OBJ file";
     } else if (is_json(text)) {
         found.name = "a JSON file";
         found.advice = tables;

@@ -107,7 +107,8 @@ extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, 
     ps_format_gbn, ps_format_eps, ps_format_utk_binary, ps_format_rps, ps_format_npy,
     ps_format_openquad;
 /* What is only read. */
-extern const ps_point_format ps_format_utk1, ps_format_lammps, ps_format_xyz, ps_format_ply;
+extern const ps_point_format ps_format_utk1, ps_format_lammps, ps_format_xyz, ps_format_ply,
+    ps_format_obj;
 /* Numbers in lines that mean nothing; in no table, for only the options tell it from utk-text. */
 extern const ps_point_format ps_format_tokens;
 

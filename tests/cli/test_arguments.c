@@ -226,7 +226,7 @@ static void words_are_checked(void **state) {
         {"--format=", "--format: \"\" is not one of csv, json, npy, jsonl, text"},
         {"--input-format exr",
          "--input-format: \"exr\" is not one of utk-text, csv, psa-text, gbn, "
-         "edat, eps, utk-binary, rps, npy, openquad, utk1, lammps, xyz, ply"},
+         "edat, eps, utk-binary, rps, npy, openquad, utk1, lammps, xyz, ply, obj"},
         {"--to-columns xy", "--to-columns: \"xy\" is not one of xyz, xyzw, theta-phi, theta-phi-w, "
                             "phi-theta, phi-theta-w, lon-lat, lon-lat-w, theta-phi:degrees, "
                             "theta-phi-w:degrees, phi-theta:degrees, phi-theta-w:degrees"},

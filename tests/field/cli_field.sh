@@ -328,6 +328,21 @@ refuses 'vertices must be the first element' angular <(sed 's/element vertex/ele
 refuses 'ends inside the header of PLY' angular <(head -n 5 ascii.ply)
 refuses 'a format of PLY that is not known' angular <(sed 's/ascii/text/' ascii.ply)
 
+# ---- vertices of OBJ, whatever stands before them
+for first in '' '# Blender\no Sphere\n' 'o Sphere\n' 'g\n' 'g default lid\r\n' 's off\n' 's 1\n' 'mtllib cube.mtl\n' 'usemtl red\n' \
+    'vn 0 0 1\n' 'vt .5 .5\n' '\n\n# made by hand\n\n#\no a\n\ng b\n# 2 vertices\ns 1\n'; do
+    printf '%b' "${first}v 0 0 1\nvt 1 0\n# more\nv\t0 1.0  0 0.5 0.5 0.5\ng c\nv 1 0 0 1\r\n\nl 1 2\nf 1//1 2//1 3//1" >mesh.obj
+    reads '0 0 1|0 1 0|1 0 0' mesh.obj
+    reads '0 0 1|0 1 0|1 0 0' <(cat mesh.obj)
+done
+reads '0 0 1|0 0 -1' "$folder/blender_no_materials.obj"
+reads '0.5 0.5 0.75|0.5 0.5 0.25' -d 3 --box -2,2 "$folder/blender_no_materials.obj"
+powers '0 2 0 2' angular -l 4 "$folder/blender_no_materials.obj" # (1 + (-1)^l)^2 / 2
+refuses 'line 3: a vertex of OBJ is v and three numbers' convert <(printf 'o a\nv 0 0 1\nv 0 1\n')
+refuses 'is an OBJ file without vertices' convert <(printf 'o a\nvn 0 0 1\nf 1 2 3\n')
+refuses 'names columns (x,y), and obj has no names' convert --columns x,y mesh.obj
+reads '0.1 0.2 0.3' --columns o,g,s <(printf 'o g s\n.1 .2 .3\n')
+
 # ---- formats that are not read: one sentence with the name and what would do
 foreign() { # NAME;PART BYTES
     local advice=${1#*;} name=${1%%;*}
@@ -343,8 +358,6 @@ foreign 'a VTK file;x y z on a line' '<VTKFile type="PolyData">\n'
 foreign 'an XML file;CSV' '<?xml version="1.0"?>\n'
 foreign 'an OFF file;x y z on a line' 'OFF\n1 0 0\n0 0 1\n'
 foreign 'an OFF file;x y z on a line' '# mesh\nCOFF \n1 0 0\n'
-foreign 'an OBJ file;x y z on a line' '# Blender\nv 0 0 1\nv 0 1 0\n'
-foreign 'an OBJ file;x y z on a line' 'mtllib cube.mtl\nv 0 0 1\n'
 foreign 'a JSON file;CSV' '{"points": [[0.1, 0.2]]}\n'
 foreign 'a JSON file;CSV' '[[0.1, 0.2], [0.3, 0.4]]\n'
 foreign 'a JSON file;CSV' '{\n'

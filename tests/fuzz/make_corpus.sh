@@ -138,7 +138,10 @@ printf '%b' "${vertices}property float z\nend_header\n.5 1 .25 0\n.1 2 .2 .3\n" 
 { printf '%b' "${little}property float z\nend_header\n"; f32 0.5; printf a; f64 0.25; f32 0 .1; printf b; f64 .2; f32 .3; } | seed ply selected "$number"
 printf '6 1\n2 3\n' | seed utk-text box "$(options 00 83 00 00 00 01)"
 printf '{"points": [[0.1, 0.2]]}\n' | seed detection json "$any"
-printf '# Blender\nv 0 0 1\nv 0 1 0\n' | seed detection obj "$any"
+for target in detection obj; do
+    printf '# Blender\no Sphere\nv 0 0 1\nv 0 1 0 1.0\nf 1 2 1\n' | seed "$target" mesh "$any"
+    printf 'g\n\ns off\nvn 0 0 1\nv .1 .2 .3 1 0 0\nv 1 2' | seed "$target" short "$any"
+done
 printf 'OFF\n1 0 0\n0 0 1\n' | seed detection off "$any"
 printf '\x89HDF\r\n\x1a\n' | seed detection hdf5 "$any"
 printf 'P5\n# made by hand\n4 4\n255\n\1\2' | seed detection pgm "$any"

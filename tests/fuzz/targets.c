@@ -19,6 +19,7 @@ const fuzz_target fuzz_targets[] = {
     {"lammps", fuzz_points, "lammps", "text.dict"},
     {"xyz", fuzz_points, "xyz", "text.dict"},
     {"ply", fuzz_points, "ply", "binary.dict"},
+    {"obj", fuzz_points, "obj", "text.dict"},
     {"detection", fuzz_points, NULL, "binary.dict"},
     {"frequencies", fuzz_frequencies, NULL, "text.dict"},
     {"weights", fuzz_weights, NULL, "binary.dict"},

@@ -141,6 +141,10 @@ pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
                        reader->input.name);
     }
     PS_TRY(ps_foreign_check_line(reader->input.name, state->lines.cursor, error));
+    PS_TRY(ps_obj_detect(reader, error));
+    if (reader->format == &ps_format_obj) {
+        return PSPEC_OK;
+    }
     if (strcspn(state->lines.cursor, ",;") < strcspn(state->lines.cursor, "\n")) {
         reader->format = &ps_format_csv;
         return PSPEC_OK;

@@ -67,6 +67,10 @@ pspec_status ps_edat_detect(ps_point_reader *reader, bool is_named, ps_error *er
 /* Makes xyz the format where the lines at the cursor begin a frame of it. */
 pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
 
+/* Makes obj the format where the lines at the cursor are of one: groups and comments, and then
+ * vertices, their normals or materials. */
+pspec_status ps_obj_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
+
 /* No header, and '#' between sets. */
 void ps_text_begin(ps_point_writer *writer);
 void ps_text_begin_set(ps_point_writer *writer);
