@@ -219,6 +219,21 @@ const char *ps_row_parse(const char *text, char separator, size_t num_columns, d
     return *text == '\n' ? text : NULL;
 }
 
+size_t ps_line_count_numbers(const char *line, bool are_whole) {
+    size_t num = 0;
+    double value = 0;
+    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
+        const size_t length = ps_token_length(line);
+        if (length == 0 || ps_decimal_parse(line, &value) != line + length ||
+            (are_whole && strspn(line, "0123456789") != length)) {
+            return 0;
+        }
+        num++;
+        line += length;
+    }
+    return num;
+}
+
 pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_columns,
                           ps_error *error) {
     const char *text = ps_skip_blanks(lines->cursor);

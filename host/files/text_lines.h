@@ -69,6 +69,10 @@ bool ps_token_is_not_finite(const char *token, size_t length);
  * else. */
 const char *ps_row_parse(const char *text, char separator, size_t num_columns, double *row);
 
+/* Numbers between blanks of a line that has nothing else, or 0; are_whole: these have only digits.
+ */
+size_t ps_line_count_numbers(const char *line, bool are_whole);
+
 /* Counts the columns of the line at cursor; a token that is no number is an error. */
 pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_columns,
                           ps_error *error) PS_MUST_CHECK;

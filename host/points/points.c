@@ -100,14 +100,14 @@ static size_t missing_of_foreign(const unsigned char *bytes, size_t num_bytes,
 }
 
 /* More is waited for only where two bytes say that it comes. */
-static pspec_status refuse_image(ps_point_reader *reader, ps_error *error) {
+static pspec_status refuse_beginning(ps_point_reader *reader, ps_error *error) {
     const unsigned char *bytes = NULL;
     size_t num = 0;
     const ps_foreign_format *found = NULL;
     PS_TRY(ps_input_peek(&reader->input, 2, &bytes, &num, error));
-    if (ps_foreign_may_be_image(bytes, num)) {
-        PS_TRY(ps_input_peek(&reader->input, PS_IMAGE_BYTES, &bytes, &num, error));
-        found = ps_foreign_find_image(bytes, num < PS_IMAGE_BYTES ? num : PS_IMAGE_BYTES);
+    if (ps_foreign_may_be(bytes, num)) {
+        PS_TRY(ps_input_peek(&reader->input, PS_FOREIGN_BYTES, &bytes, &num, error));
+        found = ps_foreign_find(bytes, num < PS_FOREIGN_BYTES ? num : PS_FOREIGN_BYTES);
     }
     return found != NULL ? ps_foreign_refuse(reader->input.name, found, error) : PSPEC_OK;
 }
@@ -174,7 +174,7 @@ static pspec_status find_format(ps_point_reader *reader, const char *path, ps_er
                                                 "point format \"%s\" is none of " PS_INPUT_FORMATS,
                                                 reader->options.format);
     }
-    PS_TRY(refuse_image(reader, error));
+    PS_TRY(refuse_beginning(reader, error));
     PS_TRY(find_magic(reader, error));
     if (reader->format == NULL) {
         PS_TRY(find_by_name(reader, path, error));

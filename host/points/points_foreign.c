@@ -1,16 +1,16 @@
 #include "points/points_foreign.h"
 
-#include "files/decimal.h"
-#include "files/text_lines.h"
-
 #include <string.h>
 
 static const char arrays[] = "numpy.save of its array of coordinates (N, d) gives a .npy file, "
                              "which is read";
-static const char meshes[] = "its vertices are read as a PLY file, or as text, x y z on a line";
+const char ps_foreign_meshes[] = "its vertices are read as a PLY file, or as text, x y z on a line";
 static const char pictures[] = "points are read, one on a line, and no pictures of them";
-static const char tables[] = "its coordinates are read as lines of numbers, or as CSV with names";
+const char ps_foreign_tables[] =
+    "its coordinates are read as lines of numbers, or as CSV with names";
 
+/* Archivers have the same letters for it. */
+#define UNPACKED(archiver) archiver " -dc FILE | pointspec power - reads what is in it"
 #define MAGIC(text) text, sizeof text - 1
 
 /* Shorter signatures could begin a text. */
@@ -19,11 +19,13 @@ const ps_foreign_format ps_foreign_formats[] = {
     {MAGIC("CDF\x01"), "a NetCDF file", arrays},
     {MAGIC("CDF\x02"), "a NetCDF file", arrays},
     {MAGIC("SIMPLE  ="), "a FITS file", arrays},
-    {MAGIC("PAR1"), "a Parquet file", tables},
+    {MAGIC("PAR1"), "a Parquet file", ps_foreign_tables},
     {MAGIC("MATLAB 5.0"), "a MATLAB file", arrays},
-    {MAGIC("# vtk"), "a VTK file", meshes},
-    {MAGIC("<VTKFile"), "a VTK file", meshes},
-    {MAGIC("<?xml"), "an XML file", tables},
+    {MAGIC("# vtk"), "a VTK file", ps_foreign_meshes},
+    {MAGIC("<VTKFile"), "a VTK file", ps_foreign_meshes},
+    {MAGIC("<?xml"), "an XML file", ps_foreign_tables},
+    {MAGIC("\xfd\x37zXZ\0"), "an xz file", UNPACKED("xz")},
+    {MAGIC("\x28\xb5\x2f\xfd"), "a zstd file", UNPACKED("zstd")},
     {MAGIC("\x89PNG"), "a PNG image", pictures},
     {MAGIC("\xff\xd8\xff"), "a JPEG image", pictures},
     {MAGIC("GIF8"), "a GIF image", pictures},
@@ -39,7 +41,7 @@ const ps_foreign_format ps_foreign_formats[] = {
     {NULL, 0, NULL, NULL},
 };
 
-/* ---- images that could begin a text ------------------------------------------------------- */
+/* ---- formats that could begin a text ------------------------------------------------------ */
 
 typedef struct bytes_left {
     const unsigned char *at, *end;
@@ -104,24 +106,37 @@ static bool is_svg(const unsigned char *bytes, size_t num_bytes) {
     return i + sizeof element - 1 < num_bytes;
 }
 
-bool ps_foreign_may_be_image(const unsigned char *bytes, size_t num_bytes) {
-    return num_bytes >= 2 && ((bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') ||
-                              memcmp(bytes, "BM", 2) == 0 || memcmp(bytes, "<?", 2) == 0);
+/* The level, a digit, stands between the signature and the first block, or the end. */
+static bool is_bzip2(const unsigned char *bytes, size_t num_bytes) {
+    enum { LEVEL = 3, BLOCK_BYTES = 6 };
+    return num_bytes > LEVEL + BLOCK_BYTES && memcmp(bytes, "BZh", LEVEL) == 0 &&
+           (memcmp(bytes + LEVEL + 1, "1AY&SY", BLOCK_BYTES) == 0 ||
+            memcmp(bytes + LEVEL + 1, "\x17\x72\x45\x38\x50\x90", BLOCK_BYTES) == 0);
 }
 
-const ps_foreign_format *ps_foreign_find_image(const unsigned char *bytes, size_t num_bytes) {
+bool ps_foreign_may_be(const unsigned char *bytes, size_t num_bytes) {
+    return num_bytes >= 2 && ((bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') ||
+                              memcmp(bytes, "BM", 2) == 0 || memcmp(bytes, "BZ", 2) == 0 ||
+                              memcmp(bytes, "<?", 2) == 0);
+}
+
+const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_bytes) {
     static const ps_foreign_format netpbm[] = {
         {NULL, 0, "a PBM image", pictures},
         {NULL, 0, "a PGM image", pictures},
         {NULL, 0, "a PPM image", pictures},
     };
     static const ps_foreign_format bitmap = {NULL, 0, "a BMP image", pictures};
+    static const ps_foreign_format bzip2 = {NULL, 0, "a bzip2 file", UNPACKED("bzip2")};
     static const ps_foreign_format svg = {NULL, 0, "an SVG image", pictures};
-    if (!ps_foreign_may_be_image(bytes, num_bytes)) {
+    if (!ps_foreign_may_be(bytes, num_bytes)) {
         return NULL;
     }
     if (is_netpbm(bytes, num_bytes)) {
         return &netpbm[(bytes[1] - '1') % 3]; /* text and bytes of the same three */
+    }
+    if (is_bzip2(bytes, num_bytes)) {
+        return &bzip2;
     }
     return is_bitmap(bytes, num_bytes) ? &bitmap : is_svg(bytes, num_bytes) ? &svg : NULL;
 }
@@ -131,23 +146,4 @@ const ps_foreign_format *ps_foreign_find_image(const unsigned char *bytes, size_
 pspec_status ps_foreign_refuse(const char *file, const ps_foreign_format *format, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s is %s, which is not read; %s", file, format->name,
                    format->advice);
-}
-
-/* "{" or "[[0.1, 0.2]": nothing that begins a row or a name. */
-static bool is_json(const char *line) {
-    const char *const next = *line == '{' || *line == '[' ? ps_skip_blanks(line + 1) : line;
-    return next != line && (ps_ends_line(next) || strchr("[{]}\"-0123456789", *next) != NULL);
-}
-
-pspec_status ps_foreign_check_line(const char *file, const char *line, ps_error *error) {
-    ps_foreign_format found = {NULL, 0, NULL, meshes};
-    const char *const text = ps_skip_blanks(line);
-    const char *const after = ps_skip_blanks(text + ps_token_length(text));
-    if (ps_token_is_one_of(text, "OFF|COFF|NOFF|STOFF|4OFF|nOFF") && ps_ends_line(after)) {
-        found.name = "an OFF file";
-    } else if (is_json(text)) {
-        found.name = "a JSON file";
-        found.advice = tables;
-    }
-    return found.name == NULL ? PSPEC_OK : ps_foreign_refuse(file, &found, error);
 }

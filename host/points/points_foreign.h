@@ -2,7 +2,7 @@
 #ifndef PS_POINTS_POINTS_FOREIGN_H
 #define PS_POINTS_POINTS_FOREIGN_H
 
-#include "base/status.h"
+#include "files/text_lines.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,20 +15,22 @@ typedef struct ps_foreign_format {
     const char *advice; /* what can be read instead */
 } ps_foreign_format;
 
+/* Advice for meshes, and for rows with names. */
+extern const char ps_foreign_meshes[], ps_foreign_tables[];
+
 /* Ends with a magic of NULL. */
 extern const ps_foreign_format ps_foreign_formats[];
 
-/* Images that more than a few fixed bytes tell. May these, two at least, begin one? Then the first
- * PS_IMAGE_BYTES tell which it is, or NULL. */
-enum { PS_IMAGE_BYTES = 1024 };
-bool ps_foreign_may_be_image(const unsigned char *bytes, size_t num_bytes);
-const ps_foreign_format *ps_foreign_find_image(const unsigned char *bytes, size_t num_bytes);
+/* Those that more than a few fixed bytes tell. May these, two at least, begin one? Then the first
+ * PS_FOREIGN_BYTES tell which it is, or NULL. */
+enum { PS_FOREIGN_BYTES = 1024 };
+bool ps_foreign_may_be(const unsigned char *bytes, size_t num_bytes);
+const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_bytes);
 
 pspec_status ps_foreign_refuse(const char *file, const ps_foreign_format *format,
                                ps_error *error) PS_MUST_CHECK;
 
-/* Refuses a text whose first line that is no '#' line is that of another format. */
-pspec_status ps_foreign_check_line(const char *file, const char *line,
-                                   ps_error *error) PS_MUST_CHECK;
+/* Refuses a text whose lines at the cursor, behind '#' lines, are those of another format. */
+pspec_status ps_foreign_check_lines(ps_lines *lines, ps_error *error) PS_MUST_CHECK;
 
 #endif

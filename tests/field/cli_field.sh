@@ -361,6 +361,62 @@ foreign 'an OFF file;x y z on a line' '# mesh\nCOFF \n1 0 0\n'
 foreign 'a JSON file;CSV' '{"points": [[0.1, 0.2]]}\n'
 foreign 'a JSON file;CSV' '[[0.1, 0.2], [0.3, 0.4]]\n'
 foreign 'a JSON file;CSV' '{\n'
+# ---- simulations, clouds and packed files: what to run stands in the sentence
+atoms() { # NAME;FORMAT BYTES: from a file, and from standard input
+    foreign "${1%;*} file; ase convert -i ${1#*;} FILE atoms.xyz makes extended XYZ" "$2"
+    ! "$program" convert - <foreign >out 2>err || complain "$1 is read from standard input"
+    [[ $(<err) == *"standard input is ${1%;*} file, which is not read; ase convert "* ]] || complain "$1, standard input: $(<err)"
+}
+atoms 'a PDB;proteindatabank' 'CRYST1   10.000   20.000   20.000  90.00  90.00  90.00 P 1\nATOM      1   Na MOL     1       1.000   2.000   3.000  1.00  0.00          NA  \nEND\n'
+atoms 'a PDB;proteindatabank' 'HEADER    HYDROLASE                               04-FEB-96   4HHB\nTITLE     A, B\nREMARK   4\n'
+atoms 'a PDB;proteindatabank' 'REMARK original generated coordinate pdb file\r\nATOM      1  N   ALA A   1      11.104   6.134  -6.504\r\n'
+atoms 'a PDB;proteindatabank' 'ATOM      1  N   ALA A   1      11.104   6.134  -6.504\nTER\n'
+atoms 'a CIF;cif' 'data_image0\n_chemical_formula_sum   "Na1 Cl1"\n_cell_length_a  10.0\n'
+atoms 'a CIF;cif' '# made by hand\n\ndata_4HHB\r\n# \r\nloop_\r\n_atom_site.id\r\n'
+vasp='10 0 0\n0 20.0 0\n 0 0 20\n'
+atoms 'a POSCAR;vasp' "Na Cl\\n 1.0\\n${vasp} Na Cl\\n 1 1\\nCartesian\\n 1 2 3\\n"
+atoms 'a POSCAR;vasp' "cubic, two atoms\\n-4000\\n${vasp}1 1\\nSelective dynamics\\nDirect\\n .1 .1 .15 T T F\\n"
+atoms 'a POSCAR;vasp' "# a title\\n1.0\\n${vasp}Si\\n2\\ndirect\\n0 0 0\\n.5 .5 .5\\n"
+water='    1SOL     OW    1   0.100   0.200  -0.300\n'
+atoms 'a GROMACS;gromacs' "Water, t= 0.0\\n    1\\n$water   1.0 2.0 2.0\\n"
+atoms 'a GROMACS;gromacs' "# water\\n1\\n    1SOL    OW1    1   0.12639   1.62425-100.67991  0.1227 -0.0580  0.0434\\n   1.0 2.0 2.0\\n"
+# what ASE 3.26 makes of the first file, but for columns
+reads '0.1 0.1 0.15' <(printf '1\nLattice="10.0 0.0 0.0 0.0 20.0 0.0 0.0 0.0 20.0" Properties=species:S:1:pos:R:3:residuenames:S:1 pbc="T T T"\nNa       1.00000000       2.00000000       3.00000000 MOL\n')
+# tried COMMAND FILE NAME: it is refused as what has that name, and COMMAND, which the sentence has, is run into tried.out
+tried() {
+    refuses "is ${3-}" convert "$2"
+    [[ $(<err) == *"$1"* ]] || complain "not \"$1\": $(<err)"
+    checked=$((checked + 1))
+    pointspec() { "$program" "$@" --engine host_direct -k 4; }
+    [[ $1 != *convert* ]] || pointspec() { "$program" "$@"; }
+    eval "${1//FILE/$2}" >tried.out 2>err || complain "$1: $(<err)"
+}
+pcd='VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA'
+# shellcheck disable=SC2016 # the text of awk
+ascii='awk '\''/^DATA ascii/ { on = 1; next } on { print $1, $2, $3 }'\'' FILE | pointspec convert -'
+printf '%b' "# .PCD v0.7 - Point Cloud Data file format\\n$pcd ascii\\n.1 .2 .3\\n.4 .5 .6\\n" >cloud.pcd
+tried "$ascii" cloud.pcd 'a PCD file'
+[[ $(<tried.out) == $'0.1 0.2 0.3\n0.4 0.5 0.6' ]] || complain "of PCD: $(<tried.out)"
+foreign 'a PCD file; awk ;pcl_pcd2ply FILE points.ply' "$pcd binary\\n\\x80\\0\\x81"
+foreign 'a PCD file' "${pcd#*n}"
+printf '.1 .2\n.3 .4\n' >plain.txt
+for packer in xz:an bzip2:a zstd:a; do
+    command -v "${packer%:*}" >/dev/null || continue
+    "${packer%:*}" -c <plain.txt >packed
+    tried "${packer%:*} -dc FILE | pointspec power -" packed "${packer#*:} ${packer%:*} file"
+    "$program" power -k 4 --engine host_direct plain.txt | grep -v '^#' | cmp -s - <(grep -v '^#' tried.out) || complain "$packer: other powers"
+done
+foreign 'an xz file' '\xfd7zXZ\0\0\x04'
+foreign 'a zstd file' '\x28\xb5\x2f\xfd\x04'
+foreign 'a bzip2 file' 'BZh11AY&SY\x86'
+foreign 'a bzip2 file' 'BZh9\x17\x72\x45\x38\x50\x90\0\0\0\0'
+# texts that are none of these
+reads '0.1|0.2' <(printf 'data_x\n.1\n.2\n')
+reads '0.1|0.3' <(printf 'TITLE\n.1\n.3\n')
+reads '0.1 0.2' --columns ATOM,TER <(printf 'ATOM TER\n.1 .2\n')
+reads '0.1 0.2' --columns BZh9,BZ <(printf 'BZh9 BZ\n.1 .2\n')
+reads '0.1 0.2|0.3 0.4|0.5 0.6|0.7 0.8' <(printf '4\n.1 .2\n.3 .4\n.5 .6\n.7 .8\n')
+reads '0.1 0.2 0.3|0.4 0.5 0.6|0.7 0.8 0.9' -d 3 <(printf '3\n.1 .2 .3\n.4 .5 .6\n.7 .8 .9\n1 1\n')
 foreign 'a PNG image;no pictures' '\x89PNG\r\n'
 foreign 'a JPEG image;no pictures' '\xff\xd8\xff\xe0'
 foreign 'a TIFF image;no pictures' 'II*\0'

@@ -52,28 +52,13 @@ static bool is_text(const char *line) {
     return *line == '\n';
 }
 
-/* Numbers of a line that has nothing else, or 0. */
-static size_t count_numbers(const char *line) {
-    size_t num = 0;
-    double value = 0;
-    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
-        const size_t length = ps_token_length(line);
-        if (length == 0 || ps_decimal_parse(line, &value) != line + length) {
-            return 0;
-        }
-        num++;
-        line += length;
-    }
-    return num;
-}
-
 /* A set of one line may be one point, or all its points one after the other. */
 static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
     enum { SEVERAL = 4, VECTOR = 3 }; /* at least two points of the plane */
     const ps_point_options *const options = &reader->options;
     const char *const line = ((ps_text_state *)reader->state)->lines.cursor;
     const bool may_be_sphere = options->domain != PS_DOMAIN_TORUS;
-    const size_t num = count_numbers(line);
+    const size_t num = ps_line_count_numbers(line, false);
     const size_t told = ps_columns_told(options);
     double row[PS_MAX_COLUMNS] = {0};
     if (options->column_names != NULL) {
@@ -120,8 +105,8 @@ static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, p
     if (is_alone) {
         return detect_tokens(reader, error);
     }
-    const bool has_one_a_line =
-        count_numbers(state->lines.cursor) == 1 && count_numbers(second) == 1;
+    const bool has_one_a_line = ps_line_count_numbers(state->lines.cursor, false) == 1 &&
+                                ps_line_count_numbers(second, false) == 1;
     if (has_one_a_line && ps_columns_told(&reader->options) > 1) {
         reader->format = &ps_format_tokens;
         return PSPEC_OK;
@@ -140,7 +125,7 @@ pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
                        "pairs are read with --input-format rps",
                        reader->input.name);
     }
-    PS_TRY(ps_foreign_check_line(reader->input.name, state->lines.cursor, error));
+    PS_TRY(ps_foreign_check_lines(&state->lines, error));
     PS_TRY(ps_obj_detect(reader, error));
     if (reader->format == &ps_format_obj) {
         return PSPEC_OK;
