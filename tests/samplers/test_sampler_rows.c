@@ -3,6 +3,7 @@
 #include "test_samplers.h"
 
 #include <malloc.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -138,12 +139,28 @@ static void parameters_change_the_cost(void **state) {
     assert_true(ps_sampler_seconds(&lifted) == ps_sampler_seconds(&owen));
 }
 
+static double seconds_of(const char *text) {
+    const ps_sampler_request request = make_request(text, 256, 2);
+    return ps_sampler_seconds(&request);
+}
+
+/* What bench_cells ccvt measured: 50 times as long as 64, and 15 and 64 times as long as 1024. */
+static void more_background_takes_as_much_longer_as_was_measured(void **state) {
+    (void)state;
+    const double some = seconds_of("ccvt:M=1024");
+    const double within = 0.05;
+    assert_true(fabs(some / seconds_of("ccvt:M=64") / 50 - 1) < within);
+    assert_true(fabs(seconds_of("ccvt:M=4096") / some / 15 - 1) < within);
+    assert_true(fabs(seconds_of("ccvt:M=8192") / some / 64 - 1) < within);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_sampler_makes_points_in_one_way),
         cmocka_unit_test(every_sampler_says_what_it_costs),
         cmocka_unit_test(every_sampler_keeps_to_its_room),
         cmocka_unit_test(parameters_change_the_cost),
+        cmocka_unit_test(more_background_takes_as_much_longer_as_was_measured),
         cmocka_unit_test(what_a_set_takes_is_what_is_allocated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -33,21 +33,23 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     return read_capacity(request, &capacity, error);
 }
 
-/* N (each + root sqrt(N)) microseconds with M = 64, which grow with M as M (1 + M/512): passes
- * become more. Right to a factor of 1.5 from 16 to 4096 (bench_cells ccvt). That points take longer
- * where there are more is of sites drawn at random, whose numbers differ the more from those of
- * equal capacities, the larger the part of the room. 0 of a request that is refused. */
+/* N (each + root sqrt(N)) microseconds with M = 64, which grow with M as M (1 + (M/450)^1.15):
+ * passes become more. M = 1024 takes 50 times as long as 64, and 4096 and 8192 take 15 and 64 times
+ * as long as 1024 (bench_cells ccvt, two cores of an Intel Xeon with AVX-512). That points take
+ * longer where there are more is of sites drawn at random, whose numbers differ the more from those
+ * of equal capacities, the larger the part of the room. 0 of a request that is refused. */
 static double count_seconds(const ps_sampler_request *request, double each, double root) {
     const double microsecond = 1e-6;
     const double few = 64;
-    const double many = 512;
+    const double many = 450;
+    const double power = 1.15;
     const double num = (double)request->num_points;
     size_t capacity = 0;
     if (read_capacity(request, &capacity, NULL) != PSPEC_OK) {
         return 0;
     }
     const double m = (double)capacity;
-    const double growth = m / few * (1 + m / many) / (1 + few / many);
+    const double growth = m / few * (1 + pow(m / many, power)) / (1 + pow(few / many, power));
     return num * (each + root * sqrt(num)) * growth * microsecond;
 }
 
