@@ -32,6 +32,7 @@ add_program_test(cli_empty_axis) # points of a smaller box
 add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
 add_program_test(cli_counts)    # several numbers of points in one command
 add_program_test(cli_sets)      # --set: files under a name beside samplers, in every command that has several
+add_program_test(cli_streams)   # points that come but once are kept, and read again
 add_program_test(cli_scatter)   # coefficients of sets at a frequency
 add_program_test(cli_fit)       # power laws, plateaus and profiles of spectra
 add_program_test(cli_program)   # streams, signals, formats, same bits

@@ -1,6 +1,7 @@
 #include "jobs/source.h"
 
 #include "base/memory.h"
+#include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "sets/kept_inputs.h"
 
@@ -29,7 +30,11 @@ struct ps_source {
     ps_point_reader *scout;   /* of the same file, ahead of the reader to count a set */
     uint64_t sets_scouted;    /* passed by it */
     ps_text formats, columns; /* of the files read so far, each once */
-    ps_kept_inputs kept;      /* only with options.keeps_streams */
+    ps_kept_inputs kept;      /* sets of streams */
+    bool is_lost;             /* there were more of them than are kept */
+    /* Of a stream that had not ended when the source was rewound: it goes on after its kept sets */
+    ps_point_reader *unfinished;
+    size_t unfinished_path;
 };
 
 /* Points that are only counted: few enough to stay in the cache. */
@@ -77,6 +82,11 @@ pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t n
     (*out)->options = *options;
     if (options->whole_bytes == 0) {
         (*out)->options.whole_bytes = PS_SOURCE_WHOLE_BYTES;
+    }
+    if (options->kept_bytes == 0) {
+        const uint64_t limit = options->points.memory_limit / 4; /* leaves room, as for blocks */
+        const bool is_less = limit > 0 && limit < PS_SOURCE_WHOLE_BYTES;
+        (*out)->options.kept_bytes = is_less ? limit : PS_SOURCE_WHOLE_BYTES;
     }
     (*out)->kept.memory_limit = options->points.memory_limit;
     return PSPEC_OK;
@@ -254,9 +264,10 @@ pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_poi
 /* A set that has begun: the rest of it, or what there is to know about the rest. */
 static pspec_status complete_set(ps_source *source, ps_point_set *set, ps_source_part *part,
                                  ps_error *error) {
+    const bool is_stream = !ps_points_can_reopen(source->reader);
     const bool is_counted = ps_points_per_set(source->reader) > 0 && !set->has_weights;
     part->block_points = points_of(set, source->options.whole_bytes);
-    if (!is_counted && !ps_points_can_reopen(source->reader)) {
+    if (is_stream && (!is_counted || source->options.kept_bytes == UINT64_MAX)) {
         return ps_source_more(source, set, SIZE_MAX, &part->is_whole, error);
     }
     if (set->num_points < part->block_points) {
@@ -291,23 +302,42 @@ static pspec_status add_columns(ps_source *source, ps_error *error) {
     return add_name(&source->columns, text, error);
 }
 
+/* The stream goes on behind its kept sets, if it has not ended. */
+static void pass_kept(ps_source *source) {
+    if (source->unfinished != NULL && source->unfinished_path == source->next_path) {
+        source->reader = source->unfinished;
+        source->unfinished = NULL;
+    }
+    source->next_path++;
+}
+
 /* Of inputs that were read before and are kept, from next_path on. */
 static pspec_status next_kept(ps_source *source, ps_point_set *set, bool *has_set,
                               ps_error *error) {
     while (!*has_set && source->reader == NULL && source->next_path < source->num_paths &&
            ps_kept_inputs_have(&source->kept, source->next_path)) {
         PS_TRY(ps_kept_inputs_next(&source->kept, source->next_path, set, has_set, error));
-        source->next_path += *has_set ? 0 : 1;
+        if (!*has_set) {
+            pass_kept(source);
+        }
     }
     return PSPEC_OK;
 }
 
-/* A set that has come, of a stream as a whole. */
-static pspec_status keep(ps_source *source, const ps_point_set *set, ps_error *error) {
+/* A set of a stream that has come, whole or in part: those that are kept are all or none. */
+static pspec_status keep(ps_source *source, const ps_point_set *set, bool is_whole,
+                         ps_error *error) {
     const size_t input = source->next_path - 1;
-    return source->options.keeps_streams && !ps_points_can_reopen(source->reader)
-               ? ps_kept_inputs_add(&source->kept, input, source->paths[input], set, error)
-               : PSPEC_OK;
+    const uint64_t limit = source->options.kept_bytes;
+    if (source->is_lost || ps_points_can_reopen(source->reader)) {
+        return PSPEC_OK;
+    }
+    if (!is_whole || source->kept.bytes + ps_kept_inputs_bytes(set) > limit) {
+        ps_kept_inputs_free(&source->kept);
+        source->is_lost = true;
+        return PSPEC_OK;
+    }
+    return ps_kept_inputs_add(&source->kept, input, source->paths[input], set, error);
 }
 
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
@@ -340,7 +370,7 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
     source->sets_of_file++;
     source->num_sets++;
     PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
-    return keep(source, set, error);
+    return keep(source, set, part->is_whole, error);
 }
 
 pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
@@ -354,12 +384,28 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
 }
 
 bool ps_source_can_rewind(const ps_source *source) {
-    for (size_t i = 0; !source->options.keeps_streams && i < source->num_paths; i++) {
-        if (strcmp(source->paths[i], "-") == 0) {
-            return false;
-        }
+    return !source->is_lost;
+}
+
+pspec_status ps_source_check_rewind(const ps_source *source, const char *why, ps_error *error) {
+    char size[PS_SIZE_TEXT];
+    return ps_source_can_rewind(source)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                         "%s; they are to be read again, but standard input and pipes come once, "
+                         "and more than %s of points are not kept: give a file",
+                         why, ps_size_show(size, (double)source->options.kept_bytes));
+}
+
+/* A stream that has not ended is not closed. */
+static void leave_reader(ps_source *source) {
+    if (source->reader != NULL && !ps_points_can_reopen(source->reader)) {
+        source->unfinished = source->reader;
+        source->unfinished_path = source->next_path - 1;
+    } else {
+        ps_points_close(source->reader);
     }
-    return true;
+    source->reader = NULL;
 }
 
 pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
@@ -367,8 +413,7 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_IO, "standard input cannot be read twice");
     }
     close_scout(source);
-    ps_points_close(source->reader);
-    source->reader = NULL;
+    leave_reader(source);
     source->next_path = 0;
     source->next_realization = 0;
     if (source->sampled != NULL) {
@@ -392,6 +437,7 @@ void ps_source_destroy(ps_source *source) {
         close_scout(source);
         ps_sets_destroy(source->sampled);
         ps_points_close(source->reader);
+        ps_points_close(source->unfinished);
         ps_text_free(&source->formats);
         ps_text_free(&source->columns);
         ps_kept_inputs_free(&source->kept);

@@ -1,8 +1,9 @@
 /* Where realizations come from: a sampler, point files one after the other, or unit vectors in
  * memory.
  *
- * A source yields point sets in order. It can be rewound unless it reads standard input, which it
- * may keep. Sets of files that are too large to be in memory come in blocks.
+ * A source yields point sets in order, and can be rewound: sets that come but once, from standard
+ * input or a pipe, are kept, unless they are too many. Sets of files that are too large to be in
+ * memory come in blocks.
  */
 #ifndef PS_JOBS_SOURCE_H
 #define PS_JOBS_SOURCE_H
@@ -33,9 +34,10 @@ const char *ps_source_trouble(ps_source *source);
 typedef struct ps_source_options {
     ps_point_options points; /* of every file */
     uint64_t whole_bytes;    /* 0: PS_SOURCE_WHOLE_BYTES */
-    /* Sets that come but once, from standard input or a pipe, stay in memory, so that it can be
-     * rewound once all of them were read */
-    bool keeps_streams;
+    /* Of sets that come but once stay in memory, to be read again; where they take more, none does.
+     * 0: PS_SOURCE_WHOLE_BYTES, or a quarter of points.memory_limit; UINT64_MAX: all stay, or it is
+     * an error */
+    uint64_t kept_bytes;
     bool (*should_stop)(
         void *payload); /* asked after every block that is only counted; may be NULL */
     void *payload;
@@ -67,7 +69,12 @@ pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_poi
 /* From now on points (x, y, z) come as (y, z, x), the x axis where the z axis was. Not for patterns
  * in memory. */
 void ps_source_turn(ps_source *source);
+/* Not once more was read of a stream than is kept. */
 bool ps_source_can_rewind(const ps_source *source);
+/* PSPEC_ERROR_TOLERANCE, "WHY, and ...: give a file", where a more exact plan cannot have the sets
+ * again. */
+pspec_status ps_source_check_rewind(const ps_source *source, const char *why,
+                                    ps_error *error) PS_MUST_CHECK;
 pspec_status ps_source_rewind(ps_source *source, ps_error *error) PS_MUST_CHECK;
 /* Formats and columns of the files read so far, "npy; csv", or "". */
 const char *ps_source_format(const ps_source *source);

@@ -61,18 +61,24 @@ static pspec_status copy(ps_point_set *target, const ps_point_set *set, ps_error
     return PSPEC_OK;
 }
 
+uint64_t ps_kept_inputs_bytes(const ps_point_set *set) {
+    const size_t columns = set->dimension + (set->has_weights ? 1 : 0);
+    return set->num_points * columns * sizeof(double);
+}
+
 pspec_status ps_kept_inputs_add(ps_kept_inputs *kept, size_t input, const char *name,
                                 const ps_point_set *set, ps_error *error) {
     void *memory = kept->sets;
-    const size_t numbers = set->num_points * (set->dimension + (set->has_weights ? 1 : 0));
-    PS_TRY(check_room(kept, name, numbers * sizeof(double), error));
+    const uint64_t bytes = ps_kept_inputs_bytes(set);
+    PS_TRY(check_room(kept, name, bytes, error));
     PS_TRY(
         ps_grow(&memory, &kept->capacity, kept->num + 1, sizeof *kept->sets, "point sets", error));
     kept->sets = memory;
     ps_kept_set *const own = &kept->sets[kept->num];
     *own = (ps_kept_set){.input = input};
     kept->num++; /* freed with the others, also after a failure */
-    kept->bytes += numbers * sizeof(double);
+    kept->next = kept->num;
+    kept->bytes += bytes;
     return copy(&own->set, set, error);
 }
 

@@ -19,7 +19,9 @@ typedef struct ps_kept_inputs {
 } ps_kept_inputs;
 
 void ps_kept_inputs_free(ps_kept_inputs *kept);
-/* Copies a set; name is of the input, for the sentence that says that they are too many. */
+uint64_t ps_kept_inputs_bytes(const ps_point_set *set);
+/* Copies a set, which counts as handed out; name is of the input, for the sentence that says that
+ * they are too many. */
 pspec_status ps_kept_inputs_add(ps_kept_inputs *kept, size_t input, const char *name,
                                 const ps_point_set *set, ps_error *error) PS_MUST_CHECK;
 /* Are the sets of that input here, where inputs are asked for in their order? */

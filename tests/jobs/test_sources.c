@@ -1,5 +1,6 @@
 /* A sampler and a file of its sets are one question: the same bits through every engine in every
- * precision, of one set as of several, with the vectors of AVX2 and of AVX-512.
+ * precision, of one set as of several, with the vectors of AVX2 and of AVX-512. Sets that come but
+ * once can be read again, all of them, unless they are too many.
  */
 #include "harness.h"
 
@@ -8,6 +9,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { NUM_POINTS = 40, MOST_SETS = 3, LAST = 9 };
 
@@ -159,10 +161,104 @@ static void files_have_the_bits_of_samplers(void **state) {
     ps_device_set_native_lanes(device, 0);
 }
 
+/* ---- streams --------------------------------------------------------------------------------- */
+
+/* Sets in a pipe have so many points, more than a block, and fit into its buffer together. */
+enum { STREAMED_POINTS = 1100, STREAMED_SETS = 3, STREAMED_NUMBERS = 2 * STREAMED_POINTS };
+
+typedef struct stream {
+    double points[STREAMED_SETS * STREAMED_NUMBERS];
+    int reading;
+    char path[32];
+    const char *paths[1];
+    ps_source *source;
+    ps_point_set set;
+} stream;
+
+static void open_stream(stream *s, const ps_source_options *options) {
+    int ends[2];
+    char writing[sizeof s->path];
+    uint64_t random = 3;
+    *s = (stream){.paths = {s->path}};
+    for (size_t i = 0; i < sizeof s->points / sizeof s->points[0]; i++) {
+        s->points[i] = test_uniform(&random);
+    }
+    assert_int_equal(pipe(ends), 0);
+    s->reading = ends[0];
+    snprintf(s->path, sizeof s->path, "/dev/fd/%d", ends[0]);
+    snprintf(writing, sizeof writing, "/dev/fd/%d", ends[1]);
+    assert_true(
+        test_write_array(writing, "<f8", "False", "(3, 1100, 2)", s->points, sizeof s->points));
+    assert_int_equal(close(ends[1]), 0);
+    assert_ok(ps_source_files(&s->source, s->paths, 1, options, error));
+}
+
+static void close_stream(stream *s) {
+    ps_source_destroy(s->source);
+    ps_point_set_free(&s->set);
+    assert_int_equal(close(s->reading), 0);
+}
+
+/* The next sets are those of these numbers; end STREAMED_SETS: there are no more. */
+static void must_come(stream *s, size_t first, size_t end) {
+    ps_source_part part;
+    bool has_set = true;
+    for (size_t r = first; r < end; r++) {
+        assert_ok(ps_source_next(s->source, &s->set, &part, &has_set, error));
+        assert_true(has_set);
+        assert_ok(ps_source_more(s->source, &s->set, SIZE_MAX, &part.is_whole, error));
+        assert_int_equal(s->set.num_points, STREAMED_POINTS);
+        assert_memory_equal(s->set.points, s->points + r * STREAMED_NUMBERS,
+                            STREAMED_NUMBERS * sizeof(double));
+    }
+    if (end == STREAMED_SETS) {
+        assert_ok(ps_source_next(s->source, &s->set, &part, &has_set, error));
+        assert_false(has_set);
+    }
+}
+
+/* Wherever it is rewound, and whether sets are so large that those of files come in blocks. */
+static void streams_are_read_again(void **state) {
+    (void)state;
+    const ps_source_options options[] = {{.points = {0}},
+                                         {.whole_bytes = 1, .kept_bytes = UINT64_MAX}};
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        stream s;
+        open_stream(&s, &options[i]);
+        static const size_t ends[] = {0, 1, 1, 2, 1, STREAMED_SETS, 2, STREAMED_SETS};
+        for (size_t j = 0; j < sizeof ends / sizeof ends[0]; j++) {
+            must_come(&s, 0, ends[j]);
+            assert_ok(ps_source_rewind(s.source, error));
+        }
+        close_stream(&s);
+    }
+}
+
+/* As many bytes as are kept, and one less. */
+static void streams_are_kept_up_to_a_limit(void **state) {
+    (void)state;
+    for (uint64_t lacking = 0; lacking < 2; lacking++) {
+        const ps_source_options options = {.kept_bytes =
+                                               2 * STREAMED_NUMBERS * sizeof(double) - lacking};
+        ps_error reason;
+        stream s;
+        open_stream(&s, &options);
+        must_come(&s, 0, 2);
+        assert_int_equal(ps_source_can_rewind(s.source), lacking == 0);
+        must_come(&s, 2, STREAMED_SETS);
+        assert_int_equal(ps_source_check_rewind(s.source, "why", &reason), PSPEC_ERROR_TOLERANCE);
+        assert_non_null(strstr(reason.message, "why; they are to be read again, but"));
+        assert_int_equal(ps_source_rewind(s.source, &reason), PSPEC_ERROR_IO);
+        close_stream(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(files_have_the_bits_of_samplers, test_folder_create,
                                         test_folder_remove),
+        cmocka_unit_test(streams_are_read_again),
+        cmocka_unit_test(streams_are_kept_up_to_a_limit),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("sources", tests, NULL, NULL);

@@ -183,11 +183,8 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
 
 static pspec_status rewind_rules(void *payload, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    if (!ps_source_can_rewind(job->rules.source)) {
-        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                       "these rules have larger coefficients than was planned for, and standard "
-                       "input cannot be read twice: give a file, or --engine pairs_direct");
-    }
+    PS_TRY(ps_source_check_rewind(
+        job->rules.source, "these rules have larger coefficients than was planned for", error));
     return ps_rules_rewind(&job->rules, error);
 }
 

@@ -6,6 +6,7 @@
 #include "store/figures_file.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,8 +58,10 @@ static uint64_t choose_whole_bytes(const ps_power_question *question) {
 
 static pspec_status open_files(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
+    const uint64_t whole_bytes = choose_whole_bytes(question);
     const ps_source_options options = {.points = question->point_options,
-                                       .whole_bytes = choose_whole_bytes(question),
+                                       .whole_bytes = whole_bytes,
+                                       .kept_bytes = whole_bytes,
                                        .should_stop = should_stop,
                                        .payload = job};
     job->num_realizations = question->num_sets;
@@ -72,8 +75,8 @@ static pspec_status open_files(ps_power_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* A set alone has ways of its own. Nobody waits for a second set of a stream, nor for a second
- * file. */
+/* A set alone has ways of its own. Nobody waits for a second set of a stream that is not kept, nor
+ * for a second file. */
 static pspec_status count_sets(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     bool is_last = false;
@@ -297,18 +300,14 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
 /* The measured powers make the error larger than the tolerance, and there is a plan for them. */
 static pspec_status rewind_sets(void *payload, ps_error *error) {
     ps_power_job *const job = payload;
-    const ps_precision precision = job->plan.chosen->precision;
     const ps_accuracy *const accuracy = &job->runner.accuracy;
-    if (!ps_source_can_rewind(job->sets.source)) {
-        return ps_fail(
-            error, PSPEC_ERROR_TOLERANCE,
-            "these sets have a mean power of %.3g, so what was planned has an error of "
-            "%.2g, above the tolerance %g, and standard input cannot be read twice: give a "
-            "file%s%s",
-            accuracy->largest_mean_power, accuracy->error, job->problem.tolerance,
-            precision == PS_SINGLE ? "" : ", or --precision ",
-            precision == PS_SINGLE ? "" : ps_precision_name(precision));
-    }
+    enum { BYTES = 160 };
+    char why[BYTES];
+    snprintf(why, sizeof why,
+             "these sets have a mean power of %.3g, so what was planned has an error of %.2g, "
+             "above the tolerance %g",
+             accuracy->largest_mean_power, accuracy->error, job->problem.tolerance);
+    PS_TRY(ps_source_check_rewind(job->sets.source, why, error));
     return ps_power_sets_rewind(&job->sets, error);
 }
 

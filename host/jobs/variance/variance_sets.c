@@ -106,7 +106,7 @@ static void finish(ps_variance_sets *sets, const count *so_far, bool measures) {
 
 pspec_status ps_variance_sets_open(ps_variance_sets *sets, const ps_power_question *question,
                                    bool measures, ps_error *error) {
-    const ps_source_options options = {.points = question->point_options, .keeps_streams = true};
+    const ps_source_options options = {.points = question->point_options, .kept_bytes = UINT64_MAX};
     count so_far = {.question = question};
     *sets = (ps_variance_sets){0};
     PS_TRY(ps_source_files(&sets->source, question->paths, question->num_paths, &options, error));
