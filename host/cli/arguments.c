@@ -175,12 +175,18 @@ static pspec_status parse_word(parser *p, bool *is_over) {
     return word[1] == '-' ? parse_long(p, word) : parse_short(p, word);
 }
 
+static pspec_status count_standard_input(void *payload, const ps_request_file *input,
+                                         ps_error *error) {
+    size_t *const num = payload;
+    (void)error;
+    *num += strcmp(input->path, "-") == 0;
+    return PSPEC_OK;
+}
+
 /* Whatever reads it first leaves nothing for the second. */
 static pspec_status check_standard_input(const ps_request *arguments, ps_error *error) {
     size_t num = 0;
-    for (size_t i = 0; i < arguments->num_files; i++) {
-        num += strcmp(arguments->files[i], "-") == 0;
-    }
+    PS_TRY(ps_request_visit_inputs(arguments, count_standard_input, &num, error));
     return num <= 1 ? PSPEC_OK
                     : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                               "standard input (-) is named %zu times, but can be read once", num);

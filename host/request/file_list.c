@@ -79,11 +79,11 @@ static pspec_status add_item(ps_file_list *list, const char *shown, const char *
 
 pspec_status ps_file_list_add(ps_file_list *list, const char *shown, const char *folder,
                               const char *item, ps_error *error) {
-    return item[0] != '\0' && strcmp(item, "-") != 0
-               ? add_item(list, shown, folder, item, error)
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s", shown,
-                         item[0] == '\0' ? "a name of a file is empty"
-                                         : "standard input (-) is no file, and a set is of files");
+    if (item[0] == '\0') {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: a name of a file is empty", shown);
+    }
+    return strcmp(item, "-") == 0 ? add_path(list, item, error)
+                                  : add_item(list, shown, folder, item, error);
 }
 
 pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
@@ -165,7 +165,8 @@ static pspec_status check_different(const ps_file_list *lists, const ps_request 
     for (size_t i = 0; i < num_lists; i += request->num_counts) {
         for (size_t j = 0; j < lists[i].num; j++) {
             files[num].path = lists[i].paths[j];
-            num += stat(files[num].path, &files[num].facts) == 0;
+            num +=
+                strcmp(files[num].path, "-") != 0 && stat(files[num].path, &files[num].facts) == 0;
         }
     }
     qsort(files, num, sizeof *files, compare_files);

@@ -17,8 +17,7 @@ static bool is_absolute(const char *path) {
 }
 
 static pspec_status complain_of_stream(const ps_scene_file *file, const ps_scene_value *value) {
-    return ps_scene_complain(file, value->line, NULL,
-                             "a scene can be run again, standard input (-) cannot");
+    return ps_scene_complain(file, value->line, NULL, PS_SCENE_NO_STREAM);
 }
 
 const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text) {

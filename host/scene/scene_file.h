@@ -31,6 +31,9 @@ pspec_status ps_scene_build(ps_scene *scene, ps_scene_file *file,
 /* What the parser objects to. */
 pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser);
 
+/* Of "-" among what a scene reads. */
+#define PS_SCENE_NO_STREAM "a scene can be run again, standard input (-) cannot"
+
 /* Reads the only document of a file, "-" for standard input. */
 pspec_status ps_scene_file_read(ps_scene_file *out, ps_scene *scene, const char *path,
                                 ps_error *error) PS_MUST_CHECK;

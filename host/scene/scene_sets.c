@@ -18,6 +18,9 @@ static pspec_status add_path(const place *at, ps_file_list *list, const ps_scene
     const char *text = NULL;
     ps_error reason = {0};
     PS_TRY(ps_scene_take_text(at->file, item, at->name, &text));
+    if (strcmp(text, "-") == 0) {
+        return ps_scene_complain(at->file, item->line, at->name, PS_SCENE_NO_STREAM);
+    }
     const bool is_absolute = text[0] == '/';
     const char *const folder = is_absolute ? "" : at->scene->folder;
     const pspec_status status = ps_file_list_add(list, "sets", folder, text, &reason);

@@ -127,7 +127,6 @@ runs 1 --set a=none.txt
 says 'cannot read none.txt'
 refuses '"j1.txt" is no NAME=FILES' --set j1.txt
 refuses 'a name of a file is empty' --set a=j1.txt,
-refuses 'standard input (-) is no file' --set a=-
 refuses '--set a=j2.txt: another set or sampler has this name' --set a=j1.txt --set a=j2.txt
 refuses '--sampler white: another set or sampler has this name' --set white=j1.txt --sampler white
 refuses '--set does not go with j2.txt: points come from one of them; --set NAME=FILES' --set a=j1.txt j2.txt

@@ -95,7 +95,7 @@ refused() { # SENTENCE: of the scene on standard input
 }
 refused 'scene.yaml:4: sets: a mapping is wanted here' <<<'  - {result: power, sets: [data/j1.txt]}'
 refused 'scene.yaml:4: a: sets: no file matches "none*.txt"' <<<'  - {result: power, sets: {a: "none*.txt"}}'
-refused 'scene.yaml:4: a: sets: standard input (-) is no file' <<<'  - {result: power, sets: {a: "-"}}'
+refused 'scene.yaml:4: a: a scene can be run again, standard input (-) cannot' <<<'  - {result: power, sets: {a: "-"}}'
 refused 'needs a name of 1 to 63 bytes without =, and files' <<<'  - {result: power, sets: {a: []}}'
 refused 'scene.yaml:4: sets: "a=b" needs a name' <<<'  - {result: power, sets: {"a=b": data/j1.txt}}'
 refused 'sets: not a key of this result' <<<'  - {result: check, against: saved.json, sets: {a: data/j1.txt}}'
