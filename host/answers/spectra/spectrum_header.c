@@ -57,10 +57,10 @@ static bool is_on_sphere(const ps_frequencies *set) {
 }
 
 pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num_realizations,
-                                 ps_error *error) {
-    char text[96];
-    snprintf(text, sizeof text, "%zu files, %llu realizations, one average", num_files,
-             (unsigned long long)num_realizations);
+                                 const char *are_for, ps_error *error) {
+    char text[128];
+    snprintf(text, sizeof text, "%zu files, %llu realization%s%s", num_files,
+             (unsigned long long)num_realizations, num_realizations == 1 ? "" : "s", are_for);
     return num_files > 1 ? ps_table_add_meta(table, "input", PS_TEXT(text), error) : PSPEC_OK;
 }
 
@@ -240,10 +240,13 @@ static bool have_ranges(const ps_power_job *const *jobs, size_t num) {
 }
 
 static void put_files(header *head, const ps_request *arguments, const ps_power_job *job) {
+    const bool predicts = ps_power_job_takes_part(job) && arguments->num_shifts > 0;
     head->status =
         head->status == PSPEC_OK
             ? ps_header_add_files(head->table, ps_power_job_num_files(job),
-                                  ps_power_job_spectrum(job)->num_realizations, head->error)
+                                  ps_power_job_spectrum(job)->num_realizations,
+                                  predicts ? " to predict, the others to measure" : ", one average",
+                                  head->error)
             : head->status;
     put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
     put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));

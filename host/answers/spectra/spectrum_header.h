@@ -25,9 +25,9 @@ typedef struct ps_points_range {
 pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* "2 files, 200 realizations, one average", where files are several. */
+/* "2 files, 200 realizations, one average", where files are several; are_for: these realizations. */
 pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num_realizations,
-                                 ps_error *error) PS_MUST_CHECK;
+                                 const char *are_for, ps_error *error) PS_MUST_CHECK;
 
 /* nan is a missing number. */
 ps_cell ps_number_or_missing(double value);

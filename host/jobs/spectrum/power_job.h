@@ -95,6 +95,7 @@ const ps_problem *ps_power_job_problem(const ps_power_job *job);
 const ps_device_limits *ps_power_job_limits(const ps_power_job *job); /* NULL: no device */
 ps_device *ps_power_job_device(const ps_power_job *job);              /* NULL: none; borrowed */
 size_t ps_power_job_num_files(const ps_power_job *job);               /* 0: a sampler */
+bool ps_power_job_takes_part(const ps_power_job *job); /* only the first of the files' sets */
 const char *ps_power_job_source_format(const ps_power_job *job);
 const char *ps_power_job_source_columns(const ps_power_job *job);
 const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL: files */

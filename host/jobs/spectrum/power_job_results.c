@@ -25,6 +25,10 @@ size_t ps_power_job_num_files(const ps_power_job *job) {
     return job->question->num_paths;
 }
 
+bool ps_power_job_takes_part(const ps_power_job *job) {
+    return job->question->num_sets > 0;
+}
+
 const char *ps_power_job_source_format(const ps_power_job *job) {
     return ps_source_format(job->sets.source);
 }

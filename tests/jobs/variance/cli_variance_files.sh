@@ -58,6 +58,7 @@ cut_sets 8..20 b.txt
 runs 0 "${few[@]}" --integrand disk a.npy b.txt
 same 'two files' "$whole"
 is input_format 'npy; utk-text'
+is input '2 files, 10 realizations to predict, the others to measure'
 for file in sets.txt sets.npy; do
     "$program" variance "${few[@]}" --integrand disk - <$file >out 2>err || complain "stdin: $(<err)"
     same "standard input, $file" "$whole"
