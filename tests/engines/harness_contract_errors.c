@@ -19,19 +19,19 @@ static double weight_share(const pspec_pattern *pattern) {
     return test_sum_of_squares(pattern) / (sizes * sizes);
 }
 
-/* All frequencies, or of many some in equal steps, enough to know the root of a mean square to 2 %. */
-static ps_frequencies make_some(const ps_frequencies *all, size_t *step) {
+/* All frequencies, or of many some in equal steps, which tell the root of a mean square to 2 %. */
+static ps_frequencies make_some(const ps_frequencies *frequencies, size_t *step) {
     enum { MOST = 2000 };
-    const size_t dimension = all->dimension;
-    *step = (all->num + MOST - 1) / MOST;
-    const size_t num = (all->num + *step - 1) / *step;
+    const size_t dimension = frequencies->dimension;
+    *step = (frequencies->num + MOST - 1) / MOST;
+    const size_t num = (frequencies->num + *step - 1) / *step;
     int32_t *const vectors = malloc(num * dimension * sizeof *vectors);
     ps_frequencies some = {0};
     for (size_t i = 0; i < num; i++) {
-        memcpy(vectors + i * dimension, all->vectors + i * *step * dimension,
+        memcpy(vectors + i * dimension, frequencies->vectors + i * *step * dimension,
                dimension * sizeof *vectors);
     }
-    assert_ok(ps_frequencies_list(&some, all->dimension, num, vectors, error));
+    assert_ok(ps_frequencies_list(&some, frequencies->dimension, num, vectors, error));
     return some;
 }
 
