@@ -55,6 +55,15 @@ static pspec_status compute(const char *device, bool *is_good, ps_error *error) 
     return status;
 }
 
+/* Of all kernels, whatever is computed here. */
+static pspec_status check_kept(ps_error *error) {
+    glob_t kept;
+    pspec_status status = ps_kept_list(&kept, error);
+    status = status == PSPEC_OK ? ps_kept_check(&kept, NULL, error) : status;
+    globfree(&kept);
+    return status;
+}
+
 static void try_device(const ps_doctor *doctor, const ps_device_limits *limits, size_t index,
                        bool is_default, bool *is_good) {
     char number[24];
@@ -63,7 +72,8 @@ static void try_device(const ps_doctor *doctor, const ps_device_limits *limits, 
     const ps_finding_kind bad = is_default ? PS_FINDING_WRONG : PS_FINDING_NOTE;
     *is_good = false;
     snprintf(number, sizeof number, "%zu", index);
-    if (compute(number, is_good, &reason) != PSPEC_OK) {
+    if ((ps_device_is_pocl(limits) && check_kept(&reason) != PSPEC_OK) ||
+        compute(number, is_good, &reason) != PSPEC_OK) {
         ps_doctor_tell(doctor, bad, "device", "number %zu, \"%s\"%s, fails: %s", index,
                        limits->name, which, reason.message);
         return;

@@ -208,6 +208,10 @@ bool ps_device_is_simulator(const ps_device_limits *limits) {
            contains_ignoring_case(limits->name, "oclgrind");
 }
 
+bool ps_device_is_pocl(const ps_device_limits *limits) {
+    return strcmp(limits->platform, "Portable Computing Language") == 0;
+}
+
 /* First device that matches selector, rather no simulator; num_devices when none does. */
 static size_t find_match(const ps_device_limits *limits, size_t num_devices, const char *selector) {
     size_t simulator = num_devices;
@@ -272,8 +276,9 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
         PS_TRY(read_limits(devices[i], &limits[i], error));
     }
     PS_TRY(ps_device_choose(limits, num_devices, selector, &index, error));
-    if (strcmp(limits[index].platform, "Portable Computing Language") == 0) {
+    if (ps_device_is_pocl(&limits[index])) {
         PS_TRY(ps_drivers_check_pocl(error));
+        PS_TRY(ps_kept_list(&device->kept, error));
     }
     device->id = devices[index];
     device->limits = limits[index];
@@ -335,6 +340,7 @@ void ps_device_close(ps_device *device) {
         free(device->programs[i].key);
     }
     free(device->programs);
+    globfree(&device->kept);
     free(device->figures);
     ps_process_lock();
     if (device->queue != NULL) {

@@ -37,6 +37,7 @@ typedef struct ps_device_limits {
 pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices,
                             ps_error *error) PS_MUST_CHECK;
 
+bool ps_device_is_pocl(const ps_device_limits *limits);
 /* Whether it is a simulator such as Oclgrind, which calls itself a GPU and is for looking at
  * kernels. */
 bool ps_device_is_simulator(const ps_device_limits *limits);

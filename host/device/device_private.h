@@ -4,6 +4,8 @@
 
 #include "device/device.h"
 
+#include <glob.h>
+
 /* cl_ext.h: the loader's answer when no driver is installed. */
 enum { PS_CL_PLATFORM_NOT_FOUND = -1001 };
 
@@ -31,6 +33,7 @@ struct ps_device {
     cl_command_queue queue;
     ps_built_program *programs;
     size_t num_programs, programs_capacity;
+    glob_t kept;         /* kernels that PoCL kept before (drivers.h); none for other drivers */
     size_t group_size;   /* see ps_device_set_group_size; 0: default */
     ps_figures *figures; /* that limits.figures points to, or NULL */
     double launched_flops;

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 
+#include <glob.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -51,8 +52,15 @@ pspec_status ps_drivers_pocl_cache(ps_text *out, ps_error *error) PS_MUST_CHECK;
  * can. */
 void ps_drivers_pocl_cache_problem(const char *path, ps_text *out);
 
-/* PoCL ends the process where the name of that folder is too long, and compiles nothing where it
- * cannot write: fails, as above, in its place. */
+/* PoCL ends the process where the name of that folder is too long, where it cannot write, or where
+ * the limits of files leave too little to compile: fails, as above, in its place. */
 pspec_status ps_drivers_check_pocl(ps_error *error) PS_MUST_CHECK;
+
+/* The folders of all kernels in it, for globfree; none where it cannot be read. */
+pspec_status ps_kept_list(glob_t *out, ps_error *error) PS_MUST_CHECK;
+/* PoCL ends the process, too, where a file of a kernel that it takes from there is cut or empty:
+ * fails with PSPEC_ERROR_DEVICE where there is such a file, changed after PoCL put it there, of a
+ * kernel of that name among these; NULL: of any. */
+pspec_status ps_kept_check(const glob_t *kept, const char *kernel, ps_error *error) PS_MUST_CHECK;
 
 #endif

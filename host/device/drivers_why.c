@@ -4,6 +4,7 @@
 #include "device/drivers.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -11,9 +12,17 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 static const char no_device_needed[] = "; --engine host_direct needs no device";
+
+/* PoCL 3.1 writes the text of a program, with OpenCL's own headers, each time that it builds one,
+ * kept or not: 490 KB; a limit of 600 KiB ended it, 1000 KiB did not. */
+static const uint64_t least_file_bytes = UINT64_C(1) << 20;
+/* That are free, for PoCL and the linker that it starts (binutils 2.40): 10 ended the process, 11
+ * did not; the rest is for what a command opens meanwhile. */
+enum { LEAST_DESCRIPTORS = 16 };
 
 /* ---- PoCL's cache --------------------------------------------------------------------------- */
 
@@ -58,10 +67,15 @@ static int try_folder(char *path) {
     }
 }
 
+static uint64_t bytes_left(const struct statvfs *disk) {
+    return (uint64_t)disk->f_bavail * disk->f_frsize;
+}
+
 void ps_drivers_pocl_cache_problem(const char *path, ps_text *out) {
     enum {
         MOST_LETTERS = 800
     }; /* PoCL has 1024 for a path, of which names below the folder take some 200 */
+    struct statvfs facts;
     const size_t length = strlen(path);
     if (length > MOST_LETTERS) {
         ps_text_append(out,
@@ -76,6 +90,11 @@ void ps_drivers_pocl_cache_problem(const char *path, ps_text *out) {
         const bool is_whole = strcmp(path, trial) == 0;
         ps_text_append(out, "PoCL cannot keep kernels in %s: %s%s%s", path, is_whole ? "" : trial,
                        is_whole ? "" : ": ", strerror(reason));
+    } else if (statvfs(path, &facts) == 0 && bytes_left(&facts) < least_file_bytes) {
+        ps_text_append(out,
+                       "PoCL cannot keep kernels in %s: its disk has %" PRIu64 " bytes left, and "
+                       "to compile takes about %" PRIu64,
+                       path, bytes_left(&facts), least_file_bytes);
     }
     free(trial);
 }
@@ -243,9 +262,33 @@ pspec_status ps_drivers_fail(ps_error *error) {
     return status;
 }
 
+/* How many descriptors are free, as far as that matters. */
+static int free_descriptors(uint64_t limit) {
+    int num = 0;
+    for (int i = 0; (uint64_t)i < limit && num < LEAST_DESCRIPTORS; i++) {
+        num += fcntl(i, F_GETFD) < 0 ? 1 : 0;
+    }
+    return num;
+}
+
+static pspec_status check_files(ps_error *error) {
+    uint64_t limit = 0;
+    if (has_limit(RLIMIT_FSIZE, &limit) && limit < least_file_bytes) {
+        return fail_room(least_file_bytes, "a file while it compiles", limit, "ulimit -f", error);
+    }
+    if (has_limit(RLIMIT_NOFILE, &limit) && free_descriptors(limit) < LEAST_DESCRIPTORS) {
+        return ps_fail(error, PSPEC_ERROR_NO_DEVICE,
+                       "PoCL takes up to %d files at a time to compile kernels, of which the limit "
+                       "of %" PRIu64 " (ulimit -n) leaves %d%s",
+                       LEAST_DESCRIPTORS, limit, free_descriptors(limit), no_device_needed);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_drivers_check_pocl(ps_error *error) {
     ps_text folder = {0};
     ps_text problem = {0};
+    PS_TRY(check_files(error));
     pspec_status status = ps_drivers_pocl_cache(&folder, error);
     if (status == PSPEC_OK) {
         ps_drivers_pocl_cache_problem(ps_text_string(&folder), &problem);

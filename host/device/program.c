@@ -1,5 +1,6 @@
 /* Building programs, once per (source, options); the drivers keep their own caches on disk. */
 #include "device/device_private.h"
+#include "device/drivers.h"
 #include "device/kernel_source.h"
 
 #include "base/memory.h"
@@ -106,6 +107,7 @@ pspec_status ps_kernel_create(ps_device *device, cl_kernel *out, const char *sou
                               const char *name, const char *options, ps_error *error) {
     cl_program program = NULL;
     cl_int code = CL_SUCCESS;
+    PS_TRY(ps_kept_check(&device->kept, name, error));
     PS_TRY(get_program(device, &program, source, options, error));
     *out = clCreateKernel(program, name, &code);
     if (code != CL_SUCCESS) {

@@ -23,11 +23,36 @@ printf 'scene: 1\nresults:\n  - {result: power, samplers: white, points: 16, max
 POINTSPEC_CACHE_DIR=$PWD/cache OCL_ICD_VENDORS=$PWD/empty "$program" run host.yaml -o host --quiet >out 2>err ||
     complain "a scene without a device: $(<err)"
 if "$program" devices 2>/dev/null | grep -q ',Portable Computing Language,'; then
+    warm=${POCL_CACHE_DIR:-$PWD/warm}
     unset POCL_CACHE_DIR XDG_CACHE_HOME
     refused "POCL_DEVICES names, \"none\"" POCL_DEVICES=none
     refused "PoCL cannot keep kernels in /proc/none/.cache/pocl/kcache: /proc/none: No such file" HOME=/proc/none
     refused "PoCL cannot keep kernels in /proc/none" POCL_CACHE_DIR=/proc/none
     refused "letters, above its limit" POCL_CACHE_DIR="$long"
+    # PoCL ends the process where it cannot compile, or where what it has kept is cut.
+    for limit in '-n 12 ulimit -n' '-f 1 ulimit -f'; do
+        read -r option number word <<<"$limit"
+        code=0
+        (ulimit "$option" "$number"; POCL_CACHE_DIR=$PWD/cold exec "${power[@]}" 2>err >/dev/null) || code=$?
+        [[ $code == 1 && $(wc -l <err) == 1 && $(<err) == *"$word"*host_direct* ]] || complain "$limit: exit $code: $(<err)"
+    done
+    # A real kernel, cut to each of these lengths; copied, since others use it.
+    POCL_CACHE_DIR=$warm "${power[@]}" --engine torus_direct >out
+    object=$(find "$warm/" -name torus_fold.so -print -quit)
+    mkdir -p kept/AB
+    cp -a "${object%/*/*/*}" kept/AB/CDE
+    object=$(find "$PWD/kept" -name torus_fold.so -print -quit)
+    size=$(stat -c %s "$object")
+    for bytes in $((size - 1)) $((size / 2)) 100 0; do
+        truncate -s $bytes "$object"
+        code=0
+        POCL_CACHE_DIR=$PWD/kept "${power[@]}" --engine torus_direct >out 2>err || code=$?
+        [[ $code == 1 && $(wc -l <err) == 1 && $(<err) == *"$object is damaged; remove that file"*POCL_CACHE_DIR* ]] ||
+            complain "a kernel cut to $bytes bytes: exit $code: $(<err)"
+    done
+    code=0
+    POCL_CACHE_DIR=$PWD/kept "$program" doctor >out 2>err || code=$?
+    [[ $code == 3 && $(<out) == *WRONG*device*"$object is damaged"* ]] || complain "doctor: a kernel that is cut: exit $code: $(<out)"
     for kib in 200000 250000 300000 350000; do # PoCL ends the process where its threads get no stacks
         code=0
         # Sanitizers map more than that before the program begins.

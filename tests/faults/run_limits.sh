@@ -79,7 +79,7 @@ run_limited() { # KIND NUMBER
     seconds=$((SECONDS - begin))
 }
 
-# A driver that is refused memory, or a file, ends the process itself: LLVM exits or aborts, the kernel kills. A
+# A driver that is refused memory ends the process itself: LLVM exits or aborts, the kernel kills. A
 # limit of processor time kills as well. Both only where that is so. Sets remark to what is wrong.
 judge() { # KIND NUMBER LOADS_DRIVER
     local -i sentences
@@ -87,9 +87,9 @@ judge() { # KIND NUMBER LOADS_DRIVER
     sentences=$(grep -c '^pointspec' <<<"$said" || true)
     case $code in
     0) ;;
-    1 | 2 | 3) ((sentences == 1)) || [[ $3 == yes && $said == *"LLVM ERROR"* ]] || remark="$sentences sentences" ;;
+    1 | 2 | 3) ((sentences == 1)) || [[ $3 == yes && $1 != -f && $said == *"LLVM ERROR"* ]] || remark="$sentences sentences" ;;
     124) remark="did not end" ;;
-    134 | 135 | 139) [[ $3 == yes && $1 =~ ^(-v|-n|cgroup)$ ]] || remark="died of signal $((code - 128))" ;;
+    134 | 135 | 139) [[ $3 == yes && $1 =~ ^(-v|cgroup)$ ]] || remark="died of signal $((code - 128))" ;;
     137) [[ $1 == -t || ($1 == cgroup && $3 == yes) ]] || remark="killed, or deaf to SIGTERM" ;;
     152) [[ $1 == -t ]] || remark="died of SIGXCPU" ;;
     *) remark="unknown exit code" ;;
