@@ -153,7 +153,7 @@ static pspec_status add_header(const ps_planner *planner, const ps_request *argu
                              error));
     const bool on_sphere = problem->frequencies->kind == PS_FREQUENCIES_DEGREES;
     PS_TRY(ps_table_add_meta(table, on_sphere ? "max_degree" : "max_frequency",
-                             PS_INTEGER(problem->frequencies->max_frequency), error));
+                             PS_INTEGER(ps_frequencies_reach(problem->frequencies)), error));
     PS_TRY(ps_table_add_meta(table, on_sphere ? "degrees" : "frequencies",
                              PS_INTEGER(problem->frequencies->num), error));
     PS_TRY(ps_table_add_meta(table, "tolerance", PS_NUMBER(problem->tolerance), error));

@@ -185,6 +185,16 @@ int64_t ps_bin_rule_find(const ps_bin_rule *rule, int64_t norm2) {
                                          : find_by_width(rule, norm2);
 }
 
+int64_t ps_bin_rule_find_length(const ps_bin_rule *rule, double length2) {
+    const double rounding = 1e-12;
+    const double steps = 0x1p20; /* of shells, within 1; up to K = 10^6 they are exact */
+    const double half = 0.5;
+    const double length = sqrt(length2) * (1 + rounding);
+    return (int64_t)(rule->kind == PS_BINS_SHELLS  ? rint(length2 * steps)
+                     : rule->kind == PS_BINS_ROUND ? length + half
+                                                   : length / find_width(rule));
+}
+
 /* Bisection between 1 and what the width in double precision cannot miss. */
 static int64_t find_low(const ps_bin_rule *rule, int64_t bin) {
     const double slack = 1e-9;

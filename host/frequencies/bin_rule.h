@@ -57,6 +57,10 @@ void ps_bin_rule_resolve(ps_bin_rule *rule, unsigned dimension, uint64_t num_poi
 int64_t ps_ring_of_norm2(int64_t norm2);
 /* The bin of |k|^2 >= 1, of a rule that is resolved. |k_i| is at most 2^28. */
 int64_t ps_bin_rule_find(const ps_bin_rule *rule, int64_t norm2);
+/* The same of a squared length that is no whole number, where borders are right to 10^-12: what is
+ * nearer to one is on it, in the bin above. Of shells a number that tells apart what differs by
+ * more than 10^-6. */
+int64_t ps_bin_rule_find_length(const ps_bin_rule *rule, double length2);
 /* The smallest |k|^2 >= 1 that no bin below this one has. */
 int64_t ps_bin_rule_low(const ps_bin_rule *rule, int64_t bin);
 /* The largest |k|^2 of bins that are complete in the box |k_i| <= K; 0: none is. Shells are those

@@ -123,6 +123,78 @@ pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_
     return PSPEC_OK;
 }
 
+static double find_least(const double *stretch, unsigned dimension) {
+    double least = stretch[0];
+    for (unsigned i = 1; i < dimension; i++) {
+        least = fmin(least, stretch[i]);
+    }
+    return least;
+}
+
+int32_t ps_frequencies_limit_reach(int32_t max_frequency, unsigned dimension,
+                                   const double *stretch) {
+    if (stretch == NULL) {
+        return max_frequency;
+    }
+    /* bins end at K + 1 */
+    const double most = largest_allowed(dimension) * find_least(stretch, dimension) - 1;
+    return (int32_t)fmin(max_frequency, fmax(most, 1));
+}
+
+pspec_status ps_frequencies_stretch(ps_frequencies *grid, const double *stretch, ps_error *error) {
+    const ps_frequencies cube = *grid;
+    const bool is_ball = cube.kind == PS_FREQUENCIES_BALL;
+    const double largest =
+        fmin(sqrt((double)cube.max_norm2 + 1) / find_least(stretch, cube.dimension), INT32_MAX);
+    ps_error inner = {0};
+    const pspec_status status =
+        ps_frequencies_grid(grid, cube.dimension, (int32_t)largest, is_ball, &cube.bins, 0, &inner);
+    if (status != PSPEC_OK) {
+        return ps_fail(error, status, "the box is no cube, and rings up to %d need |k_i| = %d: %s",
+                       (int)cube.max_frequency, (int)largest, inner.message);
+    }
+    const size_t ball = approximate_half_ball_size(cube.dimension, cube.max_norm2);
+    grid->num = is_ball && ball < grid->num ? ball : grid->num;
+    grid->max_norm2 = cube.max_norm2;
+    grid->reach = cube.max_frequency;
+    memcpy(grid->stretch, stretch, cube.dimension * sizeof *stretch);
+    return PSPEC_OK;
+}
+
+int32_t ps_frequencies_reach(const ps_frequencies *set) {
+    return set->reach > 0 ? set->reach : set->max_frequency;
+}
+
+double ps_frequencies_length2(const ps_frequencies *set, const int32_t *k) {
+    double sum = 0;
+    if (set->reach == 0) {
+        return (double)ps_frequency_norm2(k, ps_frequency_components(set));
+    }
+    for (unsigned i = 0; i < set->dimension; i++) {
+        sum += k[i] * set->stretch[i] * (k[i] * set->stretch[i]);
+    }
+    return sum;
+}
+
+/* Bins that are complete are those below the bin of K + 1; shells end with the rings by rounding.
+ */
+static int64_t bin_of_length(const ps_frequencies *set, double length2) {
+    static const ps_bin_rule rings = {.kind = PS_BINS_ROUND};
+    const ps_bin_rule *const borders = set->bins.kind == PS_BINS_SHELLS ? &rings : &set->bins;
+    const int64_t outside = ps_bin_rule_find_length(borders, (double)set->max_norm2 + 1);
+    return ps_bin_rule_find_length(borders, length2) < outside
+               ? ps_bin_rule_find_length(&set->bins, length2)
+               : INT64_MAX;
+}
+
+int64_t ps_frequencies_bin(const ps_frequencies *set, const int32_t *k) {
+    if (set->reach > 0) {
+        return bin_of_length(set, ps_frequencies_length2(set, k));
+    }
+    const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
+    return norm2 <= set->max_norm2 ? ps_bin_rule_find(&set->bins, norm2) : INT64_MAX;
+}
+
 pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
                                  int32_t *vectors, ps_error *error) {
     *out = (ps_frequencies){
@@ -183,13 +255,18 @@ static bool advance(int32_t *k, unsigned dimension, int32_t max_frequency) {
     return false;
 }
 
+/* Of all bins; cubes need not know which. */
+static bool is_outside(const ps_frequencies *set, const int32_t *k) {
+    return set->reach > 0 ? ps_frequencies_bin(set, k) == INT64_MAX
+                          : ps_frequency_norm2(k, set->dimension) > set->max_norm2;
+}
+
 /* Walks through the half lattice after DC; stores vectors where out is not NULL. */
 static size_t walk_half_lattice(const ps_frequencies *set, int32_t *out) {
     int32_t k[PS_MAX_DIMENSION] = {0};
     size_t count = 0;
     while (advance(k, set->dimension, set->max_frequency)) {
-        if (set->kind == PS_FREQUENCIES_BALL &&
-            ps_frequency_norm2(k, set->dimension) > set->max_norm2) {
+        if (set->kind == PS_FREQUENCIES_BALL && is_outside(set, k)) {
             continue;
         }
         for (unsigned i = 0; out != NULL && i < set->dimension; i++) {

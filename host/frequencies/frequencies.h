@@ -58,6 +58,11 @@ typedef struct ps_frequencies {
      * bins that are reported; 0 for other lists and for degrees */
     ps_bin_rule bins;
     int64_t max_norm2;
+    /* Of a grid in a box that is no cube, else 0: K of its bins, where max_frequency is the largest
+     * |k_i| that they need, and what k_i is multiplied by to be in cycles per edge of the cube of
+     * the same volume (points/box.h); |k| is then the length of that vector */
+    int32_t reach;
+    double stretch[PS_MAX_DIMENSION];
 
     /* A list that holds at most per_ring frequencies of every ring or shell up to max_norm2
      * (frequencies/frequency_sample.h). Otherwise 0, 0 and NULL. */
@@ -94,6 +99,18 @@ pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int
 pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
                                  bool is_ball, const ps_bin_rule *bins, unsigned offers,
                                  ps_error *error) PS_MUST_CHECK;
+/* Makes a grid that is not enumerated one of a box that is no cube: all |k| up to its K. */
+pspec_status ps_frequencies_stretch(ps_frequencies *grid, const double *stretch,
+                                    ps_error *error) PS_MUST_CHECK;
+/* K, or the largest one, 1 at least, whose full grid in the box can be indexed; NULL: a cube, K. */
+int32_t ps_frequencies_limit_reach(int32_t max_frequency, unsigned dimension,
+                                   const double *stretch);
+/* K or L that was asked for. */
+int32_t ps_frequencies_reach(const ps_frequencies *set);
+/* |k|^2 of a box of any shape, or of a degree. */
+double ps_frequencies_length2(const ps_frequencies *set, const int32_t *k);
+/* The bin of k != 0, or INT64_MAX where it is in none that is reported. */
+int64_t ps_frequencies_bin(const ps_frequencies *set, const int32_t *k);
 /* The rule and its largest |k|^2 for this K, where a bin is complete. */
 pspec_status ps_frequencies_set_bins(ps_frequencies *set, const ps_bin_rule *bins,
                                      ps_error *error) PS_MUST_CHECK;

@@ -42,6 +42,7 @@ typedef struct ps_point_set {
     double *points;  /* [num_points][dimension] */
     double *weights; /* [num_points], meaningful only when has_weights */
     bool has_weights;
+    ps_box box; /* of the file or of the options, that became [0,1)^d; {0}: none */
     size_t points_capacity, weights_capacity; /* in doubles */
 } ps_point_set;
 

@@ -69,6 +69,7 @@ struct ps_point_reader {
     const char *own_columns; /* name of the layout that the format prescribes, or NULL */
     bool by_shape;           /* columns of an array that may be vectors: the first one tells */
     bool has_own_box;        /* the file states the box that coordinates are in units of */
+    ps_box own_box;          /* that of the set, an interval a column; {0}: not known of them */
     const char *chosen;      /* names of the columns that are read, where not all are, or NULL */
     size_t rows_per_set;     /* when it is known and really there; else 0 */
     size_t block_values;     /* numbers of a read, if not as many as fit the cache of a core */

@@ -125,6 +125,17 @@ static void shape_set(const ps_point_reader *reader, ps_point_set *set) {
     set->has_weights = layout->has_weight_column && !layout->drops_weight;
 }
 
+/* Intervals of the file are those of the set if every coordinate has one; a weight may, too. */
+static void box_set(const ps_point_reader *reader, ps_point_set *set) {
+    const ps_layout *const layout = &reader->layout;
+    const unsigned flat = layout->lift != PS_NO_LIFT                    ? 2
+                          : layout->coordinates == PS_TORUS_COORDINATES ? layout->dimension
+                                                                        : 0;
+    const bool is_own = flat > 0 && reader->own_box.num_axes >= flat;
+    set->box = is_own ? reader->own_box : reader->options.box;
+    set->box.num_axes = is_own ? flat : set->box.num_axes;
+}
+
 /* ---- how large a set may become ----------------------------------------------------------- */
 
 /* Bytes of so many points as the set keeps them. */
@@ -311,6 +322,7 @@ pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, si
            is_wanted(&reader->options.sets, reader->num_sets + 1)) {
         ps_rows_read read;
         PS_TRY(read_block(reader, set, max_points, &read, error));
+        box_set(reader, set);
         set->num_points += read.num;
         *has_set = read.num > 0;
         PS_TRY(count_rows(reader, &read, ends_set, error));

@@ -51,6 +51,7 @@ static pspec_status copy(ps_point_set *target, const ps_point_set *set, ps_error
     target->coordinates = set->coordinates;
     target->dimension = set->dimension;
     target->has_weights = set->has_weights;
+    target->box = set->box;
     target->num_points = 0;
     PS_TRY(ps_points_reserve(target, set->num_points, error));
     memcpy(target->points, set->points, set->num_points * set->dimension * sizeof *target->points);

@@ -19,12 +19,11 @@ static int64_t key_of(const ps_frequencies *set, const int32_t *k) {
     if (set->kind == PS_FREQUENCIES_DEGREES) {
         return k[0];
     }
-    const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
-    if (norm2 == 0) {
+    if (ps_frequency_norm2(k, set->dimension) == 0) {
         return NO_BIN;
     }
     const bool has_rings = set->kind != PS_FREQUENCIES_LIST || set->rings != NULL;
-    return has_rings && norm2 <= set->max_norm2 ? ps_bin_rule_find(&set->bins, norm2) : INT64_MAX;
+    return has_rings ? ps_frequencies_bin(set, k) : INT64_MAX;
 }
 
 /* Members in the order of frequencies, and the largest key of a reported bin. */
@@ -144,7 +143,7 @@ static void fill_bins(ps_bins *out, const ps_frequencies *set, const int64_t *nu
     for (size_t i = 0; i < set->num; i++) {
         if (numbers[i] != NO_BIN) {
             out->bins[numbers[i]].mean_frequency +=
-                sqrt((double)ps_frequency_norm2(set->vectors + i * num_components, num_components));
+                sqrt(ps_frequencies_length2(set, set->vectors + i * num_components));
         }
     }
     for (size_t i = 0; i < out->num; i++) {
@@ -152,6 +151,10 @@ static void fill_bins(ps_bins *out, const ps_frequencies *set, const int64_t *nu
     }
     const bool has_rest = out->num > 0 && out->bins[out->num - 1].key == INT64_MAX;
     out->num_reported = has_rest ? out->num - 1 : out->num;
+    for (size_t i = 0; set->reach > 0 && set->bins.kind == PS_BINS_SHELLS && i < out->num_reported;
+         i++) { /* their |k|^2 are no whole numbers */
+        out->bins[i].key = (int64_t)i + 1;
+    }
 }
 
 static pspec_status check_rings(const ps_bins *bins, const ps_frequencies *set, ps_error *error) {

@@ -264,6 +264,46 @@ refuses 'line 4: this is no number of atoms' convert <(sed '4s/4/0/' "$dump")
 refuses 'line 5: atoms before their number and the bounds' convert <(sed '5,8d' "$dump")
 refuses 'is not a unit vector' angular "$dump"
 refuses '--box, and the file states the box itself' convert --box 0,1 "$dump"
+
+# ---- boxes: rings of wave vectors. A lattice of spacing 1 in 8 x 4 x 2 has its six shortest at 1/1, 4 in units of the
+# cube of edge 4, and none before; so in any order of the axes, and with the box from the command line
+cuboid=$folder/cuboid_8x4x2.dump
+awk 'NR > 9 { print $3, $4, $5 }' "$cuboid" >cuboid.txt
+shell='shell 28: |k| 4, 1 normalized, 6 of power 64'
+header() { # LINE: the table has it
+    grep -qxF "# $1" table || complain "no line \"$1\"" "$(grep '^# [ber]' table)"
+}
+spectrum() { # ARGS...
+    "$program" power --engine host_direct "$@" </dev/null >table 2>err || complain "power $*" "    $(<err)"
+    checked=$((checked + 1))
+}
+for args in "$cuboid" "--columns z,x,y $cuboid" '--box 0,8,0,4,0,2 cuboid.txt'; do
+    # shellcheck disable=SC2086 # words
+    spectrum -k 5 --bins shells $args
+    said=$(awk -F, '$5 > 1e-6 && $5 ~ /^[0-9]/ { printf "shell %d: |k| %.6g, %.6g normalized, %d of power %.6g", $1, $2, $3, $4, $5 }' table)
+    [[ $said == "$shell" ]] || complain "power $args: $said, not $shell"
+done
+powers '0 0 0 1.959184 0' power -k 5 "$cuboid" # 64 times 6 of the 196 up to 4.5
+header 'box: 0,8,0,4,0,2'
+header 'max_frequency: 5'
+header 'rings: of |k| in cycles per edge of the cube of the same volume V: k_i V^(1/3) / L_i, with |k_i| up to 11'
+! grep '^# \(box_changes\|empty\)' table || complain 'one box that the file states is no doubt'
+spectrum -k 2 "$folder/ext.xyz"
+header 'box: 0,10,0,20,0,20'
+spectrum -k 2 <(cat "$cuboid" && sed 's/^0 8$/0 9/' "$cuboid")
+header 'box_changes: edges of the sets are 8 to 9, 4 to 4, 2 to 2; rings are those of the first'
+spectrum -k 2 <(cat "$dump" && sed 's/^0.0 10.0/0 11/' "$dump")
+header 'box_changes: edges of the sets are 10 to 11, 10 to 11, 10 to 11'
+! grep '^# rings' table || complain 'cubes have rings of whole numbers'
+refuses 'the box is no cube, and rings up to 400 need |k_i| = 801' power -k 400 "$cuboid"
+refuses '--per-ring draws from rings of a cube' power --per-ring 8 "$cuboid"
+# no default is refused; a ring below 1/2, and what check makes of it
+sed 's/^0 8$/0 80/; s/^0 2$/0 .02/' "$cuboid" >slab.dump
+"$program" plan power --wrap slab.dump >table
+header 'max_frequency: 10'
+spectrum -k 2 --wrap "$folder/unwrapped.dump" -o ring_0.json
+"$program" check --against ring_0.json --wrap "$folder/unwrapped.dump" >table 2>err || complain 'check of ring 0' "    $(<err)"
+grep -q '^0,' table || complain 'no ring 0'
 atoms='0.1 0.1 0.15|0.6 0.1 0.4|0.1 0.35 0.4|0.6 0.35 0.15'
 reads "$atoms" "$folder/ext.xyz"
 reads "$atoms|#|$atoms" <(cat "$folder/ext.xyz" "$folder/ext.xyz")

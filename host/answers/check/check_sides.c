@@ -18,7 +18,7 @@ pspec_status ps_check_measured(ps_saved_spectrum *out, const ps_power_job *job, 
     const ps_frequencies *const set = &measured->frequencies;
     *out = (ps_saved_spectrum){.on_sphere = set->kind == PS_FREQUENCIES_DEGREES,
                                .dimension = set->dimension,
-                               .max_frequency = set->max_frequency,
+                               .max_frequency = ps_frequencies_reach(set),
                                .bin_rule = set->bins,
                                .num_realizations = measured->num_realizations,
                                .smallest_points = measured->smallest_points,

@@ -240,8 +240,8 @@ static bool take_standard_error(const ps_saved_spectrum *out, const cJSON *item,
 /* at->num cells, in an array or, since schema 2, in an object. */
 static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row) {
     ps_saved_bin *const bin = &out->bins[out->num_bins];
-    /* Degree 1, or the bin of the shortest frequencies but DC. */
-    const int64_t first = out->on_sphere ? 1 : ps_bin_rule_find(&out->bin_rule, 1);
+    /* Degree 1, or any bin: boxes that are no cubes have frequencies below 1/2. */
+    const int64_t first = out->on_sphere ? 1 : 0;
     const uint64_t least =
         (uint64_t)(out->num_bins == 0 ? first : out->bins[out->num_bins - 1].key + 1);
     const cJSON *const number = find_cell(row, at->key, at->key_name);

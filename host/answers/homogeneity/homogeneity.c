@@ -66,7 +66,7 @@ static pspec_status ask(ps_homogeneity *self, const ps_request *request, ps_erro
     }
     ps_frequencies set = {0};
     PS_TRY(ps_power_frequencies(&set, question, question->sampler->dimension,
-                                (size_t)question->sampler->num_points, error));
+                                (size_t)question->sampler->num_points, &(ps_box){0}, error));
     self->num_phases = ps_invariance_count(&set);
     return check_realizations(self, self->own.num_realizations, error);
 }

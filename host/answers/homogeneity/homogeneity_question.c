@@ -75,6 +75,7 @@ pspec_status ps_homogeneity_question_make(ps_question_list *out, const ps_reques
     question->harmonics = on_sphere ? PS_SPHERICAL_HARMONICS : PS_EXPONENTIALS;
     question->keeps_sets = true;
     question->wants_full_array = true;
+    question->has_rings_of_box = false; /* phases are of the torus */
     question->reach = reach;
     question->limits.constraints.offers = 0;
     return PSPEC_OK;

@@ -54,7 +54,8 @@ static pspec_status add_files(ps_table *table, const ps_quadrature_question *que
                               const ps_quadrature_result *result, ps_error *error) {
     PS_TRY(ps_header_add_files(table, question->num_paths, result->num_realizations,
                                ", one average", error));
-    return ps_header_add_reading(table, &question->point_options, error);
+    PS_TRY(ps_header_add_box(table, &question->point_options.box, error));
+    return ps_header_add_lift(table, &question->point_options, error);
 }
 
 static pspec_status add_facts(ps_table *table, const ps_quadrature_question *question,

@@ -190,6 +190,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .max_degree = (int64_t)arguments->max_degree,
         .num_realizations = ps_num_realizations_asked(arguments),
         .frequencies = arguments->frequencies,
+        .has_rings_of_box = kind == PS_QUESTION_POWER,
         .per_ring_seed = arguments->seed,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
         .wants_full_array = arguments->full != NULL || wants_coefficients(arguments) ||

@@ -13,22 +13,22 @@ ps_cell ps_number_or_missing(double value) {
     return isnan(value) ? PS_MISSING : PS_NUMBER(value);
 }
 
-static pspec_status add_box(ps_table *table, const ps_point_options *options, ps_error *error) {
+pspec_status ps_header_add_box(ps_table *table, const ps_box *box, ps_error *error) {
     char text[2 * PS_MAX_DIMENSION * PS_DECIMAL_BYTES];
-    const ps_box *const box = &options->box;
     size_t length = 0;
+    bool is_unit = true;
     for (unsigned i = 0; i < 2 * box->num_axes; i++) {
+        const double end = i % 2 == 0 ? box->low[i / 2] : box->high[i / 2];
         if (i > 0) {
             text[length++] = ',';
         }
-        length += ps_decimal_format(text + length, i % 2 == 0 ? box->low[i / 2] : box->high[i / 2]);
+        length += ps_decimal_format(text + length, end);
+        is_unit = is_unit && end == i % 2;
     }
-    return length == 0 ? PSPEC_OK : ps_table_add_meta(table, "box", PS_TEXT(text), error);
+    return is_unit ? PSPEC_OK : ps_table_add_meta(table, "box", PS_TEXT(text), error);
 }
 
-pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,
-                                   ps_error *error) {
-    PS_TRY(add_box(table, options, error));
+pspec_status ps_header_add_lift(ps_table *table, const ps_point_options *options, ps_error *error) {
     if (options->lift == PS_NO_LIFT) {
         return PSPEC_OK;
     }
@@ -160,6 +160,19 @@ static void put_subset(header *head, const ps_request *arguments, const ps_frequ
     put(head, "computed", PS_TEXT(text));
 }
 
+/* What |k| is in a box that is no cube. */
+static void put_rings(header *head, const ps_frequencies *set) {
+    char text[160];
+    if (set->reach == 0) {
+        return;
+    }
+    snprintf(text, sizeof text,
+             "of |k| in cycles per edge of the cube of the same volume V: k_i V^(1/%u) / L_i, with "
+             "|k_i| up to %d",
+             set->dimension, (int)set->max_frequency);
+    put(head, "rings", PS_TEXT(text));
+}
+
 static void put_frequencies(header *head, const ps_request *arguments, const ps_frequencies *set) {
     if (is_on_sphere(set)) {
         put(head, "domain", PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
@@ -167,7 +180,8 @@ static void put_frequencies(header *head, const ps_request *arguments, const ps_
         return;
     }
     put(head, "dimension", PS_INTEGER(set->dimension));
-    put(head, "max_frequency", PS_INTEGER(set->max_frequency));
+    put(head, "max_frequency", PS_INTEGER(ps_frequencies_reach(set)));
+    put_rings(head, set);
     if (arguments->frequencies.path == NULL && set->bins.kind != PS_BINS_ROUND) {
         put(head, "bins", PS_TEXT(ps_bin_rule_write(&set->bins).text));
     }
@@ -239,6 +253,31 @@ static bool have_ranges(const ps_power_job *const *jobs, size_t num) {
     return i < num;
 }
 
+/* That of the first set; of the others what changes powers: their edges. */
+static void put_boxes(header *head, const ps_power_job *job) {
+    const ps_boxes *const boxes = ps_power_job_boxes(job);
+    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
+    ps_text text = {0};
+    head->status = head->status == PSPEC_OK
+                       ? ps_header_add_box(head->table, &boxes->first, head->error)
+                       : head->status;
+    if (!boxes->differ) {
+        return;
+    }
+    for (unsigned i = 0; i < boxes->dimension; i++) {
+        ps_text_append(&text, "%s%.10g to %.10g", i > 0 ? ", " : "edges of the sets are ",
+                       boxes->shortest[i], boxes->longest[i]);
+    }
+    if (boxes->differ_in_shape && set->max_norm2 > 0) {
+        ps_text_append(&text, "; rings are those of the first");
+    }
+    if (head->status == PSPEC_OK) {
+        head->status = ps_text_check(&text, head->error);
+    }
+    put(head, "box_changes", PS_TEXT(ps_text_string(&text)));
+    ps_text_free(&text);
+}
+
 static void put_files(header *head, const ps_request *arguments, const ps_power_job *job) {
     const bool predicts = ps_power_job_takes_part(job) && arguments->num_shifts > 0;
     head->status =
@@ -250,8 +289,9 @@ static void put_files(header *head, const ps_request *arguments, const ps_power_
             : head->status;
     put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
     put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+    put_boxes(head, job);
     head->status = head->status == PSPEC_OK
-                       ? ps_header_add_reading(head->table, &arguments->reading, head->error)
+                       ? ps_header_add_lift(head->table, &arguments->reading, head->error)
                        : head->status;
 }
 

@@ -31,8 +31,10 @@ pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num
 
 /* nan is a missing number. */
 ps_cell ps_number_or_missing(double value);
-/* From which box point files came, and how they were lifted to the sphere, if they were. */
-pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,
-                                   ps_error *error) PS_MUST_CHECK;
+/* From which box point files came, if not from [0,1), and how they were lifted to the sphere, if
+ * they were. */
+pspec_status ps_header_add_box(ps_table *table, const ps_box *box, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_header_add_lift(ps_table *table, const ps_point_options *options,
+                                ps_error *error) PS_MUST_CHECK;
 
 #endif

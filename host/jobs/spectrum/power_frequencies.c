@@ -78,8 +78,10 @@ static pspec_status check_shown(const ps_frequencies_spec *spec, unsigned dimens
 }
 
 pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *question,
-                                  unsigned dimension, size_t num_points, ps_error *error) {
+                                  unsigned dimension, size_t num_points, const ps_box *box,
+                                  ps_error *error) {
     int32_t max_frequency = question->frequencies.max_frequency;
+    double numbers[PS_MAX_DIMENSION];
     ps_bin_rule bins = question->frequencies.bins;
     if (question->on_sphere) {
         return ps_frequencies_degrees(out, cut(question, find_max_degree(question, num_points)),
@@ -89,12 +91,19 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
         return read_list(out, question->frequencies.path, question->limits.constraints.memory_limit,
                          dimension, error);
     }
+    const double *const stretch =
+        question->has_rings_of_box && ps_box_stretch(box, dimension, numbers) ? numbers : NULL;
     if (max_frequency == 0) {
         PS_TRY(default_max_frequency(&max_frequency, question, dimension, num_points, error));
+        max_frequency = ps_frequencies_limit_reach(max_frequency, dimension, stretch);
     }
     max_frequency = (int32_t)cut(question, max_frequency);
-    PS_TRY(check_shown(&question->frequencies, dimension, max_frequency, error));
     ps_bin_rule_resolve(&bins, dimension, num_points);
+    if (question->frequencies.per_ring > 0 && stretch != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--per-ring draws from rings of a cube, and the box of these points is "
+                       "none; pointspec convert writes them as points of the unit cube");
+    }
     if (question->frequencies.per_ring > 0) {
         const ps_frequency_sample sample = {.dimension = dimension,
                                             .max_frequency = max_frequency,
@@ -104,8 +113,10 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
         return ps_frequencies_sample(out, &sample, error);
     }
     const bool only_ball = !question->wants_full_array && !question->accuracy.no_skip;
-    return ps_frequencies_grid(out, dimension, max_frequency, only_ball, &bins,
-                               question->limits.constraints.offers, error);
+    PS_TRY(ps_frequencies_grid(out, dimension, max_frequency, only_ball, &bins,
+                               question->limits.constraints.offers, error));
+    PS_TRY(stretch == NULL ? PSPEC_OK : ps_frequencies_stretch(out, stretch, error));
+    return check_shown(&question->frequencies, dimension, out->max_frequency, error);
 }
 
 int32_t ps_power_frequencies_uncut(const ps_power_question *question, unsigned dimension,

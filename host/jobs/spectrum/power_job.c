@@ -100,8 +100,8 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
         return PSPEC_OK;
     }
     PS_TRY(open_files(job, error));
-    job->sets.looks_at_axes = !question->on_sphere && question->point_options.box.num_axes == 0;
     PS_TRY(ps_power_sets_peek(&job->sets, &has_set, error));
+    job->sets.looks_at_axes = !question->on_sphere && job->sets.next.box.num_axes == 0;
     if (!has_set) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
     }
@@ -162,7 +162,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
             ps_power_sets_read_weights(&job->sets, question->weights.path, job->num_points, error));
     }
     PS_TRY(ps_power_frequencies(&job->frequencies, question, job->dimension,
-                                (size_t)job->num_points, error));
+                                (size_t)job->num_points, &job->sets.next.box, error));
     ps_power_needs_find(job);
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));

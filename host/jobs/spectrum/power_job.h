@@ -39,6 +39,8 @@ typedef struct ps_power_question {
 
     /* frequencies */
     ps_frequencies_spec frequencies;
+    /* rings, and K, are of the wave vectors of the first set's box, where it is no cube */
+    bool has_rings_of_box;
     double reach; /* the largest frequency is this times N^(1/d) unless it is given; 0: 5 */
     /* The largest |k_i| or degree that matters to whoever asks: without accuracy.no_skip those
      * beyond are left out, and why says what nobody needs of them; 0: all matter */
@@ -98,6 +100,7 @@ size_t ps_power_job_num_files(const ps_power_job *job);               /* 0: a sa
 bool ps_power_job_takes_part(const ps_power_job *job); /* only the first of the files' sets */
 const char *ps_power_job_source_format(const ps_power_job *job);
 const char *ps_power_job_source_columns(const ps_power_job *job);
+const ps_boxes *ps_power_job_boxes(const ps_power_job *job); /* after run: of all sets */
 const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL: files */
 
 /* What is known after run. Borrowed. */

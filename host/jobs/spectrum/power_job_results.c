@@ -45,6 +45,10 @@ const char *ps_power_job_source_columns(const ps_power_job *job) {
     return ps_source_columns(job->sets.source);
 }
 
+const ps_boxes *ps_power_job_boxes(const ps_power_job *job) {
+    return &job->sets.boxes;
+}
+
 const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
     return &job->spectrum;
 }

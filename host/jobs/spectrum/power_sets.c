@@ -65,6 +65,15 @@ static void exchange(ps_point_set *a, ps_point_set *b) {
     *b = kept;
 }
 
+static pspec_status read_set(ps_power_sets *sets, ps_point_set *set, ps_source_part *part,
+                             bool *has_set, ps_error *error) {
+    PS_TRY(ps_source_next(sets->source, set, part, has_set, error));
+    if (*has_set) {
+        ps_boxes_add(&sets->boxes, &set->box, set->dimension);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) {
     if (!sets->has_next && sets->has_after) {
         exchange(&sets->next, &sets->after);
@@ -76,7 +85,7 @@ pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *er
     }
     if (!sets->has_next) {
         sets->used = 0;
-        PS_TRY(ps_source_next(sets->source, &sets->next, &sets->part, &sets->has_next, error));
+        PS_TRY(read_set(sets, &sets->next, &sets->part, &sets->has_next, error));
     }
     *has_set = sets->has_next;
     return PSPEC_OK;
@@ -84,8 +93,7 @@ pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *er
 
 pspec_status ps_power_sets_is_last(ps_power_sets *sets, bool *is_last, ps_error *error) {
     if (sets->part.is_whole && !sets->has_after) {
-        PS_TRY(
-            ps_source_next(sets->source, &sets->after, &sets->after_part, &sets->has_after, error));
+        PS_TRY(read_set(sets, &sets->after, &sets->after_part, &sets->has_after, error));
     }
     *is_last = sets->part.is_whole && !sets->has_after;
     return PSPEC_OK;

@@ -28,6 +28,7 @@ typedef struct ps_power_sets {
     size_t capacity;
     size_t used; /* points of next that the estimator has had */
     uint64_t num_streamed;
+    ps_boxes boxes; /* of all sets that were read */
     /* Where the points of the first set are; only with looks_at_axes */
     bool looks_at_axes, has_looked;
     ps_axis_cells first_cells;

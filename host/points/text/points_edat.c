@@ -130,14 +130,16 @@ static pspec_status check_header(const ps_point_reader *reader, const edat_heade
 /* Points must follow. */
 static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     enum { LINES = 3 };
+    ps_box *const box = &reader->own_box;
     ps_text_state *const state = reader->state;
     edat_header header;
     ps_line_kind kind = PS_LINE_NONE;
     PS_TRY(peek_header(reader, &header, error));
     PS_TRY(check_header(reader, &header, error));
     state->num_corners = header.lower_columns;
-    memcpy(state->lower, header.lower, sizeof state->lower);
-    memcpy(state->upper, header.upper, sizeof state->upper);
+    box->num_axes = header.lower_columns;
+    memcpy(box->low, header.lower, sizeof box->low);
+    memcpy(box->high, header.upper, sizeof box->high);
     for (int i = 0; i < LINES; i++) {
         ps_lines_skip(&state->lines);
     }
@@ -169,7 +171,7 @@ static void scale_rows(const ps_point_reader *reader, double *rows, size_t num) 
     for (size_t i = 0; i < num; i++) {
         double *const row = rows + i * reader->columns;
         for (unsigned j = 0; j < state->num_corners; j++) {
-            row[j] = ps_box_scale(row[j], state->lower[j], state->upper[j]);
+            row[j] = ps_box_scale(row[j], reader->own_box.low[j], reader->own_box.high[j]);
         }
     }
 }

@@ -33,19 +33,35 @@ static void shorten(char text[32], const char *names, unsigned num) {
     snprintf(text, 32, "%.*s", (int)length, names);
 }
 
-/* Coordinates in units of the box: which axis they are of. */
-static void find_axes(ps_text_state *state, const ps_frame *frame) {
-    const char *name = frame->absolute;
-    for (unsigned i = 0; i < PS_MAX_COLUMNS; i++) {
-        state->axes[i] = -1;
-    }
+/* Which axis the columns with these names are of. */
+static void find_axes(const ps_text_state *state, const ps_frame *frame, const char *names,
+                      short axes[PS_MAX_COLUMNS]) {
+    const char *name = names;
     for (int i = 0; frame->has_box && *name != '\0'; i++) {
         const size_t length = strcspn(name, ",");
         const int column = ps_field_find(frame->names, ' ', name, length);
         if (column >= 0 && state->header.places[column] >= 0) {
-            state->axes[state->header.places[column]] = (short)(i % AXES);
+            axes[state->header.places[column]] = (short)(i % AXES);
         }
         name += length + (name[length] == ',');
+    }
+}
+
+/* Columns that have the units of the box, and the intervals of all that are of one of its axes. */
+static void take_box(ps_point_reader *reader, const ps_frame *frame) {
+    ps_text_state *const state = reader->state;
+    short axes[PS_MAX_COLUMNS];
+    for (unsigned i = 0; i < PS_MAX_COLUMNS; i++) {
+        state->axes[i] = -1;
+    }
+    find_axes(state, frame, frame->absolute, state->axes);
+    memcpy(axes, state->axes, sizeof axes);
+    find_axes(state, frame, frame->relative, axes);
+    reader->own_box = (ps_box){0};
+    for (unsigned i = 0; i < PS_MAX_DIMENSION && axes[i] >= 0; i++) {
+        reader->own_box.low[i] = state->lower[axes[i]];
+        reader->own_box.high[i] = state->upper[axes[i]];
+        reader->own_box.num_axes++;
     }
 }
 
@@ -75,7 +91,7 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     state->header.chooses = true;
     PS_TRY(ps_row_filter_find(&state->filter, options->select, frame->names, ' ', frame->filter,
                               where, error));
-    find_axes(state, frame);
+    take_box(reader, frame);
     state->rows_left = frame->num_rows;
     state->num_corners = frame->has_box ? AXES : 0;
     state->num_kept = 0;

@@ -10,6 +10,7 @@ typedef struct ps_frame {
     const char *names;    /* of the columns, a line between blanks */
     const char *row;      /* the first one, behind the header */
     const char *absolute; /* "x,y,z": coordinates that have the units of the box, axis by axis */
+    const char *relative; /* "xs,ys,zs": coordinates that are in units of it already */
     const char *chosen;   /* "xs,ys,zs": the columns that are read unless --columns tells others */
     const char *filter;   /* the name of the column that type and element mean, or NULL */
     bool has_box;

@@ -79,6 +79,7 @@ static pspec_status begin_atoms(ps_point_reader *reader, ps_frame *frame, ps_err
         return fail_line(reader, "no columns x y z, xs ys zs, xu yu zu or xsu ysu zsu", error);
     }
     frame->absolute = "x,y,z,xu,yu,zu";
+    frame->relative = "xs,ys,zs,xsu,ysu,zsu";
     PS_TRY(ps_frame_begin(reader, frame, error));
     ps_lines_skip(&state->lines);
     return PSPEC_OK;

@@ -21,10 +21,10 @@ typedef struct ps_text_state {
     /* edat: the domain of this set */
     unsigned num_corners; /* coordinates of a corner */
     bool needs_header;    /* the next line is that of the next set */
-    double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION]; /* of frames, too */
-    ps_row_filter filter;                                    /* of --select */
-    bool has_dropped;                                        /* it dropped rows of this set */
-    /* frames: rows that are to come, and those of the set that are kept */
+    ps_row_filter filter; /* of --select */
+    bool has_dropped;     /* it dropped rows of this set */
+    /* frames: their box, rows that are to come, and those of the set that are kept */
+    double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION];
     uint64_t rows_left, num_kept;
     short axes[PS_MAX_COLUMNS]; /* of the columns that are scaled; -1: as they are */
 } ps_text_state;

@@ -120,7 +120,7 @@ static void name_plainly(char names[NAMES_BYTES], const char *row) {
 static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     const double most = 1e15; /* counts in doubles are exact */
     ps_text_state *const state = reader->state;
-    ps_frame frame = {.chosen = "x,y,z", .absolute = "x,y,z", .filter = "species"};
+    ps_frame frame = {.chosen = "x,y,z", .absolute = "x,y,z", .relative = "", .filter = "species"};
     const char *line = NULL;
     char names[NAMES_BYTES + 1] = "";
     double count[PS_MAX_COLUMNS] = {0};
