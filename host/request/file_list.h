@@ -13,8 +13,8 @@ typedef struct ps_file_list {
 } ps_file_list;
 
 /* A pattern with *, ? or [..] stands for the files that match it, in the order of their names; a
- * name need not be that of a file, and "-" is standard input. shown: of the option, for sentences. Freed by ps_file_list_free,
- * also after an error. */
+ * name need not be that of a file, and "-" is standard input. shown: of the option, for sentences.
+ * Freed by ps_file_list_free, also after an error. */
 pspec_status ps_file_list_read(ps_file_list *out, const char *shown, const char *text,
                                ps_error *error) PS_MUST_CHECK;
 /* One name or pattern more, in a folder, "" or with its /; a comma is a letter of it. */
