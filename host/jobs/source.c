@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"
+#include "jobs/scout.h"
 #include "sets/kept_inputs.h"
 
 #include <stdio.h>
@@ -27,8 +28,7 @@ struct ps_source {
     uint64_t sets_of_file;    /* begun by the reader */
     uint64_t num_sets;        /* begun of all files */
     bool is_inside;           /* of a set, whose end has not come yet */
-    ps_point_reader *scout;   /* of the same file, ahead of the reader to count a set */
-    uint64_t sets_scouted;    /* passed by it */
+    ps_scout scout;           /* of the same file, ahead of the reader to count a set */
     ps_text formats, columns; /* of the files read so far, each once */
     ps_kept_inputs kept;      /* sets of streams */
     bool is_lost;             /* there were more of them than are kept */
@@ -36,9 +36,6 @@ struct ps_source {
     ps_point_reader *unfinished;
     size_t unfinished_path;
 };
-
-/* Points that are only counted: few enough to stay in the cache. */
-enum { SCOUT_POINTS = 32768 };
 
 /* Read to learn how much memory a point takes. */
 enum { FIRST_POINTS = 1024 };
@@ -193,53 +190,6 @@ static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
 
 /* ---- sets that are too large ------------------------------------------------------------- */
 
-static void close_scout(ps_source *source) {
-    ps_points_close(source->scout);
-    source->scout = NULL;
-    source->sets_scouted = 0;
-}
-
-static pspec_status go_on(const ps_source *source, ps_error *error) {
-    const ps_source_options *options = &source->options;
-    return options->should_stop != NULL && options->should_stop(options->payload)
-               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled while points were counted")
-               : PSPEC_OK;
-}
-
-/* Counts one set of the scout's; *block is room. */
-static pspec_status scout_set(ps_source *source, ps_point_set *block, ps_pattern_count *count,
-                              ps_error *error) {
-    bool has_block = true;
-    for (bool ends_set = false; has_block && !ends_set;) {
-        block->num_points = 0;
-        PS_TRY(go_on(source, error));
-        PS_TRY(
-            ps_points_next_block(source->scout, block, SCOUT_POINTS, &has_block, &ends_set, error));
-        const pspec_pattern pattern = {block->dimension, block->num_points, block->points,
-                                       block->has_weights ? block->weights : NULL};
-        PS_TRY(ps_pattern_count_add(count, &pattern, error));
-    }
-    source->sets_scouted++;
-    return PSPEC_OK;
-}
-
-/* Sends a second reader through the set that the reader is in. */
-static pspec_status scout_ahead(ps_source *source, ps_pattern_count *count, ps_error *error) {
-    ps_point_set block = {0};
-    pspec_status status = PSPEC_OK;
-    if (source->scout == NULL) {
-        PS_TRY(ps_points_open(&source->scout, source->paths[source->next_path - 1],
-                              &source->options.points, error));
-    }
-    while (status == PSPEC_OK && source->sets_scouted < source->sets_of_file) {
-        *count = (ps_pattern_count){.realization = source->num_sets - 1,
-                                    .on_sphere = source->options.points.domain == PS_DOMAIN_SPHERE};
-        status = scout_set(source, &block, count, error);
-    }
-    ps_point_set_free(&block);
-    return status;
-}
-
 static size_t points_of(const ps_point_set *set, uint64_t bytes) {
     const size_t columns = set->dimension + (set->has_weights ? 1 : 0);
     const size_t num = (size_t)(bytes / (columns * sizeof(double)));
@@ -279,13 +229,15 @@ static pspec_status complete_set(ps_source *source, ps_point_set *set, ps_source
     }
     part->count = (ps_pattern_count){.realization = source->num_sets - 1,
                                      .num_points = ps_points_per_set(source->reader)};
-    return is_counted ? PSPEC_OK : scout_ahead(source, &part->count, error);
+    return is_counted ? PSPEC_OK
+                      : ps_scout_count(&source->scout, source->paths[source->next_path - 1],
+                                       &source->options, source->sets_of_file, &part->count, error);
 }
 
 /* ---- files ------------------------------------------------------------------------------- */
 
 static pspec_status open_next(ps_source *source, ps_error *error) {
-    close_scout(source);
+    ps_scout_close(&source->scout);
     source->sets_of_file = 0;
     PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
                           &source->options.points, error));
@@ -412,7 +364,7 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
     if (!ps_source_can_rewind(source)) {
         return ps_fail(error, PSPEC_ERROR_IO, "standard input cannot be read twice");
     }
-    close_scout(source);
+    ps_scout_close(&source->scout);
     leave_reader(source);
     source->next_path = 0;
     source->next_realization = 0;
@@ -434,7 +386,7 @@ const char *ps_source_columns(const ps_source *source) {
 
 void ps_source_destroy(ps_source *source) {
     if (source != NULL) {
-        close_scout(source);
+        ps_scout_close(&source->scout);
         ps_sets_destroy(source->sampled);
         ps_points_close(source->reader);
         ps_points_close(source->unfinished);
