@@ -6,8 +6,7 @@
 #include <stdlib.h>
 
 static void check_bins(const ps_saved_spectrum *saved) {
-    const bool has_width = !saved->on_sphere && saved->bin_rule.numerator > 0;
-    const int64_t least = has_width ? 0 : 1;
+    const int64_t least = saved->on_sphere ? 1 : 0; /* boxes have frequencies below 1/2 */
     for (size_t b = 0; b < saved->num_bins; b++) {
         const ps_saved_bin *const bin = &saved->bins[b];
         if (bin->key < least || (b > 0 && bin->key <= saved->bins[b - 1].key)) {
