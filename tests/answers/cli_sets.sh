@@ -96,6 +96,8 @@ grep -v '^#' j1.txt | head -n 60 >j60.dat
 grep -v '^#' j1.txt | head -n 64 >j64.dat
 "$program" power -k 4 j60.dat j64.dat --plot power.svg -o power.csv 2>err || complain "different N: $(<err)"
 grep -q '2 files, mean N = 62 (sets of 60 to 64), 2 realizations<' power.svg || complain "title of different N: $(grep -o '[^>]*N = [^<]*' power.svg)"
+"$program" quadrature --brdf diffuse --lift hemisphere j60.dat j64.dat --plot rules.svg -o rules.csv 2>err || complain "rules: $(<err)"
+grep -q ', mean N = 62 (sets of 60 to 64), 2 realizations<' rules.svg || complain "title of rules: $(grep -o '[^>]*N = [^<]*' rules.svg)"
 # a set beside its copy is not told apart; of a single set all that is random are moves, and a few sets tell no error
 runs 0 "${disk[@]}" --set a=j1.txt --set b=same.txt --rank
 [[ $(rows out | cut -d, -f11-13 | paste -sd' ') == '1,1,0 1,1,0' ]] || complain "beside itself: $(<out)"

@@ -1,4 +1,5 @@
 #include "answers/quadrature/quadrature_table.h"
+#include "answers/spectra/spectrum_header.h"
 #include "base/memory.h"
 #include "plots/plot.h"
 
@@ -40,19 +41,20 @@ typedef struct axis_labels {
     const char *x, *y;
 } axis_labels;
 
-/* last: of the results. */
 static pspec_status write_plot(const ps_request *arguments, const axis_labels *labels,
                                const ps_series *lines, size_t num_lines,
-                               const ps_quadrature_result *first, const ps_quadrature_result *last,
-                               ps_error *error) {
+                               const ps_quadrature_result *results, size_t num, ps_error *error) {
     ps_text title = {0};
-    ps_text_append(&title, "%s, smoothness %g, N = %.6g", arguments->brdf, arguments->smoothness,
-                   first->mean_points);
-    if (arguments->num_counts > 1) {
-        ps_text_append(&title, " to %.6g", last->mean_points);
+    ps_points_span span = {0};
+    for (size_t i = 0; i < num; i++) {
+        ps_points_span_add(&span,
+                           &(ps_points_range){results[i].mean_points, results[i].smallest_points,
+                                              results[i].largest_points});
     }
-    ps_text_append(&title, ", %llu realization%s", (unsigned long long)first->num_realizations,
-                   first->num_realizations == 1 ? "" : "s");
+    ps_text_append(&title, "%s, smoothness %g", arguments->brdf, arguments->smoothness);
+    ps_points_span_show(&span, &title);
+    ps_text_append(&title, ", %llu realization%s", (unsigned long long)results[0].num_realizations,
+                   results[0].num_realizations == 1 ? "" : "s");
     const ps_panel panel = {NULL, num_lines, lines};
     const ps_figure figure = {.form = PS_FIGURE_FRAME,
                               .title = ps_text_string(&title),
@@ -83,8 +85,7 @@ pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature
         PS_TRY_OUT(status,
                    make_curves(&all[i], lines + LINES * i, LINES * i, sampler, &results[i], error));
     }
-    status =
-        write_plot(arguments, &labels, lines, LINES * list->num, &results[0], &results[0], error);
+    status = write_plot(arguments, &labels, lines, LINES * list->num, results, list->num, error);
 out:
     for (size_t i = 0; i < list->num; i++) {
         free(all[i].numbers);
@@ -134,8 +135,8 @@ pspec_status ps_quadrature_plot_errors(const ps_request *arguments, const char *
     for (size_t i = 0; i < lines.num; i++) {
         PS_TRY_OUT(status, take_errors(&lines, i, arguments, results, error));
     }
-    status = write_plot(arguments, &labels, lines.series, lines.num, &results[0],
-                        &results[num_counts - 1], error);
+    status = write_plot(arguments, &labels, lines.series, lines.num, results,
+                        lines.num * num_counts, error);
 out:
     for (size_t i = 0; i < lines.num; i++) {
         ps_text_free(&lines.labels[i]);

@@ -3,6 +3,7 @@
 #include "answers/lead.h"
 #include "answers/points/points_picture.h"
 #include "answers/spectra/shape_table.h"
+#include "answers/spectra/spectrum_header.h"
 #include "base/memory.h"
 #include "plots/plot.h"
 
@@ -122,26 +123,13 @@ static pspec_status make_points(ps_points_picture *picture, const ps_power_job *
 /* Samplers choose N themselves where nside or the like says it; of sets with different N it is a
  * mean, and which they have is said. */
 static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t num) {
-    double least = INFINITY;
-    double most = 0;
-    size_t smallest = SIZE_MAX;
-    size_t largest = 0;
-    bool varies = false;
+    ps_points_span span = {0};
     for (size_t i = 0; i < num; i++) {
         const ps_spectrum *const own = ps_power_job_spectrum(jobs[i]);
-        least = fmin(least, own->mean_points);
-        most = fmax(most, own->mean_points);
-        smallest = own->smallest_points < smallest ? own->smallest_points : smallest;
-        largest = own->largest_points > largest ? own->largest_points : largest;
-        varies = varies || own->smallest_points < own->largest_points;
+        ps_points_span_add(
+            &span, &(ps_points_range){own->mean_points, own->smallest_points, own->largest_points});
     }
-    ps_text_append(title, ", %sN = %.6g", varies ? "mean " : "", least);
-    if (most > least) {
-        ps_text_append(title, " to %.6g", most);
-    }
-    if (varies) {
-        ps_text_append(title, " (sets of %zu to %zu)", smallest, largest);
-    }
+    ps_points_span_show(&span, title);
 }
 
 /* Where a standard error was asked for, each has as many as that takes. */
