@@ -1,5 +1,6 @@
 /* A second reader of a file, ahead of the one that reads it: it counts a set that is too large to
- * be in memory, and of which weights and number of points are to be known before its first block. */
+ * be in memory, and of which weights and number of points are to be known before the first block.
+ */
 #ifndef PS_JOBS_SCOUT_H
 #define PS_JOBS_SCOUT_H
 
