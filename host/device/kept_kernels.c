@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* statx, GLOB_BRACE */
+#define _GNU_SOURCE /* statx, memrchr */
 
 /* Whether the kernels that PoCL keeps on disk are whole. A program is a folder below
  * POCL_CACHE_DIR, AB/CDEFGH...; it has the program as bitcode, and for each kernel that ran, and
@@ -8,6 +8,7 @@
 #include "device/drivers.h"
 
 #include <fcntl.h>
+#include <fts.h>
 #include <link.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -104,14 +105,6 @@ static pspec_status check_file(const char *path, ps_error *error) {
 
 /* ---- folders -------------------------------------------------------------------------------- */
 
-static void list(const char *pattern, glob_t *out) {
-    *out = (glob_t){0};
-    if (glob(pattern, GLOB_BRACE, NULL, out) != 0) {
-        globfree(out);
-        *out = (glob_t){0};
-    }
-}
-
 pspec_status ps_kept_list(glob_t *out, ps_error *error) {
     char pattern[PATH_BYTES];
     ps_text top = {0};
@@ -119,7 +112,10 @@ pspec_status ps_kept_list(glob_t *out, ps_error *error) {
     const pspec_status status = ps_drivers_pocl_cache(&top, error);
     if (status == PSPEC_OK && top.length > 0) {
         snprintf(pattern, sizeof pattern, "%s/[A-P][A-P]/*/*/", ps_text_string(&top));
-        list(pattern, out);
+        if (glob(pattern, 0, NULL, out) != 0) {
+            globfree(out);
+            *out = (glob_t){0};
+        }
     }
     ps_text_free(&top);
     return status;
@@ -127,15 +123,23 @@ pspec_status ps_kept_list(glob_t *out, ps_error *error) {
 
 /* Of one kernel of a program: path ends in a slash. */
 static pspec_status check_kernel(const char *path, ps_error *error) {
-    char pattern[PATH_BYTES];
-    glob_t files;
+    char program[PATH_BYTES];
+    char folder[PATH_BYTES];
+    const char *const end = memrchr(path, '/', strlen(path) - 1);
+    snprintf(program, sizeof program, "%.*s/program.bc", (int)(end - path), path);
+    PS_TRY(check_file(program, error));
+    snprintf(folder, sizeof folder, "%.*s", (int)strlen(path) - 1, path);
+    FTS *const walk = fts_open((char *[]){folder, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    FTSENT *entry = walk != NULL ? fts_read(walk) : NULL;
     pspec_status status = PSPEC_OK;
-    snprintf(pattern, sizeof pattern, "%s{*/*.so,../program.bc}", path);
-    list(pattern, &files);
-    for (size_t i = 0; i < files.gl_pathc && status == PSPEC_OK; i++) {
-        status = check_file(files.gl_pathv[i], error);
+    for (; entry != NULL && status == PSPEC_OK; entry = fts_read(walk)) {
+        const bool is_object = entry->fts_info == FTS_F && entry->fts_namelen > 3 &&
+                               strcmp(entry->fts_name + entry->fts_namelen - 3, ".so") == 0;
+        status = is_object ? check_file(entry->fts_path, error) : PSPEC_OK;
     }
-    globfree(&files);
+    if (walk != NULL) {
+        fts_close(walk);
+    }
     return status;
 }
 
