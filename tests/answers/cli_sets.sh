@@ -92,8 +92,8 @@ rows out | awk -F, '{ v[$1] = $3; f[$1] = $12; s[$1] = $15 }
 # titles say the sets of each
 runs 0 "${disk[@]}" --set 'jit=j*.txt' --sampler white -n 64 -m 5 --plot variance.svg
 grep -q 'disk, M = 12 of jit, 5 of white<' variance.svg || complain "title: $(grep -o '[^>]*M = [^<]*' variance.svg)"
-grep -v '^#' j1.txt | head -n 60 >j60.dat
-grep -v '^#' j1.txt | head -n 64 >j64.dat
+# (`head` behind a pipe ends what writes into it)
+for num in 60 64; do awk -v num=$num '!/^#/ && ++row <= num' j1.txt >j$num.dat; done
 "$program" power -k 4 j60.dat j64.dat --plot power.svg -o power.csv 2>err || complain "different N: $(<err)"
 grep -q '2 files, mean N = 62 (sets of 60 to 64), 2 realizations<' power.svg || complain "title of different N: $(grep -o '[^>]*N = [^<]*' power.svg)"
 "$program" quadrature --brdf diffuse --lift hemisphere j60.dat j64.dat --plot rules.svg -o rules.csv 2>err || complain "rules: $(<err)"
