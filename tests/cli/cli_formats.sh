@@ -369,7 +369,7 @@ refuses 'neither text nor begins like a format that is known;--input-format rps'
 refuses 'ends in .bin, but does not begin like utk-binary;--input-format' text.bin
 reads "$square" --input-format utk-text text.bin
 reads '0.5 0.25|#|0.25 0.5' double.npy # what it begins with counts, not its name
-gzip -c utk.dat | head -c 20 >cut.gz
+head -c 20 <(gzip -c utk.dat) >cut.gz
 refuses 'cut.gz' cut.gz
 printf 'x' | gzip -c >word.gz
 refuses '"x" is not a number' word.gz

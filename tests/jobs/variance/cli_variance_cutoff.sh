@@ -121,7 +121,7 @@ words=(--sampler latin-hypercube -n 64 -m 7 -k 9 --engine host_direct)
 "$program" power "${words[@]}" --bins shells --normalize integral -o shells.csv 2>err </dev/null || complain "power: $(<err)"
 sum=$(awk -F, '!/^#/ && !/^bin/ { n = $1; sum += $4 * $5 * exp(-4 * atan2(0, -1) ^ 2 * 0.01 * n) }
     END { printf "%.17g", sum * (2 * atan2(0, -1) * 0.01) ^ 2 / 64 }' shells.csv)
-grep -v '^#' shells.csv | head -n 1 | grep -q '^bin,frequency,normalized_frequency,count,power,' || complain "columns: $(grep -v '^#' shells.csv | head -n 1)"
+[[ $(grep -v '^#' shells.csv | head -n 1) == bin,frequency,normalized_frequency,count,power,* ]] || complain "columns: $(grep -v '^#' shells.csv | head -n 1)"
 runs 0 "${words[@]}" "${alone[@]}" --integrand gaussian:sigma=0.1 --bins shells
 near shells "$(column lower)" "$sum" 1e-12
 is sum 'over exact shells, |k|^2 <= K^2 + K'
