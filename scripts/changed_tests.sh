@@ -48,7 +48,7 @@ tests_of_rooms() {
 
 costs=$build/Testing/Temporary/CTestCostData.txt
 [[ -f $costs ]] || costs=/dev/null
-ctest --test-dir "$build" -N -LE sweep | sed -nE 's/^ *Test +#[0-9]+: (.*)$/\1/p' >"$build/known_tests.txt"
+ctest --test-dir "$build" -N -LE 'sweep|oclgrind' | sed -nE 's/^ *Test +#[0-9]+: (.*)$/\1/p' >"$build/known_tests.txt"
 awk '
     FILENAME == ARGV[1] { known[$1]; next }
     FILENAME == ARGV[2] { if (NF == 3) cost[$1] = $3; next }

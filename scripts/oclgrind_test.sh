@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # oclgrind_test.sh PROGRAM [ARGS]: runs PROGRAM on Oclgrind's simulated device instead of the ICD
 # loader's devices. Oclgrind exits 0 even when it has found something, so its log decides.
-# The preset oclgrind puts this before every test program (CMAKE_CROSSCOMPILING_EMULATOR).
 # Local memory stays at Oclgrind's 32 KiB, the least OpenCL 1.2 promises; OCLGRIND_LOCAL_MEM_SIZE
 # in the environment changes it, OCLGRIND_CHECKS what is looked for.
 set -uo pipefail
