@@ -180,6 +180,18 @@ size_t ps_text_distance(const char *a, const char *b) {
     return row[b_length];
 }
 
+int ps_text_find_word(const char *text, size_t length, const char *words) {
+    int index = 0;
+    for (const char *word = words; *word != '\0'; index++) {
+        const size_t own = strcspn(word, "|");
+        if (own == length && strncmp(text, word, length) == 0) {
+            return index;
+        }
+        word += own + (word[own] == '|');
+    }
+    return -1;
+}
+
 void ps_text_keep_nearest(const char *name, const char *known, const char **nearest) {
     if (*nearest == NULL || ps_text_distance(name, known) < ps_text_distance(name, *nearest)) {
         *nearest = known;

@@ -44,6 +44,9 @@ pspec_status ps_parse_number(const char *text, const char *what, double minimum,
 pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out,
                            ps_error *error) PS_MUST_CHECK;
 
+/* Which of the words, "one|two|three", these bytes are; -1: none. */
+int ps_text_find_word(const char *text, size_t length, const char *words);
+
 /* The nearer one to name of *nearest, which may be NULL at first, and known. */
 void ps_text_keep_nearest(const char *name, const char *known, const char **nearest);
 

@@ -1,5 +1,6 @@
 #include "cli/terminal.h"
 
+#include "base/text.h"
 #include "request/options.h"
 
 #include <stdlib.h>
@@ -37,19 +38,6 @@ static size_t find_width(void) {
     return width > LEAST_WIDTH ? width : LEAST_WIDTH;
 }
 
-/* Is it one of the words, "csv|json|text"? */
-static bool offers(const char *words, const char *word) {
-    const size_t length = strlen(word);
-    for (const char *at = words; *at != '\0';) {
-        const size_t own = strcspn(at, "|");
-        if (own == length && strncmp(at, word, length) == 0) {
-            return true;
-        }
-        at += own + (at[own] == '|');
-    }
-    return false;
-}
-
 void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
     static const char text[] = "text";
     const bool is_terminal =
@@ -61,7 +49,7 @@ void ps_terminal_settle(const ps_command *command, ps_request *arguments) {
     if (!is_terminal) {
         return;
     }
-    if (arguments->format == NULL && offers(words, text)) {
+    if (arguments->format == NULL && ps_text_find_word(text, strlen(text), words) >= 0) {
         arguments->format = text;
     }
     arguments->view = (ps_text_view){.width = find_width(),

@@ -1,5 +1,6 @@
 #include "files/text_lines.h"
 
+#include "base/text.h"
 #include "base/memory.h"
 #include "files/decimal.h"
 
@@ -157,15 +158,7 @@ size_t ps_token_length(const char *text) {
 }
 
 bool ps_token_is_one_of(const char *text, const char *words) {
-    const size_t length = ps_token_length(text);
-    for (const char *word = words; *word != '\0';) {
-        const size_t expected = strcspn(word, "|");
-        if (length == expected && strncmp(text, word, length) == 0) {
-            return true;
-        }
-        word += expected + (word[expected] == '|');
-    }
-    return false;
+    return ps_text_find_word(text, ps_token_length(text), words) >= 0;
 }
 
 const char *ps_token_show(char shown[PS_TOKEN_BYTES], const char *text, size_t length) {

@@ -30,16 +30,8 @@ static pspec_status fail_word(const ps_said *said, ps_error *error) {
 
 /* Number of the value among the words, "one|two|three". */
 static pspec_status find_word(const ps_said *said, int *index, ps_error *error) {
-    *index = 0;
-    for (const char *word = said->words; *word != '\0';) {
-        const size_t length = strcspn(word, "|");
-        if (strlen(said->text) == length && strncmp(said->text, word, length) == 0) {
-            return PSPEC_OK;
-        }
-        word += length + (word[length] == '|');
-        ++*index;
-    }
-    return fail_word(said, error);
+    *index = ps_text_find_word(said->text, strlen(said->text), said->words);
+    return *index >= 0 ? PSPEC_OK : fail_word(said, error);
 }
 
 pspec_status ps_set_word(const ps_said *said, ps_error *error) {

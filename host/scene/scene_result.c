@@ -13,9 +13,8 @@ void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *kn
     }
 }
 
-static const char *const own_keys[] = {"result",   "name",       "title",    "plot",
-                                       "plot-log", "plot-range", "pictures", "arrays",
-                                       "files",    "samplers",   "sets",     "integrands"};
+static const char *const own_keys[] = {"result", "name",  "title",    "plot", "pictures",
+                                       "arrays", "files", "samplers", "sets", "integrands"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 static const char sets_key[] = "sets";
@@ -60,6 +59,9 @@ static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_kind
     ps_scene_nearest best = {NULL, 0};
     for (size_t i = 0; i < NUM_OWN_KEYS; i++) {
         ps_scene_consider(&best, key, own_keys[i]);
+    }
+    for (int i = 0; i < PS_SCENE_NUM_AXES; i++) {
+        ps_scene_consider(&best, key, ps_options[ps_scene_axes[i]].name);
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (ps_kind_asks(kind, (ps_option_id)id)) {
