@@ -13,6 +13,7 @@
 #include "engines/nufft/fft.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 #include "engines/torus/torus_direct.h"
 
 #include <math.h>
@@ -74,7 +75,7 @@ static double nufft_flops(const device_case *what, const bench_job *job) {
     const double rows = num == 2 ? axes[0].n : 1;
     const double columns = num == 2 ? 2.0 * last->max_frequency + 1 : 0;
     double spread = 2 * (double)what->num_points;
-    if (choice->is_gridded) { /* real numbers, and a real transform along axis 0 */
+    if (choice->variant->is_gridded) { /* real numbers, and a real transform along axis 0 */
         for (unsigned i = 0; i < choice->num_axes; i++) {
             spread *= choice->axes[i].window.width;
         }

@@ -6,10 +6,11 @@
 #include "cycles.h"
 
 #include "bench.h"
-#include "engines/nufft/choose.h"
-#include "engines/nufft/cost.h"
+#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/cost.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,9 +21,9 @@ typedef enum kind { LINES, TILES, ROWS, GRIDS, BOXES, WHOLE, STRIPS, NUM_KINDS }
 static const char *const kind_names[NUM_KINDS] = {
     "tiles, 1 dimension", "tiles, 2", "tiles, 3 (not fitted)", "grids, 2", "grids, 3",
     "whole, 1 and 2",     "strips, 2"};
-static const ps_nufft_way ways[NUM_KINDS] = {PS_NUFFT_TILES, PS_NUFFT_TILES, PS_NUFFT_TILES,
-                                             PS_NUFFT_LARGE, PS_NUFFT_LARGE, PS_NUFFT_WHOLE,
-                                             PS_NUFFT_STRIPS};
+static const ps_nufft_variant *const variants[NUM_KINDS] = {
+    &ps_nufft_tiles, &ps_nufft_tiles, &ps_nufft_tiles, &ps_nufft_large,
+    &ps_nufft_large, &ps_nufft_whole, &ps_nufft_strips};
 
 /* Points planned for: 0 as many as there are, so that many in few cells are done whole; NOT_WHOLE
  * more than are ever done whole; FOR_GRIDS a large set's. */
@@ -139,7 +140,7 @@ static size_t enough_realizations(double cycles_of_one, double cycles_per_second
 
 /* Is it chosen as the shape wants it? */
 static bool is_of_kind(const ps_nufft_choice *choice, kind wanted) {
-    return ps_nufft_way_of(choice) == ways[wanted];
+    return choice->variant == variants[wanted];
 }
 
 static double measure_cycles(ps_device *device, const ps_problem *problem, ps_precision precision,

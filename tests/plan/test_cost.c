@@ -2,8 +2,8 @@
  */
 #include "harness_plan.h"
 
-#include "engines/nufft/choose.h"
-#include "engines/nufft/cost.h"
+#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/cost.h"
 #include "engines/sphere/sphere_direct.h"
 #include "plan/cost_model.h"
 

@@ -3,7 +3,8 @@
  */
 #include "harness.h"
 
-#include "engines/nufft/sizes/boxes.h"
+#include "engines/torus/nufft/sizes/boxes.h"
+#include "engines/torus/nufft/variant.h"
 #include "nufft/boxes.h"
 
 #include <stdlib.h>
@@ -47,7 +48,7 @@ static void boxes_of_a_colour_share_no_cell(void **state) {
     enum { CASES = 400, HALVINGS = 5 };
     uint64_t random = 9;
     for (int c = 0; c < CASES; c++) {
-        ps_nufft_choice choice = {.num_axes = 2 + (unsigned)c % 2, .is_gridded = true};
+        ps_nufft_choice choice = {.num_axes = 2 + (unsigned)c % 2, .variant = &ps_nufft_large};
         const unsigned first = PS_NUFFT_MAX_AXES - choice.num_axes;
         for (unsigned i = 0; i < choice.num_axes; i++) {
             const unsigned width = 2 + (unsigned)(test_uniform(&random) * 15);

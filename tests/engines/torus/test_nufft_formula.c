@@ -4,7 +4,8 @@
  * are made up, in numbers that can be worked out by hand. */
 #include "harness.h"
 
-#include "engines/nufft/error.h"
+#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/variant.h"
 
 #include <math.h>
 
@@ -64,8 +65,7 @@ static const formula_case cases[] = {
      .coherent = 8 * 0.45},
     {.name = "passes, that of turns among them",
      .choice = {.num_axes = 1,
-                .is_gridded = true,
-                .is_whole = true,
+                .variant = &ps_nufft_whole,
                 .axes = {{.n = 1 << 30,
                           .window = {.width = 1},
                           .loss = {.amplification = 1},
@@ -95,7 +95,7 @@ static const formula_case cases[] = {
      .coherent = 0.45},
     {.name = "a grid of both axes, in four chunks",
      .choice = {.num_axes = 2,
-                .is_gridded = true,
+                .variant = &ps_nufft_large,
                 .chunk = 1 << 18,
                 .axes = {AXIS(1 << 8, 4, .amplification = 1), AXIS(1 << 8, 4, .amplification = 1)}},
      .num_points = 1 << 20,
@@ -122,7 +122,7 @@ static const formula_case cases[] = {
      .aliasing = 0.3872983346207417},
     {.name = "lattices in space: 8 points touch a cell, two for a mode",
      .choice = {.num_axes = 3,
-                .is_gridded = true,
+                .variant = &ps_nufft_large,
                 .axes = {AXIS(68, 17, .amplification = 2, .edge = 3),
                          AXIS(578, 34, .amplification = 1, .edge = 2),
                          AXIS(34, 2, .amplification = 1, .edge = 1)}},
@@ -154,7 +154,9 @@ static void check(const formula_case *one, ps_precision precision) {
     const double rounding = hypot(hypot(one->rounding, one->at_zero), one->given);
     const double expected =
         hypot(hypot(one->aliasing, one->polynomials), u * rounding) + u * one->coherent;
-    const double found = ps_nufft_error(&one->choice, &problem, precision, one->power);
+    ps_nufft_choice choice = one->choice;
+    choice.variant = choice.variant != NULL ? choice.variant : &ps_nufft_tiles;
+    const double found = ps_nufft_error(&choice, &problem, precision, one->power);
     /* Where there is more than rounding, rounding is what may be left away, and touching cells. */
     const double most = one->rounding > 0 ? 1e-6 : 1e-5;
     if (!(fabs(found / expected - 1) <= most)) {

@@ -4,9 +4,10 @@
  */
 #include "harness.h"
 
-#include "engines/nufft/choose.h"
+#include "engines/torus/nufft/choose.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 #include "engines/torus/torus_direct.h"
 
 #include <math.h>
@@ -68,7 +69,7 @@ static double run_case(const grid_case *what, ps_frequencies *grid, double **fou
                                 .num_points = PLANNED_POINTS,
                                 .num_realizations = 1,
                                 .tolerance = what->tolerance};
-    assert_true(ps_nufft_choose(&problem, NULL, what->precision).is_gridded);
+    assert_true(ps_nufft_choose(&problem, NULL, what->precision).variant == &ps_nufft_large);
     *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, pattern, 1, 1);
     return test_engine_error(&ps_torus_nufft, &problem, what->precision, device, 1.2);
 }
@@ -163,7 +164,7 @@ static void split_grids(void **state) {
                 ps_nufft_layout_make(&problem, ps_device_get_limits(device), what->precision);
             print_message("d=%u K=%d: %u slabs, %u of %u tiles at a time\n", what->dimension,
                           (int)what->k, layout.num_slabs, layout.tiles_at_once, layout.num_tiles);
-            assert_true(layout.choice.is_gridded && layout.num_slabs > 1);
+            assert_true(layout.choice.variant == &ps_nufft_large && layout.num_slabs > 1);
             assert_true(j == 0 || layout.tiles_at_once < layout.num_tiles);
             assert_null(
                 ps_torus_nufft.survey(&problem, ps_device_get_limits(device), what->precision)

@@ -4,10 +4,11 @@
 #include "harness.h"
 #include "harness_plan.h"
 
-#include "engines/nufft/choose.h"
+#include "engines/torus/nufft/choose.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 #include "engines/torus/torus_direct.h"
 
 #include <math.h>
@@ -37,7 +38,7 @@ static uint64_t bytes_of_boxes(const ps_nufft_layout *layout) {
 static uint64_t bytes_of_rows(const ps_nufft_layout *layout) {
     unsigned num = 0;
     const ps_nufft_axis *axes = ps_nufft_last_axes(&layout->choice, &num);
-    uint64_t longest = layout->choice.is_gridded ? layout->choice.axes[0].n : 0;
+    uint64_t longest = layout->choice.variant->is_gridded ? layout->choice.axes[0].n : 0;
     for (unsigned i = 0; i < num; i++) {
         longest = axes[i].n > longest ? axes[i].n : longest;
     }
@@ -52,14 +53,14 @@ static int check_layout(const ps_problem *problem, const ps_device_limits *limit
         return 0;
     }
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
-    assert_true(ps_nufft_local_bytes(&layout) <= limits->local_bytes);
-    const ps_nufft_way way = ps_nufft_way_of(&layout.choice);
-    if (way != PS_NUFFT_WHOLE &&
-        way != PS_NUFFT_STRIPS) { /* their transforms are in global memory */
-        assert_true(bytes_of_rows(&layout) <= ps_nufft_local_bytes(&layout));
+    const ps_nufft_variant *const variant = layout.choice.variant;
+    assert_true(variant->local_bytes(&layout) <= limits->local_bytes);
+    if (variant != &ps_nufft_whole && variant != &ps_nufft_strips) {
+        /* their transforms are in global memory */
+        assert_true(bytes_of_rows(&layout) <= variant->local_bytes(&layout));
     }
-    if (way == PS_NUFFT_LARGE) {
-        assert_true(bytes_of_boxes(&layout) <= ps_nufft_local_bytes(&layout));
+    if (variant == &ps_nufft_large) {
+        assert_true(bytes_of_boxes(&layout) <= variant->local_bytes(&layout));
     }
     return 1;
 }
@@ -153,7 +154,7 @@ static size_t run_with(const ps_problem *problem, ps_precision precision,
         assert_true(error_of(found, expected, problem->frequencies->num, pattern->num_points) <=
                     problem->tolerance);
         const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
-        const bool is_large = ps_nufft_way_of(&layout.choice) == PS_NUFFT_LARGE;
+        const bool is_large = layout.choice.variant == &ps_nufft_large;
         reals = is_large ? ps_nufft_boxes_reals(&layout.boxes) : 0;
         free(found);
     }

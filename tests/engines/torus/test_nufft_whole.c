@@ -3,9 +3,10 @@
  */
 #include "harness_shapes.h"
 
-#include "engines/nufft/choose.h"
-#include "engines/nufft/sizes/whole.h"
+#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/sizes/whole.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static void lengths_of_lines(void **state) {
         const ps_problem problem = {.frequencies = &grid, .num_points = 2000, .tolerance = 1e-4};
         const ps_nufft_choice choice = ps_nufft_choose(&problem, NULL, PS_SINGLE);
         uint32_t kept[2];
-        assert_true(choice.is_whole);
+        assert_ptr_equal(choice.variant, &ps_nufft_whole);
         ps_nufft_whole_kept(&choice, kept);
         assert_int_equal(choice.lengths[0] * choice.lengths[1], choice.axes[0].n);
         assert_true(2 * kept[0] <= choice.lengths[0] && 2 * kept[1] + 1 <= choice.lengths[1]);
@@ -37,19 +38,19 @@ static void only_with_caches(void **state) {
     ps_frequencies grid = test_make_grid(2, 16);
     const ps_problem problem = {.frequencies = &grid, .num_points = 4000, .tolerance = 1e-4};
     limits.has_dedicated_local_memory = true;
-    assert_false(ps_nufft_choose(&problem, &limits, PS_SINGLE).is_whole);
+    assert_ptr_not_equal(ps_nufft_choose(&problem, &limits, PS_SINGLE).variant, &ps_nufft_whole);
     ps_frequencies_free(&grid);
 }
 
-static ps_nufft_way way_for(const ps_frequencies *grid, size_t num_points,
-                            uint64_t num_realizations) {
+static const ps_nufft_variant *variant_for(const ps_frequencies *grid, size_t num_points,
+                                           uint64_t num_realizations) {
     const ps_problem problem = {.frequencies = grid,
                                 .num_points = num_points,
                                 .num_realizations = num_realizations,
                                 .tolerance = 1e-6};
     const ps_nufft_choice choice =
         ps_nufft_choose(&problem, ps_device_get_limits(device), PS_SINGLE);
-    return ps_nufft_way_of(&choice);
+    return choice.variant;
 }
 
 /* A set alone in strips would have one core; files may have any number of sets. Where the tiles of
@@ -57,14 +58,14 @@ static ps_nufft_way way_for(const ps_frequencies *grid, size_t num_points,
 static void only_where_strips_pay(void **state) {
     (void)state;
     ps_frequencies grid = test_make_grid(2, 160);
-    assert_int_equal(way_for(&grid, 20000, 0), PS_NUFFT_STRIPS);
-    assert_int_equal(way_for(&grid, 20000, 2), PS_NUFFT_STRIPS);
-    assert_int_not_equal(way_for(&grid, 20000, 1), PS_NUFFT_STRIPS);
+    assert_ptr_equal(variant_for(&grid, 20000, 0), &ps_nufft_strips);
+    assert_ptr_equal(variant_for(&grid, 20000, 2), &ps_nufft_strips);
+    assert_ptr_not_equal(variant_for(&grid, 20000, 1), &ps_nufft_strips);
     ps_frequencies_free(&grid);
     assert_ok(ps_frequencies_lattice(&grid, 2, 4096, false, error));
     const ps_problem problem = {
         .frequencies = &grid, .num_points = 65536, .num_realizations = 100, .tolerance = 1e-6};
-    assert_int_not_equal(way_for(&grid, 65536, 100), PS_NUFFT_STRIPS);
+    assert_ptr_not_equal(variant_for(&grid, 65536, 100), &ps_nufft_strips);
     assert_null(ps_torus_nufft.survey(&problem, ps_device_get_limits(device), PS_SINGLE).why_not);
     ps_frequencies_free(&grid);
 }

@@ -10,8 +10,9 @@
  */
 #include "harness_shapes.h"
 
-#include "engines/nufft/choose.h"
+#include "engines/torus/nufft/choose.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 #include "engines/torus/torus_direct.h"
 
 #include <math.h>
@@ -193,7 +194,7 @@ static ps_nufft_choice choose_single(const ps_frequencies *grid, size_t num_poin
 }
 
 static bool is_plain(const ps_nufft_choice *choice) {
-    return ps_nufft_way_of(choice) == PS_NUFFT_LARGE && choice->chunk == 0;
+    return choice->variant == &ps_nufft_large && choice->chunk == 0;
 }
 
 /* Lattices that are finer than K have no power: what is found is the error. HUGE_VAL: there is none

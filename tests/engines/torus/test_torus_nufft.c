@@ -6,6 +6,7 @@
 #include "engines/host/host_direct.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/nufft/variant.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -102,7 +103,7 @@ static void assert_has_line(const ps_frequencies *grid, ps_precision precision) 
                                 .tolerance = tolerance_of(precision)};
     const ps_device_limits *limits = ps_device_get_limits(device);
     const ps_nufft_layout layout = ps_nufft_layout_make(&problem, limits, precision);
-    assert_int_equal(ps_nufft_way_of(&layout.choice), PS_NUFFT_TILES);
+    assert_ptr_equal(layout.choice.variant, &ps_nufft_tiles);
     assert_int_equal(layout.choice.has_line, !limits->has_dedicated_local_memory);
 }
 

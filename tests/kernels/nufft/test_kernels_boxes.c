@@ -7,6 +7,7 @@
 #include "window_cells.h"
 
 #include "engines/torus/nufft/local.h"
+#include "engines/torus/nufft/variant.h"
 #include "nufft/boxes.h"
 
 #include <math.h>
@@ -182,7 +183,7 @@ static void make_sums(const boxes_case *one, boxes_data *data) {
 static void make_axes(const boxes_case *one, boxes_data *data) {
     ps_nufft_choice *const choice = &data->layout.choice;
     choice->num_axes = one->dimension;
-    choice->is_gridded = true;
+    choice->variant = &ps_nufft_large;
     for (unsigned i = 0; i < one->dimension; i++) {
         ps_nufft_axis *const axis = &choice->axes[i];
         const int32_t K = (int32_t)(one->n[i] * 2 / 5);
@@ -297,7 +298,7 @@ static void spread(const boxes_case *one, const boxes_data *data, size_t group, 
                    test_memory in[NUM_INPUTS], const slab *grid) {
     const ps_nufft_boxes *boxes = &data->layout.boxes;
     const uint32_t colours = boxes->colours[0] * boxes->colours[1] * boxes->colours[2];
-    const ps_nufft_local local = ps_nufft_grid_local(&data->layout);
+    const ps_nufft_local local = ps_nufft_boxes_local(&data->layout);
     for (uint32_t colour = 0; colour < colours; colour++) {
         boxes_numbers numbers = numbers_of(one, data, colour);
         numbers.first_row = grid->first_row;

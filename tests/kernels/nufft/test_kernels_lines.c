@@ -8,7 +8,8 @@
 
 #include "engines/nufft/grid_axis.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/sizes/lines.h"
+#include "engines/torus/nufft/sizes/lines.h"
+#include "engines/torus/nufft/variant.h"
 #include "engines/nufft/window.h"
 #include "math/pi.h"
 
@@ -161,7 +162,8 @@ static void upload(const lines_case *one, const places *some, test_memory in[NUM
 
 /* Local memory of a line. */
 static size_t line_reals(const ps_nufft_axis *axis) {
-    const ps_nufft_choice choice = {.num_axes = 1, .has_line = true, .axes = {*axis}};
+    const ps_nufft_choice choice = {
+        .variant = &ps_nufft_tiles, .num_axes = 1, .has_line = true, .axes = {*axis}};
     return ps_nufft_lines_measure(&choice, 1).spread_reals;
 }
 

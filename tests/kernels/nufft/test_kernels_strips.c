@@ -8,7 +8,8 @@
 
 #include "engines/nufft/grid_axis.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/sizes/strips.h"
+#include "engines/torus/nufft/sizes/strips.h"
+#include "engines/torus/nufft/variant.h"
 #include "engines/nufft/window.h"
 #include "math/pi.h"
 #include "nufft/strips.h"
@@ -173,11 +174,8 @@ static void check_set(const strips_case *one, const strips_data *data, size_t se
 
 static void make_data(const strips_case *one, strips_data *data) {
     const ps_precision precision = one->precision == 32 ? PS_SINGLE : PS_DOUBLE;
-    data->choice = (ps_nufft_choice){.lanes = one->lanes,
-                                     .num_axes = 2,
-                                     .span = one->K + 1,
-                                     .is_gridded = true,
-                                     .is_in_strips = true};
+    data->choice = (ps_nufft_choice){
+        .lanes = one->lanes, .num_axes = 2, .span = one->K + 1, .variant = &ps_nufft_strips};
     for (unsigned i = 0; i < 2; i++) {
         ps_nufft_axis *const axis = &data->choice.axes[i];
         *axis = (ps_nufft_axis){

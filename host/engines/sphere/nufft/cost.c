@@ -11,7 +11,7 @@
 
 /* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, steps of the kernels left out in turn, N = 1024 L =
  * 128 and N = 4096 L = 256; by cells 0.9 to 1.3 times that of batches of L = 64, 128 and 256 at
- * 1e-5 and 1e-12); spreading as in engines/nufft/whole_shape.c, and two arc tangents. */
+ * 1e-5 and 1e-12); spreading as in engines/torus/nufft/whole/, and two arc tangents. */
 static const double cycles_per_cell = 3; /* of a vector: cleared, fetched */
 
 static double spreading_cycles(const ps_nufft_axis *axis, double lanes, double num_points) {

@@ -2,16 +2,20 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 #define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 
-#include "engines/nufft/sizes/boxes.h"
-#include "engines/nufft/sizes/lines.h"
-#include "engines/nufft/sizes/strips.h"
-#include "engines/nufft/sizes/whole.h"
+#include "engines/torus/nufft/sizes/boxes.h"
+#include "engines/torus/nufft/sizes/lines.h"
+#include "engines/torus/nufft/sizes/strips.h"
+#include "engines/torus/nufft/sizes/whole.h"
 
 /* Buffers of the grid of a large set. */
 enum { PS_NUFFT_MOST_SLABS = 16 };
 
 /* Parts of a chunk of a large set, which are sorted side by side. */
 enum { PS_NUFFT_MOST_PARTS = 8 };
+
+/* Work-groups for each core that each do whole realizations: so few that grids stay in the cache,
+ * so many that no core waits long for another. */
+enum { PS_NUFFT_GROUPS_PER_CORE = 4 };
 
 typedef struct ps_nufft_layout {
     ps_nufft_choice choice;
@@ -33,10 +37,12 @@ typedef struct ps_nufft_layout {
     uint32_t num_slabs;
     size_t strip_columns;   /* cells of the other axes transformed along axis 0 at a time; 0: all */
     uint32_t tiles_at_once; /* made of the grid at a time */
-    uint32_t num_keys;      /* cells that points are sorted by */
-    size_t part_points;     /* points sorted together: all of a realization, or part of a chunk */
-    size_t part_places;     /* whole units of places for them */
-    size_t parts;           /* whose places are made at a time */
+    uint32_t num_keys; /* cells that points are sorted by: those of the axes from first_key on, */
+    unsigned first_key;
+    bool has_boxes;     /* or boxes */
+    size_t part_points; /* points sorted together: all of a realization, or part of a chunk */
+    size_t part_places; /* whole units of places for them */
+    size_t parts;       /* whose places are made at a time */
     ps_nufft_whole_sizes whole;
     ps_nufft_strip_sizes strips;
     size_t groups; /* of whole realizations, and of those in strips */

@@ -22,9 +22,13 @@ size_t ps_nufft_fitting_tiles(const ps_nufft_layout *layout, uint64_t local_byte
     return local_bytes > chunk ? (size_t)(local_bytes - chunk) / tile : 0;
 }
 
+size_t ps_nufft_tiles_local_bytes(const ps_nufft_layout *layout) {
+    return tiles_and_chunk(layout, layout->group);
+}
+
 static const size_t cells_bytes = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t);
 
-ps_nufft_local ps_nufft_grid_local(const ps_nufft_layout *layout) {
+ps_nufft_local ps_nufft_boxes_local(const ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
     size_t windows = PS_NUFFT_MAX_AXES + 1; /* centres and weights */
     for (unsigned i = 0; i < choice->num_axes; i++) {
@@ -36,43 +40,10 @@ ps_nufft_local ps_nufft_grid_local(const ps_nufft_layout *layout) {
                             .cells = cells_bytes};
 }
 
-ps_nufft_local ps_nufft_whole_local(const ps_nufft_layout *layout) {
-    return (ps_nufft_local){.windows = layout->whole.window_reals * layout->real_bytes,
-                            .cells = cells_bytes};
+ps_nufft_local ps_nufft_windows_local(const ps_nufft_layout *layout, size_t window_reals) {
+    return (ps_nufft_local){.windows = window_reals * layout->real_bytes, .cells = cells_bytes};
 }
 
-ps_nufft_local ps_nufft_strips_local(const ps_nufft_layout *layout) {
-    return (ps_nufft_local){.windows = layout->strips.window_reals * layout->real_bytes,
-                            .cells = cells_bytes};
-}
-
-static size_t sum(ps_nufft_local local) {
+size_t ps_nufft_local_sum(ps_nufft_local local) {
     return local.rows + local.windows + local.cells;
-}
-
-static size_t whole_bytes(const ps_nufft_layout *layout) {
-    return sum(ps_nufft_whole_local(layout));
-}
-
-static size_t strips_bytes(const ps_nufft_layout *layout) {
-    return sum(ps_nufft_strips_local(layout));
-}
-
-static size_t tiles_bytes(const ps_nufft_layout *layout) {
-    return tiles_and_chunk(layout, layout->group);
-}
-
-/* Transforms have a row. */
-static size_t large_bytes(const ps_nufft_layout *layout) {
-    const size_t spread = sum(ps_nufft_grid_local(layout));
-    return spread > layout->row_bytes ? spread : layout->row_bytes;
-}
-
-size_t ps_nufft_local_bytes(const ps_nufft_layout *layout) {
-    static size_t (*const bytes[PS_NUFFT_NUM_WAYS])(const ps_nufft_layout *) = {
-        [PS_NUFFT_TILES] = tiles_bytes,
-        [PS_NUFFT_LARGE] = large_bytes,
-        [PS_NUFFT_WHOLE] = whole_bytes,
-        [PS_NUFFT_STRIPS] = strips_bytes};
-    return bytes[ps_nufft_way_of(&layout->choice)](layout);
 }

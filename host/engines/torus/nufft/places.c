@@ -22,15 +22,11 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
                             "starts of cells", error);
 }
 
-static bool has_boxes(const ps_nufft_layout *layout) {
-    return ps_nufft_way_of(&layout->choice) == PS_NUFFT_LARGE;
-}
-
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
     char options[64];
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DBOXES=%u",
              precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->dimension,
-             has_boxes(self->layout));
+             self->layout->has_boxes);
     return ps_kernel_create(self->device, &self->sort, "nufft/sort.cl", "nufft_sort", options,
                             error);
 }
@@ -79,8 +75,8 @@ pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *par
 /* The cells that tiles want points by, those of axis 1 for strips, or boxes. */
 static void set_keys(const ps_nufft_layout *layout, sort_numbers *numbers) {
     const ps_nufft_choice *choice = &layout->choice;
-    const bool are_boxes = has_boxes(layout);
-    const ps_nufft_axis *axes = choice->axes + (choice->is_in_strips ? 1 : 0);
+    const bool are_boxes = layout->has_boxes;
+    const ps_nufft_axis *axes = choice->axes + layout->first_key;
     const bool have_second = are_boxes || layout->num_keys > axes[0].n;
     const unsigned num = are_boxes ? choice->num_axes : have_second ? 2 : 1;
     const unsigned first = PS_NUFFT_MAX_AXES - choice->num_axes; /* of boxes */

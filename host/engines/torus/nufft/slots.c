@@ -1,16 +1,5 @@
 #include "engines/torus/nufft/slots.h"
 
-/* k or -k, whichever has its rest modulo the first length in the first half. */
-static uint32_t line_slot(const ps_nufft_layout *layout, uint32_t k) {
-    const uint32_t first = layout->choice.lengths[0];
-    const uint32_t rest = k % first;
-    uint32_t kept[2];
-    ps_nufft_whole_kept(&layout->choice, kept);
-    const uint32_t k_1 = rest <= first / 2 ? rest : first - rest;
-    const uint32_t q = rest <= first / 2 ? kept[1] + k / first : kept[1] - k / first - 1;
-    return (k_1 / layout->lanes * (2 * kept[1] + 1) + q) * layout->lanes + k_1 % layout->lanes;
-}
-
 /* Of frequency 0 of axis 0, kernels/nufft/lines.cl. */
 static uint32_t slot_at_zero(const ps_nufft_layout *layout, const int32_t *k) {
     unsigned num = 0;
@@ -24,8 +13,8 @@ static uint32_t slot_at_zero(const ps_nufft_layout *layout, const int32_t *k) {
 }
 
 /* In tiles. along: of axis 0, not negative; sign: of k there */
-static uint32_t tile_slot(const ps_nufft_layout *layout, const int32_t *last_k, uint32_t along,
-                          int32_t sign) {
+static uint32_t slot_in_tiles(const ps_nufft_layout *layout, const int32_t *last_k, uint32_t along,
+                              int32_t sign) {
     const ps_nufft_choice *choice = &layout->choice;
     const bool has_stride = choice->stride != 0;
     const uint32_t within = has_stride ? along % choice->stride : along - ps_nufft_base(choice);
@@ -42,15 +31,12 @@ static uint32_t tile_slot(const ps_nufft_layout *layout, const int32_t *last_k, 
     return slot * layout->lanes + within % layout->lanes;
 }
 
-uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
+uint32_t ps_nufft_tile_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
     const ps_nufft_choice *choice = &layout->choice;
     const int32_t sign = k[0] < 0 ? -1 : 1; /* |S(-k)| = |S(k)| */
     const uint32_t along = (uint32_t)(sign * k[0]);
-    if (choice->is_whole && dimension == 1) {
-        return line_slot(layout, along);
-    }
     if (choice->has_line && along == 0) {
         return slot_at_zero(layout, k);
     }
-    return tile_slot(layout, dimension > 1 ? k + 1 : NULL, along, sign);
+    return slot_in_tiles(layout, dimension > 1 ? k + 1 : NULL, along, sign);
 }

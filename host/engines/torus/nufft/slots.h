@@ -4,7 +4,7 @@
 
 #include "engines/torus/nufft/layout.h"
 
-/* The place of the power of a frequency in a row. */
-uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
+/* Of frequency k in a row of tiles. */
+uint32_t ps_nufft_tile_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
 
 #endif

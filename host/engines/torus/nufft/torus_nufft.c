@@ -4,12 +4,8 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
-#include "engines/nufft/choose.h"
-#include "engines/nufft/cost.h"
-#include "engines/nufft/error.h"
-#include "engines/nufft/grid_axis.h"
-#include "engines/torus/nufft/slots.h"
-#include "engines/torus/nufft/variants.h"
+#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/variant.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,20 +47,20 @@ static double kernels_of_line(const ps_nufft_choice *choice) {
 
 static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
                        ps_precision precision) {
-    const ps_nufft_variant *const way = &ps_nufft_variants[ps_nufft_way_of(&layout->choice)];
+    const ps_nufft_variant *const variant = layout->choice.variant;
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     return (ps_work){
         .transform_flops =
             realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
-        .launches = way->count_launches(layout, (double)problem->num_points, realizations),
-        .kernels = way->kernels[layout->choice.num_axes > 1] + kernels_of_line(&layout->choice),
+        .launches = variant->count_launches(layout, (double)problem->num_points, realizations),
+        .kernels = variant->kernels[layout->choice.num_axes > 1] + kernels_of_line(&layout->choice),
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
         .bytes_per_realization = (double)layout->bytes_per_realization,
         .row_bytes = (double)(layout->stride * layout->real_bytes),
         .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization,
-        .takes_blocks = way->takes_one};
+        .takes_blocks = variant->launcher->add != NULL};
 }
 
 static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
@@ -103,7 +99,11 @@ static void destroy(void *state) {
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
         ps_nufft_plan_free(&self->plans[i]);
     }
-    self->variant->free(self);
+    if (self->own != NULL) {
+        self->launcher->free(self->own);
+    }
+    ps_nufft_places_free(&self->places);
+    free(self->own);
     free(self->means_of_parts);
     free(self);
 }
@@ -121,14 +121,19 @@ static pspec_status create_buffers(ps_nufft_state *self, size_t rows, ps_error *
 
 static pspec_status create_parts(ps_nufft_state *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
+    const ps_nufft_launcher *const launcher = self->launcher;
     PS_TRY(PS_NEW(&self->means_of_parts, self->layout.parts, "means", error));
     for (unsigned i = 0; i < choice->num_axes; i++) {
-        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i],
-                                    self->variant->has_transforms, problem->tolerance,
-                                    self->precision, self->device, error));
+        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], launcher->has_transforms,
+                                    problem->tolerance, self->precision, self->device, error));
     }
     PS_TRY(create_buffers(self, self->batch, error));
-    return self->variant->create(self, error);
+    if (launcher->sorts) {
+        PS_TRY(ps_nufft_places_create(&self->places, &self->layout, problem->frequencies->dimension,
+                                      self->precision, self->device, error));
+    }
+    PS_TRY(ps_allocate(&self->own, 1, launcher->own_bytes, "an engine", error));
+    return launcher->create(self, error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
@@ -142,7 +147,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
     ps_nufft_layout_shrink(&self->layout, batch);
-    self->variant = &ps_nufft_variants[ps_nufft_way_of(&self->layout.choice)];
+    self->launcher = self->layout.choice.variant->launcher;
     const pspec_status status = create_parts(self, problem, error);
     if (status != PSPEC_OK) {
         destroy(self);
@@ -156,7 +161,8 @@ static void get_slots(const void *state, uint32_t *slots) {
     const ps_nufft_state *self = state;
     const ps_frequencies *set = self->problem.frequencies;
     for (size_t i = 0; i < set->num; i++) {
-        slots[i] = ps_nufft_slot(&self->layout, set->vectors + i * set->dimension, set->dimension);
+        slots[i] = self->layout.choice.variant->slot(
+            &self->layout, set->vectors + i * set->dimension, set->dimension);
     }
 }
 
@@ -164,12 +170,45 @@ static size_t get_stride(const void *state) {
     return ((const ps_nufft_state *)state)->layout.stride;
 }
 
-/* ---- run --------------------------------------------------------------------------------- */
+/* ---- means of cells ---------------------------------------------------------------------- */
 
-static size_t stream_unit(const void *state) {
-    const ps_nufft_state *self = state;
-    return self->variant->takes_one ? self->layout.parts * self->layout.part_points : 0;
+/* A sum of weights, and more of them. */
+static double add_weights(double sum, const pspec_pattern *pattern, int exponent) {
+    if (pattern->weights == NULL) {
+        return sum + (double)pattern->num_points;
+    }
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        sum += ldexp(pattern->weights[j], -exponent);
+    }
+    return sum;
 }
+
+/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
+static double mean_of_cells(const ps_nufft_state *self, double weight_sum) {
+    const ps_nufft_choice *choice = &self->layout.choice;
+    double mean = weight_sum;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        const double q = i == 0 && choice->stride != 0 ? axis->max_frequency : 0;
+        mean *= ps_nufft_window_transform(&axis->window, q / axis->n) / axis->n;
+    }
+    return mean;
+}
+
+static int exponent_of(const ps_batch *batch, size_t pattern) {
+    return batch->exponents != NULL ? batch->exponents[pattern] : 0;
+}
+
+static pspec_status upload_means(ps_nufft_state *self, const ps_batch *some, ps_error *error) {
+    for (size_t r = 0; r < some->num_patterns; r++) {
+        self->means_of_parts[r] =
+            mean_of_cells(self, add_weights(0, &some->patterns[r], exponent_of(some, r)));
+    }
+    return ps_reals_write(self->device, &self->means, self->precision, self->means_of_parts,
+                          some->num_patterns, error);
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
 
 static ps_rows show_rows(const ps_nufft_state *self, size_t num_rows) {
     return (ps_rows){.num_rows = num_rows,
@@ -178,32 +217,69 @@ static ps_rows show_rows(const ps_nufft_state *self, size_t num_rows) {
                      .device = self->power};
 }
 
-static pspec_status finish_large(void *state, double scale, ps_rows *rows, ps_error *error) {
+static size_t stream_unit(const void *state) {
+    const ps_nufft_state *self = state;
+    return self->launcher->add != NULL ? self->layout.parts * self->layout.part_points : 0;
+}
+
+static pspec_status begin_blocks(void *state, ps_error *error) {
+    ps_nufft_state *self = state;
+    (void)error;
+    self->sum_of_blocks = 0;
+    self->launcher->begin(self);
+    return PSPEC_OK;
+}
+
+static pspec_status add_block(void *state, const ps_batch *block, ps_error *error) {
+    ps_nufft_state *self = state;
+    self->sum_of_blocks =
+        add_weights(self->sum_of_blocks, &block->patterns[0], exponent_of(block, 0));
+    return self->launcher->add(self, block, error);
+}
+
+static pspec_status finish_blocks(ps_nufft_state *self, const ps_nufft_target *target,
+                                  ps_error *error) {
+    const double mean = mean_of_cells(self, self->sum_of_blocks);
+    PS_TRY(ps_reals_write(self->device, &self->means, self->precision, &mean, 1, error));
+    return self->launcher->run(self, 1, target, error);
+}
+
+static pspec_status finish_stream(void *state, double scale, ps_rows *rows, ps_error *error) {
     ps_nufft_state *self = state;
     const ps_nufft_target target = {&self->power, &self->scales, 0};
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, &scale, 1, error));
     *rows = show_rows(self, 1);
-    return ps_nufft_large_end(self, &target, error);
-}
-
-static pspec_status begin_large(void *state, ps_error *error) {
-    (void)error;
-    ps_nufft_large_begin(state);
-    return PSPEC_OK;
-}
-
-static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
-    return ps_nufft_large_add(state, block, error);
+    return finish_blocks(self, &target, error);
 }
 
 static const ps_engine_stream stream = {
-    .unit = stream_unit, .begin = begin_large, .add = add_large, .finish = finish_large};
+    .unit = stream_unit, .begin = begin_blocks, .add = add_block, .finish = finish_stream};
+
+/* Points go first: what is written after them waits for the launch before. */
+static pspec_status upload(ps_nufft_state *self, const ps_batch *some, ps_error *error) {
+    PS_TRY(self->launcher->upload != NULL ? self->launcher->upload(self, some, error)
+                                          : ps_nufft_places_upload(&self->places, some, error));
+    PS_TRY(upload_means(self, some, error));
+    return self->launcher->sorts ? ps_nufft_places_sort(&self->places, some->num_patterns, error)
+                                 : PSPEC_OK;
+}
+
+static pspec_status run_some(ps_nufft_state *self, const ps_batch *some,
+                             const ps_nufft_target *target, ps_error *error) {
+    if (self->launcher->add != NULL) {
+        PS_TRY(begin_blocks(self, error));
+        PS_TRY(add_block(self, some, error));
+        return finish_blocks(self, target, error);
+    }
+    PS_TRY(upload(self, some, error));
+    return self->launcher->run(self, some->num_patterns, target, error);
+}
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     ps_nufft_state *self = state;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
-    const size_t at_once = self->variant->takes_one ? 1 : self->layout.parts;
+    const size_t at_once = self->launcher->add != NULL ? 1 : self->layout.parts;
     for (size_t row = 0; row < batch->num_patterns; row += at_once) {
         const size_t rest = batch->num_patterns - row;
         ps_batch some = *batch;
@@ -212,11 +288,11 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         some.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
         PS_TRY(ps_batch_go_on(batch, error));
         const ps_nufft_target target = {&self->power, &self->scales, row};
-        PS_TRY(self->variant->run(self, &some, &target, error));
+        PS_TRY(run_some(self, &some, &target, error));
     }
-    if (self->variant->finish != NULL) {
+    if (self->launcher->finish != NULL) {
         const ps_nufft_target target = {&self->power, &self->scales, 0};
-        PS_TRY(self->variant->finish(self, batch->num_patterns, &target, error));
+        PS_TRY(self->launcher->finish(self, batch->num_patterns, &target, error));
     }
     *rows = show_rows(self, batch->num_patterns);
     return PSPEC_OK;
@@ -234,7 +310,7 @@ static void describe(const void *state, ps_text *text) {
                        axis->n / (2.0 * axis->max_frequency), axis->window.width,
                        self->plans[i].degree);
     }
-    self->variant->describe(self, text);
+    choice->variant->describe(&self->layout, text);
     ps_text_append(text, " at_once=%zu)", self->layout.parts);
 }
 

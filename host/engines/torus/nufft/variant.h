@@ -1,0 +1,105 @@
+/* What differs between the ways in which torus_nufft treats a problem. A variant is a row, which
+ * says when it applies and what it takes, and a launcher, which does it on the device; both are in
+ * a folder of its own. variants.c lists the rows.
+ */
+#ifndef PS_ENGINES_TORUS_NUFFT_VARIANT_H
+#define PS_ENGINES_TORUS_NUFFT_VARIANT_H
+
+#include "engines/nufft/grid_axis.h"
+#include "engines/torus/nufft/cost.h"
+#include "engines/torus/nufft/layout.h"
+#include "engines/torus/nufft/places.h"
+
+/* Makes powers of realizations that are on their way to the device. */
+typedef struct ps_nufft_launcher ps_nufft_launcher;
+
+struct ps_nufft_variant {
+    bool on_cpus, on_gpus; /* kinds of devices that it serves */
+    bool is_gridded;       /* spreads points on all axes, axis 0 included, as real numbers */
+    bool are_alike;        /* its axes have the same cells and windows */
+
+    /* ---- what a choice is made of (choose.c) */
+    /* Makes offer number `which` to a problem, with frequencies and without grids; false: there are
+     * no more. */
+    bool (*offer)(const ps_problem *, unsigned lanes, unsigned which, ps_nufft_choice *);
+    /* What the cells of an axis are a multiple of; NULL: 1. */
+    uint32_t (*unit)(const ps_nufft_choice *, unsigned axis);
+    /* Completes a choice whose axes have grids and windows, in way number `which`; false: there are
+     * no more, or it cannot be done. NULL: nothing is left to choose. */
+    bool (*complete)(ps_nufft_choice *, const ps_problem *, ps_precision, unsigned which);
+    /* What is left to decide, whatever it costs, once this choice is the best; NULL: nothing. */
+    void (*settle)(ps_nufft_choice *, const ps_problem *, const ps_device_limits *);
+    /* Adds what one realization of num_points takes (cost.h). */
+    void (*count)(ps_nufft_counts *, const ps_nufft_choice *, ps_precision, double num_points);
+
+    /* ---- errors (error.c) */
+    double turning_roundings; /* between two transforms of one dimension */
+    bool has_lattices;        /* plain sums of large sets in space may round in step */
+
+    /* ---- sizes (layout.c, local.h) */
+    /* Fills the rest of a layout, or leaves it without lanes. */
+    void (*measure)(ps_nufft_layout *, const ps_problem *, const ps_device_limits *);
+    size_t (*local_bytes)(const ps_nufft_layout *); /* the most that a launch takes */
+    /* Where in a row the power of frequency k stands. */
+    uint32_t (*slot)(const ps_nufft_layout *, const int32_t *k, unsigned dimension);
+    double (*count_launches)(const ps_nufft_layout *, double num_points, double realizations);
+    double kernels[2]; /* programs, with one axis and with more */
+    void (*describe)(const ps_nufft_layout *, ps_text *);
+
+    const ps_nufft_launcher *launcher;
+};
+
+typedef struct ps_nufft_state {
+    ps_device *device;
+    ps_problem problem;
+    ps_precision precision;
+    ps_nufft_layout layout;
+    const ps_nufft_launcher *launcher; /* that of the layout's variant */
+    size_t batch;
+    ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
+    ps_nufft_places places; /* of launchers that sort points */
+    void *own;              /* what the launcher has besides */
+    ps_buffer means, scales, power;
+    double *means_of_parts;
+    double sum_of_blocks; /* of the weights added so far */
+} ps_nufft_state;
+
+struct ps_nufft_launcher {
+    bool has_transforms; /* of its axes: their plans have tables for them */
+    bool sorts;          /* points by cells: places are created for it */
+    size_t own_bytes;    /* of ps_nufft_state.own, which begins as zeros */
+    pspec_status (*create)(ps_nufft_state *, ps_error *);
+    void (*free)(void *own); /* also what was created in part */
+    /* Brings the points of some realizations to the device, as many as the layout's parts at most.
+     * NULL: they are sorted into places. */
+    pspec_status (*upload)(ps_nufft_state *, const ps_batch *some, ps_error *);
+    /* Makes the powers of what was uploaded. ps_nufft_state.means has what frequency 0 leaves in a
+     * cell of each, which is taken off. */
+    pspec_status (*run)(ps_nufft_state *, size_t num_realizations, const ps_nufft_target *,
+                        ps_error *);
+    /* What is left to do once all realizations of a batch were run; NULL: nothing. */
+    pspec_status (*finish)(ps_nufft_state *, size_t num_realizations, const ps_nufft_target *,
+                           ps_error *);
+    /* One realization at a time, in blocks of any number of points: begin, add any number of times,
+     * run. NULL: as many realizations at a time as the layout has parts. Bits are the same in
+     * several calls if all but the last have a multiple of layout.parts * layout.part_points. */
+    void (*begin)(ps_nufft_state *);
+    pspec_status (*add)(ps_nufft_state *, const ps_batch *block, ps_error *);
+};
+
+/* In the order in which they are tried, ended by NULL. */
+extern const ps_nufft_variant *const ps_nufft_variants[];
+
+/* Sorted points are spread on rows of tiles of frequencies. */
+extern const ps_nufft_variant ps_nufft_tiles;
+/* One very large set at a time is spread on a grid, chunk by chunk. */
+extern const ps_nufft_variant ps_nufft_large;
+/* Each realization is done in one go by one work-group. */
+extern const ps_nufft_variant ps_nufft_whole;
+/* The same, on strips of a grid. */
+extern const ps_nufft_variant ps_nufft_strips;
+
+extern const ps_nufft_launcher ps_nufft_tiles_launcher, ps_nufft_large_launcher,
+    ps_nufft_whole_launcher, ps_nufft_strips_launcher;
+
+#endif
