@@ -106,7 +106,13 @@ __kernel void torus_product(const product_numbers numbers, __global const real *
         const size_t row = numbers.first_row + realization;
         __global real *out = power + row * numbers.stride + pair * LANES * 2 * LANES;
         for (int left = 0; left < LANES; left++) {
-            store_powers(tile_sums + left * 8 * LANES, (realv)scales[row], out + left * 2 * LANES);
+            realv sum[4], low[4];
+#pragma unroll
+            for (int i = 0; i < 4; i++) {
+                sum[i] = load_global(tile_sums, (left * 4 + i) * 2);
+                low[i] = load_global(tile_sums, (left * 4 + i) * 2 + 1);
+            }
+            store_powers(sum, low, (realv)scales[row], out + left * 2 * LANES);
         }
     }
 }

@@ -1,49 +1,92 @@
-/* The sums of torus/product.cl, by work-groups that share the tables: for devices with local memory
- * of their own, where every work-item keeps its sums in registers.
+/* The sums of torus/product.cl without a table, by work-groups that share cosines and sines: for
+ * devices with local memory of their own, where every work-item keeps its sums in registers.
  *
  * A block is BLOCK_TILES left times BLOCK_TILES right tiles of one realization. A job is STRIP left
  * frequencies times a right tile; a work-group takes as many jobs of a block at a time as it has
- * work-items. The points of a run come into local memory, one run after the other. Every sum adds
- * the same numbers in the same order as in torus/product.cl, so results are equal to the bit.
+ * work-items. For the points of a run, one run after the other, the group makes the cosines and
+ * sines of all frequencies of the block in local memory, by the operations of torus/list.cl; every
+ * sum adds the same numbers in the same order as in torus/product.cl. So results are equal to the
+ * bit. A job reads vectors that lie side by side, or one that its neighbours read, too.
  *
  * Launch: (work-items of one group, blocks, realizations).
  *
- *   numbers, table, offsets, sums, scales, power
- *            of torus/product.cl; every sum is begun anew when is_first is set, and powers are
- *            written when is_last is set
- *   blocks   [block]: first left tile, first right tile
- *   pairs    [block][left in block][right in block]: the pair, or NO_PAIR
- *   runs     local, [RUN][cos, sin][ROW] of left tiles, then of right tiles
+ *   numbers      torus/product.h; every sum is begun anew when is_first is set, powers are written
+ *                when is_last is set, sums unless it is, or if keeps_sums is
+ *   points, weights, offsets, frequencies
+ *                of torus/list.cl: left tiles, with the weights, then right tiles
+ *   blocks       [block]: first left tile, first right tile
+ *   pairs        [block][left in block][right in block]: the pair, or NO_PAIR
+ *   sums, scales, power
+ *                of torus/product.cl
+ *   runs         local, [RUN][cos, sin][BLOCK_TILES] vectors of left tiles, then of right tiles
  */
-#ifndef LANES
-#define LANES 4 /* whole strips */
-#endif
 #include "shared/real.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
+#include "shared/turn.h"
 #include "torus/layout.h"
+#include "torus/phase.h"
 #include "torus/powers.h"
 #include "torus/product.h"
 
-#define STRIP PRODUCT_STRIP
+/* In whole tokens, for it is part of the name of a type. */
+#if PRECISION == 32
+#define STRIP 4
+#else
+#define STRIP 2
+#endif
 #define STRIPS (LANES / STRIP)
-typedef PS_JOIN(REAL, 2) strip_real;
+typedef PS_JOIN(REAL, STRIP) strip_real;
+#if STRIP == 4
+#define STRIP_OF(v)                                                                                \
+    { (realv) v.x, (realv)v.y, (realv)v.z, (realv)v.w }
+#else
+#define STRIP_OF(v)                                                                                \
+    { (realv) v.x, (realv)v.y }
+#endif
 #define JOBS (BLOCK_TILES * STRIPS * BLOCK_TILES)
 
-/* Vectors of a side, and one more: work-items that write neighbouring rows use other banks. */
-#define ROW (BLOCK_TILES + 1)
+#ifndef LEFT_AXES
+#define LEFT_AXES DIMENSION
+#endif
+#if LEFT_AXES < DIMENSION
+#define RIGHT_BEGIN LEFT_AXES
+#else
+#define RIGHT_BEGIN 0
+#endif
 
-/* Points first .. first + num - 1 of tiles first_tile .. of one side; zeros of those behind
- * end_tile. */
-static inline void load_side(__local realv *to, __global const realv *table, const uint first_tile,
-                             const uint end_tile, const ulong table_points, const ulong first,
-                             const uint num) {
-    for (uint i = get_local_id(0); i < BLOCK_TILES * 2 * RUN; i += get_local_size(0)) {
-        const uint tile = first_tile + i / (2 * RUN), row = i % (2 * RUN);
-        if (row < 2 * num) {
-            to[row * ROW + i / (2 * RUN)] =
-                tile < end_tile ? table[(tile * table_points + first) * 2 + row] : (realv)0;
+/* What a run is made of. */
+typedef struct factors {
+    __global const ulong *points;
+    __global const real *weights;
+    __global const word *frequencies;
+    size_t num_tiles;
+} factors;
+
+/* Cosines and sines of the num points from first on, of tiles first_tile .. of one side, over its
+ * axes, which are constants in every call; zeros of tiles from end_tile on. */
+static inline void make_side(__local realv *to, const factors *from, const uint first_tile,
+                             const uint end_tile, const ulong first, const uint num,
+                             const int first_axis, const int last_axis, const int is_weighted) {
+    for (uint i = get_local_id(0); i < BLOCK_TILES * num; i += get_local_size(0)) {
+        const uint own = i % BLOCK_TILES, j = i / BLOCK_TILES;
+        __local realv *const at = to + 2 * j * BLOCK_TILES + own;
+        const size_t tile = min(first_tile + own, end_tile - 1);
+        const realv weight =
+            first_tile + own < end_tile ? (realv)from->weights[first + j] : (realv)0;
+        const realv factor = is_weighted || first_tile + own >= end_tile ? weight : (realv)1;
+        wordv k[DIMENSION];
+        realv k_real[DIMENSION], cosine, sine;
+#pragma unroll
+        for (int axis = 0; axis < DIMENSION; axis++) {
+            k[axis] = LOADV(axis * from->num_tiles + tile, from->frequencies);
+            k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
         }
+        turn_cosine_sine(phase_of_point(k, k_real, from->points + (first + j) * DIMENSION,
+                                        first_axis, last_axis),
+                         &cosine, &sine);
+        at[0] = factor * cosine;
+        at[BLOCK_TILES] = factor * sine;
     }
 }
 
@@ -57,10 +100,10 @@ static inline void add_run(realv high[STRIP][4], realv low[STRIP][4],
         sum[i][0] = sum[i][1] = sum[i][2] = sum[i][3] = (realv)0;
     }
     for (uint j = 0; j < num; j++) {
-        const realv right_cos = right[0], right_sin = right[ROW];
-        const strip_real left_cos = left[0], left_sin = left[ROW * STRIPS];
-        const realv cosines[STRIP] = {(realv)left_cos.x, (realv)left_cos.y};
-        const realv sines[STRIP] = {(realv)left_sin.x, (realv)left_sin.y};
+        const realv right_cos = right[0], right_sin = right[BLOCK_TILES];
+        const strip_real left_cos = left[0], left_sin = left[BLOCK_TILES * STRIPS];
+        const realv cosines[STRIP] = STRIP_OF(left_cos);
+        const realv sines[STRIP] = STRIP_OF(left_sin);
 #pragma unroll
         for (int i = 0; i < STRIP; i++) {
             sum[i][0] = fma(cosines[i], right_cos, sum[i][0]);
@@ -68,8 +111,8 @@ static inline void add_run(realv high[STRIP][4], realv low[STRIP][4],
             sum[i][2] = fma(cosines[i], right_sin, sum[i][2]);
             sum[i][3] = fma(sines[i], right_sin, sum[i][3]);
         }
-        left += 2 * ROW * STRIPS;
-        right += 2 * ROW;
+        left += 2 * BLOCK_TILES * STRIPS;
+        right += 2 * BLOCK_TILES;
     }
 #pragma unroll
     for (int i = 0; i < STRIP * 4; i++) {
@@ -78,17 +121,18 @@ static inline void add_run(realv high[STRIP][4], realv low[STRIP][4],
 }
 
 __kernel void
-torus_product_shared(const product_numbers numbers, __global const realv *restrict table,
-                     __global const ulong *restrict offsets, __global const uint2 *restrict blocks,
-                     __global const uint *restrict pairs, __global real *restrict sums,
-                     __global const real *restrict scales, __global real *restrict power,
-                     __local realv *runs) {
+torus_product_shared(const product_numbers numbers, __global const ulong *restrict points,
+                     __global const real *restrict weights, __global const ulong *restrict offsets,
+                     __global const word *restrict frequencies,
+                     __global const uint2 *restrict blocks, __global const uint *restrict pairs,
+                     __global real *restrict sums, __global const real *restrict scales,
+                     __global real *restrict power, __local realv *runs) {
     const size_t block = get_global_id(1), realization = get_global_id(2);
-    const ulong count = offsets[realization + 1] - offsets[realization];
+    const ulong end = offsets[realization + 1];
     const uint num_left_tiles = (uint)numbers.num_left_tiles, num_tiles = (uint)numbers.num_tiles;
     const uint first_left = blocks[block].x, first_right = num_left_tiles + blocks[block].y;
-    __global const realv *own_table = table + realization * num_tiles * numbers.table_points * 2;
-    __local realv *const right_runs = runs + 2 * RUN * ROW;
+    const factors from = {points, weights, frequencies, num_tiles};
+    __local realv *const right_runs = runs + 2 * RUN * BLOCK_TILES;
 
     for (uint first_job = 0; first_job < JOBS; first_job += (uint)get_local_size(0)) {
         const uint job = min(first_job + (uint)get_local_id(0), (uint)JOBS - 1);
@@ -105,27 +149,32 @@ torus_product_shared(const product_numbers numbers, __global const realv *restri
             high[i / 4][i % 4] = is_new ? (realv)0 : load_global(own_sums, 2 * i);
             low[i / 4][i % 4] = is_new ? (realv)0 : load_global(own_sums, 2 * i + 1);
         }
-        for (ulong run = 0; run < count; run += RUN) {
-            const uint num = (uint)min((ulong)RUN, count - run);
+        for (ulong run = offsets[realization]; run < end; run += RUN) {
+            const uint num = (uint)min((ulong)RUN, end - run);
             barrier(CLK_LOCAL_MEM_FENCE);
-            load_side(runs, own_table, first_left, num_left_tiles, numbers.table_points, run, num);
-            load_side(right_runs, own_table, first_right, num_tiles, numbers.table_points, run,
-                      num);
+            make_side(runs, &from, first_left, num_left_tiles, run, num, 0, LEFT_AXES, 1);
+            make_side(right_runs, &from, first_right, num_tiles, run, num, RIGHT_BEGIN, DIMENSION,
+                      0);
             barrier(CLK_LOCAL_MEM_FENCE);
             add_run(high, low, (__local const strip_real *)runs + strip, right_runs + right, num);
         }
         if (!is_own) {
             continue;
         }
+        if (!numbers.is_last || numbers.keeps_sums) {
 #pragma unroll
-        for (int i = 0; i < STRIP * 4; i++) {
-            store_global(own_sums, 2 * i, high[i / 4][i % 4]);
-            store_global(own_sums, 2 * i + 1, low[i / 4][i % 4]);
+            for (int i = 0; i < STRIP * 4; i++) {
+                store_global(own_sums, 2 * i, high[i / 4][i % 4]);
+                store_global(own_sums, 2 * i + 1, low[i / 4][i % 4]);
+            }
         }
-        for (int i = 0; i < STRIP && numbers.is_last; i++) {
+#pragma unroll
+        for (int i = 0; i < STRIP; i++) {
             const size_t row = numbers.first_row + realization;
-            store_powers(own_sums + i * 8 * LANES, (realv)scales[row],
-                         power + row * numbers.stride + (left + i) * 2 * LANES);
+            if (numbers.is_last) {
+                store_powers(high[i], low[i], (realv)scales[row],
+                             power + row * numbers.stride + (left + i) * 2 * LANES);
+            }
         }
     }
 }

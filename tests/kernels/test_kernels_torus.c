@@ -1,6 +1,5 @@
-/* torus/product.cl, product_shared.cl, fold.cl and power.cl alone, with whole numbers chosen so
- * that every sum is exact in a pair and beyond the reach of one number: results must be equal,
- * not near.
+/* torus/product.cl, fold.cl and power.cl alone, with whole numbers chosen so that every sum is
+ * exact in a pair and beyond the reach of one number: results must be equal, not near.
  */
 #include "harness_kernels.h"
 #include "torus/product.h"
@@ -139,13 +138,9 @@ typedef struct product_memory {
     test_memory table, starts, sums, factors, power;
 } product_memory;
 
-typedef void launch_product(const build *one, cl_kernel kernel, size_t group,
-                            const product_numbers *numbers, const product_memory *memory);
-
-static void launch_pairs(const build *one, cl_kernel kernel, size_t group,
-                         const product_numbers *numbers, const product_memory *memory) {
+static void launch_pairs(cl_kernel kernel, size_t group, const product_numbers *numbers,
+                         const product_memory *memory) {
     test_memory tiles = test_memory_create(device, pairs, sizeof pairs);
-    (void)one;
     TEST_LAUNCH(device, kernel, group, PAIRS, REALIZATIONS, 1, PS_STRUCT(*numbers),
                 PS_BUFFER(memory->table.buffer), PS_BUFFER(memory->starts.buffer),
                 PS_BUFFER(tiles.buffer), PS_BUFFER(memory->sums.buffer),
@@ -153,30 +148,7 @@ static void launch_pairs(const build *one, cl_kernel kernel, size_t group,
     test_memory_free_unchanged(&tiles);
 }
 
-/* Two blocks, the second of the last left tile alone. */
-static void launch_blocks(const build *one, cl_kernel kernel, size_t group,
-                          const product_numbers *numbers, const product_memory *memory) {
-    static const uint32_t first_tiles[2][2] = {{0, 0}, {LEFT_TILES - 1, 0}};
-    uint32_t in_block[2][BLOCK_TILES][BLOCK_TILES];
-    memset(in_block, 0xff, sizeof in_block);
-    for (uint32_t i = 0; i < PAIRS; i++) {
-        const bool is_last = pairs[i][0] == LEFT_TILES - 1;
-        in_block[is_last][is_last ? 0 : pairs[i][0]][pairs[i][1]] = i;
-    }
-    test_memory blocks = test_memory_create(device, first_tiles, sizeof first_tiles);
-    test_memory tiles = test_memory_create(device, in_block, sizeof in_block);
-    const size_t row = (size_t)(BLOCK_TILES + 1) * one->lanes * one->precision / 8;
-    TEST_LAUNCH(device, kernel, group, group, 2, REALIZATIONS, PS_STRUCT(*numbers),
-                PS_BUFFER(memory->table.buffer), PS_BUFFER(memory->starts.buffer),
-                PS_BUFFER(blocks.buffer), PS_BUFFER(tiles.buffer), PS_BUFFER(memory->sums.buffer),
-                PS_BUFFER(memory->factors.buffer), PS_BUFFER(memory->power.buffer),
-                PS_LOCAL(2 * 2 * RUN * row));
-    test_memory_free_unchanged(&tiles);
-    test_memory_free_unchanged(&blocks);
-}
-
-static void check_group(const build *one, cl_kernel kernel, launch_product *launch, size_t group,
-                        const double *values) {
+static void check_group(const build *one, cl_kernel kernel, size_t group, const double *values) {
     const size_t table_length = (size_t)REALIZATIONS * TILES * TABLE_POINTS * 2 * one->lanes;
     const size_t sums_length = (size_t)REALIZATIONS * PAIRS * one->lanes * 8 * one->lanes;
     const size_t stride = (PAIRS * one->lanes * 2 + 1) * one->lanes;
@@ -199,7 +171,7 @@ static void check_group(const build *one, cl_kernel kernel, launch_product *laun
                                          .stride = stride,
                                          .is_first = times == 1,
                                          .is_last = times == 2};
-        launch(one, kernel, group, &numbers, &memory);
+        launch_pairs(kernel, group, &numbers, &memory);
         check_products(one, values, &memory.sums, times);
     }
     check_powers(one, &memory.sums, &memory.power, stride);
@@ -210,36 +182,21 @@ static void check_group(const build *one, cl_kernel kernel, launch_product *laun
     test_memory_free(&memory.sums);
 }
 
-static void check_groups(const build *one, const char *source, const char *name,
-                         launch_product *launch) {
+static void check_product(const build *one) {
     double *values = make_table(one);
-    cl_kernel kernel = test_kernel(device, source, name, "-DPRECISION=%u -DLANES=%u -DRUN=%d",
-                                   one->precision, one->lanes, RUN);
+    cl_kernel kernel =
+        test_kernel(device, "torus/product.cl", "torus_product",
+                    "-DPRECISION=%u -DLANES=%u -DRUN=%d", one->precision, one->lanes, RUN);
     for (size_t g = 0; g < one->num_groups; g++) {
-        check_group(one, kernel, launch, test_group_sizes[2 - g], values);
+        check_group(one, kernel, test_group_sizes[2 - g], values);
     }
     clReleaseKernel(kernel);
     free(values);
 }
 
-static void check_product(const build *one) {
-    check_groups(one, "torus/product.cl", "torus_product", launch_pairs);
-}
-
-static void check_shared_product(const build *one) {
-    if (one->lanes % PRODUCT_STRIP == 0) {
-        check_groups(one, "torus/product_shared.cl", "torus_product_shared", launch_blocks);
-    }
-}
-
 static void product(void **state) {
     (void)state;
     for_all_builds(check_product);
-}
-
-static void shared_product(void **state) {
-    (void)state;
-    for_all_builds(check_shared_product);
 }
 
 /* ---- fold -------------------------------------------------------------------------------- */
@@ -373,7 +330,6 @@ static void power_of_lists(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(product),
-        cmocka_unit_test(shared_product),
         cmocka_unit_test(fold),
         cmocka_unit_test(power_of_lists),
     };

@@ -28,6 +28,7 @@ typedef struct torus_direct {
     ps_torus_points points;
     ps_torus_sums sums;       /* of the list, or of the left and right factors of the grid */
     ps_torus_product product; /* grids only */
+    bool keeps_sums;          /* of products to the end: coefficients are made of them */
     ps_buffer scales, power;
 } torus_direct;
 
@@ -82,7 +83,9 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem)
                                          (double)(layout->left_tiles + layout->right_tiles), lanes);
     return (ps_work){
         .kernels = of_list + (layout->is_grid ? 1 : 0),
-        .phases = num_points * lanes * (double)(layout->left_tiles + layout->right_tiles),
+        .phases = num_points * lanes *
+                  ((double)(layout->left_tiles + layout->right_tiles) +
+                   (layout->is_shared ? 2.0 * BLOCK_TILES * (double)layout->max_blocks : 0)),
         .product_flops = 8 * realizations * product_points((double)problem->num_points) * box *
                          (has_corners && share < 1 ? share : 1),
         .launches = ceil(realizations / (double)layout->group) *
@@ -159,9 +162,9 @@ static pspec_status create_factor_sums(torus_direct *self, ps_error *error) {
     memcpy(vectors, split->left.vectors, split->left.num * dimension * sizeof(int32_t));
     memcpy((int32_t *)vectors + num_left * dimension, split->right.vectors,
            split->right.num * dimension * sizeof(int32_t));
-    const pspec_status status =
-        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors, self->batch,
-                             self->layout.group, true, split->left.num_tiles, self->device, error);
+    const pspec_status status = ps_torus_sums_create(
+        &self->sums, &self->layout, dimension, num, vectors, self->batch, self->layout.group,
+        self->layout.has_table, split->left.num_tiles, self->device, error);
     free(vectors);
     return status;
 }
@@ -253,9 +256,10 @@ static pspec_status multiply(torus_direct *self, const slab_place *at, size_t nu
                                      .first_row = at->first_row,
                                      .stride = self->stride,
                                      .is_first = at->first_point == 0,
-                                     .is_last = at->is_last};
-    const ps_torus_factors factors = {.table = &self->sums.table,
-                                      .offsets = &self->points.offsets,
+                                     .is_last = at->is_last,
+                                     .keeps_sums = self->keeps_sums};
+    const ps_torus_factors factors = {.sums = &self->sums,
+                                      .points = &self->points,
                                       .scales = &self->scales,
                                       .num_patterns = at->num_patterns,
                                       .num_points = num_points};
@@ -326,7 +330,12 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
     ps_batch batch = *one;
     ps_rows unused = {0};
     batch.scales = rows != NULL ? one->scales : &no_scale;
-    PS_TRY(run(state, &batch, rows != NULL ? rows : &unused, error));
+    self->keeps_sums = true;
+    const pspec_status status = run(state, &batch, rows != NULL ? rows : &unused, error);
+    self->keeps_sums = false;
+    if (status != PSPEC_OK) {
+        return status;
+    }
     const ps_torus_finished finished = {.frequencies = self->frequencies,
                                         .split = self->layout.is_grid ? &self->split : NULL,
                                         .products = &self->product.sums,

@@ -30,7 +30,7 @@ static double chunk_bytes(const ps_torus_layout *layout) {
     const double row = (double)layout->lanes * (double)layout->real_bytes;
     const double tiles = (double)(layout->left_tiles + layout->right_tiles);
     const double sums = 4 * tiles * row;
-    return layout->is_grid ? sums + PS_TORUS_CHUNK * tiles * 2 * row : sums;
+    return layout->has_table ? sums + PS_TORUS_CHUNK * tiles * 2 * row : sums;
 }
 
 static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
@@ -61,7 +61,7 @@ static uint64_t point_bytes(const ps_torus_layout *layout, unsigned dimension) {
 static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimension) {
     const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
-    const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
+    const uint64_t tables = layout->has_table ? tiles * layout->table_points * 2 * row : 0;
     const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
     return tables + products + 2 * point_bytes(layout, dimension); /* on the host, too */
 }
@@ -88,7 +88,7 @@ static uint64_t largest(const uint64_t *numbers, size_t num) {
 }
 
 size_t ps_torus_shared_bytes(const ps_torus_layout *layout) {
-    const size_t row = (BLOCK_TILES + 1) * layout->lanes * layout->real_bytes;
+    const size_t row = BLOCK_TILES * layout->lanes * layout->real_bytes;
     return 2 * 2 * PS_TORUS_RUN * row; /* sides, cosines and sines */
 }
 
@@ -104,9 +104,9 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
     const uint64_t buffers[] = {
-        layout->is_grid ? tiles * layout->table_points * 2 * row : 0, /* tables */
-        layout->max_pairs * layout->lanes * 8 * row,                  /* sums of products */
-        layout->table_points * dimension * sizeof(uint64_t),          /* points */
+        layout->has_table ? tiles * layout->table_points * 2 * row : 0, /* tables */
+        layout->max_pairs * layout->lanes * 8 * row,                    /* sums of products */
+        layout->table_points * dimension * sizeof(uint64_t),            /* points */
     };
     const uint64_t power = layout->max_stride * layout->real_bytes;
     const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
@@ -139,8 +139,9 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
     layout.max_blocks = ps_divide_up(layout.left_tiles, BLOCK_TILES) *
                         ps_divide_up(layout.right_tiles, BLOCK_TILES);
     layout.is_shared = layout.is_grid && limits->has_dedicated_local_memory &&
-                       layout.lanes % PRODUCT_STRIP == 0 &&
+                       layout.lanes % PRODUCT_STRIP(8 * layout.real_bytes) == 0 &&
                        ps_torus_shared_bytes(&layout) <= limits->local_bytes;
+    layout.has_table = layout.is_grid && !layout.is_shared;
     choose_slab(&layout, problem, limits);
     choose_group(&layout, problem, limits);
     count_bytes(&layout, set->dimension);

@@ -2,13 +2,8 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/torus/torus_sums.h"
 
 #include <stdlib.h>
-
-/* Work-items that share tables: as many as a block of vectors of 4 has strips times right tiles, so
- * that its tables are read once. */
-enum { SHARING_ITEMS = 128 };
 
 static pspec_status upload(ps_device *device, ps_buffer *buffer, const void *data, size_t bytes,
                            ps_error *error) {
@@ -75,6 +70,9 @@ static pspec_status create_kernel(ps_torus_product *self, const ps_torus_layout 
                                   unsigned dimension, ps_device *device, ps_error *error) {
     ps_text options = {0};
     ps_torus_options(&options, layout, dimension);
+    if (layout->is_shared) {
+        ps_text_append(&options, " -DLEFT_AXES=%u", layout->left_axes);
+    }
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
         status =
@@ -90,12 +88,19 @@ static pspec_status create_kernel(ps_torus_product *self, const ps_torus_layout 
 pspec_status ps_torus_product_create(ps_torus_product *out, const ps_torus_layout *layout,
                                      const ps_split *split, ps_device *device, ps_error *error) {
     const size_t lanes = layout->lanes;
+    const size_t strip = PRODUCT_STRIP(8 * layout->real_bytes);
+    const double tiles = (double)(layout->left_tiles + layout->right_tiles);
     *out = (ps_torus_product){.local_bytes = ps_torus_shared_bytes(layout),
+                              .sharing_items = BLOCK_TILES * BLOCK_TILES * lanes / strip,
                               .pair_numbers = (double)(lanes * lanes),
-                              .row_bytes = (double)(2 * lanes * layout->real_bytes)};
+                              .point_bytes = tiles * (double)(2 * lanes * layout->real_bytes)};
     PS_TRY(create_kernel(out, layout, split->dimension, device, error));
     if (layout->is_shared) {
         PS_TRY(upload_blocks(out, layout, split, device, error));
+        out->point_bytes = (double)out->num_blocks *
+                           (double)(split->dimension * sizeof(uint64_t) + layout->real_bytes);
+        out->point_flops = (double)out->num_blocks * 2 * BLOCK_TILES * (double)lanes *
+                           ps_torus_phase_flops(split->dimension, layout->real_bytes);
     } else {
         PS_TRY(upload(device, &out->pairs, split->pairs, split->num_pairs * sizeof *split->pairs,
                       error));
@@ -118,24 +123,34 @@ void ps_torus_product_free(ps_torus_product *product) {
 
 /* ---- add --------------------------------------------------------------------------------- */
 
+static pspec_status add_blocks(ps_torus_product *self, const product_numbers *numbers,
+                               const ps_torus_factors *factors, double flops, double bytes,
+                               const ps_buffer *power, ps_device *device, ps_error *error) {
+    const ps_torus_points *const points = factors->points;
+    /* As many items as a block has jobs, so that factors are made once. */
+    const ps_range range = ps_range_shared(device, self->sharing_items, self->num_blocks,
+                                           factors->num_patterns, flops, bytes);
+    return PS_LAUNCH(device, self->kernel, &range, error, PS_STRUCT(*numbers),
+                     PS_BUFFER(points->points), PS_BUFFER(points->weights),
+                     PS_BUFFER(points->offsets), PS_BUFFER(factors->sums->frequencies),
+                     PS_BUFFER(self->blocks), PS_BUFFER(self->pairs), PS_BUFFER(self->sums),
+                     PS_BUFFER(*factors->scales), PS_BUFFER(*power), PS_LOCAL(self->local_bytes));
+}
+
 pspec_status ps_torus_product_add(ps_torus_product *self, const product_numbers *numbers,
                                   const ps_torus_factors *factors, const ps_buffer *power,
                                   ps_device *device, ps_error *error) {
     const double num_points = (double)factors->num_points;
-    const double flops = 8 * num_points * (double)numbers->num_pairs * self->pair_numbers;
-    const double bytes = num_points * (double)numbers->num_tiles * self->row_bytes;
-    if (self->num_blocks == 0) {
-        const ps_range range =
-            ps_range_heavy(device, numbers->num_pairs, factors->num_patterns, 1, flops, bytes);
-        return PS_LAUNCH(device, self->kernel, &range, error, PS_STRUCT(*numbers),
-                         PS_BUFFER(*factors->table), PS_BUFFER(*factors->offsets),
-                         PS_BUFFER(self->pairs), PS_BUFFER(self->sums), PS_BUFFER(*factors->scales),
-                         PS_BUFFER(*power));
+    const double flops =
+        num_points * (8 * (double)numbers->num_pairs * self->pair_numbers + self->point_flops);
+    const double bytes = num_points * self->point_bytes;
+    if (self->num_blocks > 0) {
+        return add_blocks(self, numbers, factors, flops, bytes, power, device, error);
     }
-    const ps_range range = ps_range_shared(device, SHARING_ITEMS, self->num_blocks,
-                                           factors->num_patterns, flops, bytes);
+    const ps_range range =
+        ps_range_heavy(device, numbers->num_pairs, factors->num_patterns, 1, flops, bytes);
     return PS_LAUNCH(device, self->kernel, &range, error, PS_STRUCT(*numbers),
-                     PS_BUFFER(*factors->table), PS_BUFFER(*factors->offsets),
-                     PS_BUFFER(self->blocks), PS_BUFFER(self->pairs), PS_BUFFER(self->sums),
-                     PS_BUFFER(*factors->scales), PS_BUFFER(*power), PS_LOCAL(self->local_bytes));
+                     PS_BUFFER(factors->sums->table), PS_BUFFER(factors->points->offsets),
+                     PS_BUFFER(self->pairs), PS_BUFFER(self->sums), PS_BUFFER(*factors->scales),
+                     PS_BUFFER(*power));
 }

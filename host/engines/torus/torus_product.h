@@ -1,27 +1,30 @@
-/* Products of the two tables of a grid on the device: tile pairs, each by one work-item, or blocks
- * of them by work-groups that share the tables. */
+/* Products of the two factors of a grid on the device: tile pairs from tables, each by one
+ * work-item, or blocks of them by work-groups that make the factors in local memory. */
 #ifndef PS_ENGINES_TORUS_TORUS_PRODUCT_H
 #define PS_ENGINES_TORUS_TORUS_PRODUCT_H
 
 #include "device/device.h"
-#include "engines/torus/torus_layout.h"
 #include "engines/torus/torus_split.h"
+#include "engines/torus/torus_sums.h"
 #include "torus/product.h"
 
 typedef struct ps_torus_product {
     cl_kernel kernel;
     size_t num_blocks; /* 0: tile pairs one by one */
-    size_t local_bytes;
+    size_t local_bytes, sharing_items;
     double pair_numbers; /* products of numbers in a pair of tiles */
-    double row_bytes;    /* of a tile of the table */
+    double point_bytes;  /* read for each point: a row of the table, or the point by every block */
+    double point_flops;  /* of the factors that blocks make */
     ps_buffer pairs, blocks;
     ps_buffer sums; /* [group][pair][left in tile][cc, sc, cs, ss][high, low][lanes] */
 } ps_torus_product;
 
-/* What is multiplied: tables of kernels/torus/list.cl, of num_patterns realizations with num_points
- * points together. */
+/* What is multiplied: tables of kernels/torus/list.cl where the layout has them, else what they are
+ * made of; of num_patterns realizations with num_points points together. */
 typedef struct ps_torus_factors {
-    const ps_buffer *table, *offsets, *scales;
+    const ps_torus_sums *sums;
+    const ps_torus_points *points;
+    const ps_buffer *scales;
     size_t num_patterns, num_points;
 } ps_torus_factors;
 

@@ -105,10 +105,10 @@ void ps_torus_sums_free(ps_torus_sums *self) {
     *self = (ps_torus_sums){0};
 }
 
-/* Arithmetic of one (point, frequency) pair in torus_list, counted from its source: phase 3 d,
- * reduction 5, polynomials 22 (float) or 34 (double), sums 4. */
-static double phase_flops(const ps_torus_sums *self) {
-    return 3.0 * self->dimension + 9 + (self->real_bytes == sizeof(float) ? 22 : 34);
+/* Of one (point, frequency) pair in torus_list, counted from its source: phase 3 d, reduction 5,
+ * polynomials 22 (float) or 34 (double), sums 4. */
+double ps_torus_phase_flops(unsigned dimension, size_t real_bytes) {
+    return 3.0 * dimension + 9 + (real_bytes == sizeof(float) ? 22 : 34);
 }
 
 pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *points, size_t first_row,
@@ -119,7 +119,8 @@ pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *point
     /* Without a table a work-item takes two tiles (torus/list.cl). */
     const size_t num_items = self->has_table ? self->num_tiles : (self->num_tiles + 1) / 2;
     const ps_range range =
-        ps_range_heavy(device, num_items, self->num_chunks, num_patterns, pairs * phase_flops(self),
+        ps_range_heavy(device, num_items, self->num_chunks, num_patterns,
+                       pairs * ps_torus_phase_flops(self->dimension, self->real_bytes),
                        (double)num_points * (8.0 * self->dimension + real_bytes) +
                            (self->has_table ? 2 * pairs * real_bytes : 0));
     const ps_buffer *table = self->has_table ? &self->table : &self->sums;

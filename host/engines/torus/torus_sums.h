@@ -29,6 +29,9 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
                                   ps_error *error) PS_MUST_CHECK;
 void ps_torus_sums_free(ps_torus_sums *sums);
 
+/* Arithmetic of a cosine and a sine and their sums. */
+double ps_torus_phase_flops(unsigned dimension, size_t real_bytes);
+
 /* Sums of the uploaded slab, chunk by chunk, for rows first_row .. , and its table. num_points: of
  * all patterns in the slab, for the profile. */
 pspec_status ps_torus_sums_add(ps_torus_sums *sums, const ps_torus_points *points, size_t first_row,

@@ -1,0 +1,192 @@
+/* torus/product_shared.cl, whose sums and powers must have the bits of a table of torus/list.cl and
+ * torus/product.cl.
+ */
+#include "harness_kernels.h"
+#include "torus/product.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+static uint64_t seed = 4;
+
+/* Few points, for Oclgrind. */
+enum { RUN = 8, REALIZATIONS = 4, TABLE_POINTS = 3 * RUN };
+static const size_t counts[REALIZATIONS] = {0, 1, RUN + 1, TABLE_POINTS};
+
+/* The realizations of a launch go into rows FIRST_ROW .. of more. */
+enum { FIRST_ROW = 2, ROWS = FIRST_ROW + REALIZATIONS + 1 };
+static const double scales[ROWS] = {8, 16, 1, 0.5, 4, 32, 2};
+
+/* Two blocks, of BLOCK_TILES left tiles and of one, with fewer right tiles than they have room for;
+ * one pair is left out. */
+enum { LANES = 4, LEFT_TILES = BLOCK_TILES + 1, RIGHT_TILES = 3, DIMENSION = 3 };
+enum {
+    TILES = LEFT_TILES + RIGHT_TILES,
+    PAIRS = LEFT_TILES * RIGHT_TILES - 1,
+    STRIDE = PAIRS * LANES * 2 * LANES,
+    SUMS = REALIZATIONS * PAIRS * LANES * 8 * LANES,
+    POINTS = REALIZATIONS * TABLE_POINTS
+};
+
+typedef struct inputs {
+    test_memory points, weights, starts, frequencies, pairs, blocks, in_block, scales;
+} inputs;
+
+/* Left frequencies have two axes, right ones the third. */
+static test_memory make_frequencies(unsigned precision) {
+    enum { ROW = TILES * LANES };
+    int64_t doubles[DIMENSION * ROW];
+    int32_t singles[DIMENSION * ROW];
+    for (size_t i = 0; i < DIMENSION * ROW; i++) {
+        const bool is_right = i % ROW >= LEFT_TILES * LANES;
+        const int32_t k = (int32_t)(test_uniform(&seed) * 4001) - 2000;
+        doubles[i] = singles[i] = is_right == (i / ROW == 2) ? k : 0;
+    }
+    return precision == 64 ? test_memory_create(device, doubles, sizeof doubles)
+                           : test_memory_create(device, singles, sizeof singles);
+}
+
+static void make_tiles(inputs *out) {
+    static const uint32_t first_tiles[2][2] = {{0, 0}, {BLOCK_TILES, 0}};
+    uint32_t in_block[2][BLOCK_TILES][BLOCK_TILES];
+    uint32_t tiles[PAIRS][2];
+    memset(in_block, 0xff, sizeof in_block);
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        const uint32_t left = (i + 1) / RIGHT_TILES, right = (i + 1) % RIGHT_TILES;
+        tiles[i][0] = left;
+        tiles[i][1] = right;
+        in_block[left / BLOCK_TILES][left % BLOCK_TILES][right] = i;
+    }
+    out->pairs = test_memory_create(device, tiles, sizeof tiles);
+    out->blocks = test_memory_create(device, first_tiles, sizeof first_tiles);
+    out->in_block = test_memory_create(device, in_block, sizeof in_block);
+}
+
+static inputs make_inputs(unsigned precision) {
+    uint64_t points[POINTS * DIMENSION];
+    double weights[POINTS];
+    uint64_t offsets[REALIZATIONS + 1] = {0};
+    for (size_t r = 0; r < REALIZATIONS; r++) {
+        offsets[r + 1] = offsets[r] + counts[r];
+    }
+    for (size_t i = 0; i < POINTS * DIMENSION; i++) {
+        points[i] = (uint64_t)ldexp(test_uniform(&seed), 64);
+        weights[i / DIMENSION] = (double)(float)(test_uniform(&seed) - 0.3);
+    }
+    inputs made = {.points = test_memory_create(device, points, sizeof points),
+                   .weights = test_reals_create(device, precision, weights, POINTS),
+                   .starts = test_memory_create(device, offsets, sizeof offsets),
+                   .frequencies = make_frequencies(precision),
+                   .scales = test_reals_create(device, precision, scales, ROWS)};
+    make_tiles(&made);
+    return made;
+}
+
+static cl_kernel make_kernel(unsigned precision, const char *source, const char *name) {
+    return test_kernel(device, source, name,
+                       "-DPRECISION=%u -DLANES=%d -DRUN=%d -DDIMENSION=%d -DLEFT_AXES=2 "
+                       "-DSTORE_TABLE=1",
+                       precision, LANES, RUN, DIMENSION);
+}
+
+/* The sums and powers by a table and torus_product. */
+static void multiply_table(unsigned precision, const product_numbers *numbers, const inputs *in,
+                           test_memory *sums, test_memory *power) {
+    cl_kernel list = make_kernel(precision, "torus/list.cl", "torus_list");
+    cl_kernel kernel = make_kernel(precision, "torus/product.cl", "torus_product");
+    const size_t entries = (size_t)REALIZATIONS * TILES * 2 * LANES;
+    test_memory chunks = test_reals_create(device, precision, NULL, 2 * entries);
+    test_memory table = test_reals_create(device, precision, NULL, entries * TABLE_POINTS);
+    TEST_LAUNCH(device, list, 1, TILES, 1, REALIZATIONS, PS_BUFFER(in->points.buffer),
+                PS_BUFFER(in->weights.buffer), PS_BUFFER(in->starts.buffer),
+                PS_BUFFER(in->frequencies.buffer), PS_BUFFER(chunks.buffer), PS_U64(0),
+                PS_U64(TILES), PS_U64(TABLE_POINTS), PS_BUFFER(table.buffer), PS_U64(TABLE_POINTS),
+                PS_U64(LEFT_TILES));
+    TEST_LAUNCH(device, kernel, 1, PAIRS, REALIZATIONS, 1, PS_STRUCT(*numbers),
+                PS_BUFFER(table.buffer), PS_BUFFER(in->starts.buffer), PS_BUFFER(in->pairs.buffer),
+                PS_BUFFER(sums->buffer), PS_BUFFER(in->scales.buffer), PS_BUFFER(power->buffer));
+    test_memory_free(&table);
+    test_memory_free(&chunks);
+    clReleaseKernel(kernel);
+    clReleaseKernel(list);
+}
+
+static void multiply_shared(unsigned precision, size_t group, const product_numbers *numbers,
+                            const inputs *in, test_memory *sums, test_memory *power) {
+    cl_kernel kernel = make_kernel(precision, "torus/product_shared.cl", "torus_product_shared");
+    const size_t row = (size_t)BLOCK_TILES * LANES * precision / 8;
+    TEST_LAUNCH(device, kernel, group, group, 2, REALIZATIONS, PS_STRUCT(*numbers),
+                PS_BUFFER(in->points.buffer), PS_BUFFER(in->weights.buffer),
+                PS_BUFFER(in->starts.buffer), PS_BUFFER(in->frequencies.buffer),
+                PS_BUFFER(in->blocks.buffer), PS_BUFFER(in->in_block.buffer),
+                PS_BUFFER(sums->buffer), PS_BUFFER(in->scales.buffer), PS_BUFFER(power->buffer),
+                PS_LOCAL(2 * 2 * RUN * row));
+    clReleaseKernel(kernel);
+}
+
+static void check_equal(const test_memory *one, const test_memory *other) {
+    void *const bytes = test_memory_read(one);
+    void *const others = test_memory_read(other);
+    assert_memory_equal(bytes, others, one->bytes);
+    free(bytes);
+    free(others);
+}
+
+/* Begun anew, continued and finished; then in one go, when sums need not be kept. */
+static void check_equal_bits(unsigned precision, size_t group, const inputs *in) {
+    test_memory sums[2], power[2];
+    for (size_t i = 0; i < 2; i++) {
+        sums[i] = test_reals_create(device, precision, NULL, SUMS);
+        power[i] = test_reals_create(device, precision, NULL, (size_t)ROWS * STRIDE);
+    }
+    for (unsigned step = 0; step < 3; step++) {
+        const product_numbers numbers = {.num_pairs = PAIRS,
+                                         .num_tiles = TILES,
+                                         .num_left_tiles = LEFT_TILES,
+                                         .table_points = TABLE_POINTS,
+                                         .first_row = FIRST_ROW,
+                                         .stride = STRIDE,
+                                         .is_first = step != 1,
+                                         .is_last = step > 0,
+                                         .keeps_sums = step == 1};
+        multiply_table(precision, &numbers, in, &sums[0], &power[0]);
+        multiply_shared(precision, group, &numbers, in, &sums[1], &power[1]);
+        if (step < 2) {
+            check_equal(&sums[0], &sums[1]);
+        }
+        check_equal(&power[0], &power[1]);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        test_memory_free(&sums[i]);
+        test_memory_free(&power[i]);
+    }
+}
+
+static void shared_product(void **state) {
+    static const size_t groups[] = {16, 128}; /* several jobs for an item, and one */
+    (void)state;
+    for (unsigned precision = 32; precision <= 64; precision += 32) {
+        if (!test_has_precision(device, precision)) {
+            continue;
+        }
+        inputs in = make_inputs(precision);
+        test_memory *const all[] = {&in.points, &in.weights, &in.starts,   &in.frequencies,
+                                    &in.pairs,  &in.blocks,  &in.in_block, &in.scales};
+        for (size_t g = 0; g < sizeof groups / sizeof groups[0]; g++) {
+            check_equal_bits(precision, groups[g], &in);
+        }
+        for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+            test_memory_free_unchanged(all[i]);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shared_product)};
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("kernels_torus_shared", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}
