@@ -106,12 +106,11 @@ static bool has_work_groups(const contract_way *way) {
 }
 
 static void work_groups_change_no_bit(const contract_way *way) {
-    const size_t group = 32; /* heavy kernels have few items by default, light ones 64 */
     if (!has_work_groups(way)) {
         return;
     }
     double *const expected = run_all(way, CONTRACT_SETS);
-    ps_device_set_group_size(device, group);
+    ps_device_set_group_size(device, test_group(32)); /* heavy ones have few, light ones 64 */
     double *const found = run_all(way, 5);
     ps_device_set_group_size(device, 0);
     contract_check_rows(way, "work-groups", CONTRACT_SETS, found, expected);
@@ -366,7 +365,9 @@ static void keep_laws_of_gpus(const contract_way *way) {
 static void layouts_of_gpus_keep_the_laws(void **state) {
     (void)state;
     ps_device_set_dedicated_local_memory(device, true);
+    ps_device_set_group_size(device, test_group(0));
     assert_true(contract_walk(device, asked, keep_laws_of_gpus) > 0);
+    ps_device_set_group_size(device, 0);
     ps_device_set_dedicated_local_memory(device, false);
 }
 

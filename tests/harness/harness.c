@@ -90,6 +90,11 @@ ps_device *test_open_device(void) {
     return device;
 }
 
+size_t test_group(size_t usual) {
+    const char *const forced = getenv("POINTSPEC_TEST_GROUP");
+    return forced != NULL ? strtoul(forced, NULL, 10) : usual;
+}
+
 static double read_power(const ps_rows *rows, const void *data, size_t i) {
     if (rows->host != NULL) {
         return rows->host[i];

@@ -54,6 +54,9 @@ pspec_pattern test_pattern(const test_set *set);
 /* Opens the default device, or ends the test program as skipped when there is none. */
 ps_device *test_open_device(void);
 
+/* Items of a work-group as GPUs have them: POINTSPEC_TEST_GROUP, which .ci/run draws from 32 to 512, else `usual`. */
+size_t test_group(size_t usual);
+
 /* Runs an engine on patterns with scale 1 and returns |S|^2 as [pattern][frequency], freed by the
  * caller. batch: capacity of the engine. */
 double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const size_t test_group_sizes[3] = {1, 3, 64};
-
 /* Any device's alignment of sub-buffers (CL_DEVICE_MEM_BASE_ADDR_ALIGN) divides it. */
 enum { GUARD_BYTES = 4096 };
 

@@ -41,7 +41,7 @@ cl_kernel test_kernel(ps_device *device, const char *source, const char *name, c
     } while (0)
 
 /* Work-group sizes that every kernel is tried with. */
-extern const size_t test_group_sizes[3];
+#define TEST_GROUP_SIZES ((const size_t[]){1, 3, test_group(64)})
 
 /* Whole numbers |i| <= largest, as doubles. */
 double *test_whole_numbers(uint64_t *seed, size_t num, double largest);

@@ -213,7 +213,7 @@ static void device_turns_equal_host_turns(void **state) {
         test_memory in = test_memory_create(device, words, num * sizeof(word));
         test_memory cosine = test_reals_create(device, PRECISION, NULL, num);
         test_memory sine = test_reals_create(device, PRECISION, NULL, num);
-        TEST_LAUNCH(device, kernel, test_group_sizes[g], num / lanes, 1, 1, PS_BUFFER(in.buffer),
+        TEST_LAUNCH(device, kernel, TEST_GROUP_SIZES[g], num / lanes, 1, 1, PS_BUFFER(in.buffer),
                     PS_BUFFER(cosine.buffer), PS_BUFFER(sine.buffer), PS_U64(num));
         real *const c = test_memory_read(&cosine), *const s = test_memory_read(&sine);
         for (size_t i = 0; i < num; i++) {

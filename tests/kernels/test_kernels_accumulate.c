@@ -231,7 +231,7 @@ static void check_frequencies(const build *one) {
         double *power = test_whole_numbers(&seed, 40 * strides[i], largest_power(one->precision));
         for (size_t g = 0; g < one->num_groups; g++) {
             launch with = {
-                .one = one, .group = test_group_sizes[g], .stride = strides[i], .table = &table};
+                .one = one, .group = TEST_GROUP_SIZES[g], .stride = strides[i], .table = &table};
             run_batches(with, power);
             with.mean_only = true;
             run_batches(with, power);
@@ -255,7 +255,7 @@ static void check_bins(const build *one) {
     for (size_t g = 0; g < one->num_groups; g++) {
         test_memory sums = create_sums(one, num_rows, table.num_rings);
         const launch with = {.one = one,
-                             .group = test_group_sizes[g],
+                             .group = TEST_GROUP_SIZES[g],
                              .stride = stride,
                              .table = &table,
                              .sums = &sums};
@@ -306,7 +306,7 @@ static void check_fold(const build *one) {
             test_reals_create(device, one->precision, pieces, GROUPS * PIECES * pair);
         test_memory ranges = test_memory_create(device, bins, sizeof bins);
         test_memory result = test_reals_create(device, one->precision, NULL, GROUPS * BINS * pair);
-        TEST_LAUNCH(device, kernel, test_group_sizes[g], BINS, GROUPS, 1, PS_BUFFER(sums.buffer),
+        TEST_LAUNCH(device, kernel, TEST_GROUP_SIZES[g], BINS, GROUPS, 1, PS_BUFFER(sums.buffer),
                     PS_BUFFER(ranges.buffer), PS_BUFFER(result.buffer), PS_U64(BINS),
                     PS_U64(PIECES));
         check_folded(one, pieces, &result);

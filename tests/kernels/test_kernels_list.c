@@ -262,7 +262,7 @@ static void check_case(const list_case *one, size_t num_groups) {
     list_data data = make_data(one);
     for (size_t g = 0; g < num_groups; g++) {
         double *table = NULL;
-        double *sums = run_list(one, &data, test_group_sizes[2 - g], &table);
+        double *sums = run_list(one, &data, TEST_GROUP_SIZES[2 - g], &table);
         check_sums_alone(one, &data, sums);
         if (one->has_table) {
             check_table(one, &data, table);

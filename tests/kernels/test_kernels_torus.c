@@ -188,7 +188,7 @@ static void check_product(const build *one) {
         test_kernel(device, "torus/product.cl", "torus_product",
                     "-DPRECISION=%u -DLANES=%u -DRUN=%d", one->precision, one->lanes, RUN);
     for (size_t g = 0; g < one->num_groups; g++) {
-        check_group(one, kernel, test_group_sizes[2 - g], values);
+        check_group(one, kernel, TEST_GROUP_SIZES[2 - g], values);
     }
     clReleaseKernel(kernel);
     free(values);
@@ -261,7 +261,7 @@ static void check_fold(const build *one) {
         int64_t *expected = calloc(length / 2, sizeof *expected);
         for (size_t slab = 0; slab < sizeof slabs / sizeof slabs[0]; slab++) {
             double *chunks = make_chunks(one, slabs[slab] * length);
-            launch_fold(one, kernel, test_group_sizes[g], chunks, slabs[slab], slab == 0, &totals);
+            launch_fold(one, kernel, TEST_GROUP_SIZES[g], chunks, slabs[slab], slab == 0, &totals);
             add_chunks(one, chunks, slabs[slab], expected);
             check_totals(one, &totals, expected);
             free(chunks);
@@ -298,7 +298,7 @@ static void check_power_list(const build *one) {
         test_memory totals = test_reals_create(device, one->precision, values, length);
         test_memory factors = test_reals_create(device, one->precision, scales, ROWS);
         test_memory power = test_reals_create(device, one->precision, NULL, ROWS * stride);
-        TEST_LAUNCH(device, kernel, test_group_sizes[g], NUM_TILES, POWER_REALIZATIONS, 1,
+        TEST_LAUNCH(device, kernel, TEST_GROUP_SIZES[g], NUM_TILES, POWER_REALIZATIONS, 1,
                     PS_BUFFER(totals.buffer), PS_BUFFER(factors.buffer), PS_BUFFER(power.buffer),
                     PS_U64(NUM_TILES), PS_U64(first_slot), PS_U64(stride));
         double *found = test_reals_read(&power, one->precision);

@@ -165,7 +165,7 @@ static void check_equal_bits(unsigned precision, size_t group, const inputs *in)
 }
 
 static void shared_product(void **state) {
-    static const size_t groups[] = {16, 128}; /* several jobs for an item, and one */
+    const size_t groups[] = {16, test_group(128)}; /* several jobs for an item, and one */
     (void)state;
     for (unsigned precision = 32; precision <= 64; precision += 32) {
         if (!test_has_precision(device, precision)) {

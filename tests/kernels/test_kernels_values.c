@@ -94,8 +94,8 @@ static void check_build(unsigned precision, size_t lanes) {
     cl_kernel kernel = test_kernel(device, "integrands/values.cl", "integrand_values",
                                    "-DINTEGRAND=box -DPRECISION=%u -DLANES=%zu -DDIMENSION=%d",
                                    precision, lanes, DIMENSION);
-    for (size_t g = 0; g < sizeof test_group_sizes / sizeof test_group_sizes[0]; g++) {
-        launch(kernel, test_group_sizes[g], precision, lanes, points, weights, moves);
+    for (size_t g = 0; g < sizeof TEST_GROUP_SIZES / sizeof TEST_GROUP_SIZES[0]; g++) {
+        launch(kernel, TEST_GROUP_SIZES[g], precision, lanes, points, weights, moves);
     }
     clReleaseKernel(kernel);
     free(points);

@@ -107,7 +107,7 @@ static void check_case(weighted_case *with) {
         }
     }
     for (size_t g = 0; g < with->one->num_groups; g++) {
-        with->group = test_group_sizes[g];
+        with->group = TEST_GROUP_SIZES[g];
         check_weighted_sums(with);
     }
     for (size_t w = 0; w < WEIGHTED; w++) {

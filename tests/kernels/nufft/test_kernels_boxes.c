@@ -363,7 +363,7 @@ static void sums_of_windows(void **state) {
         boxes_data data = make_data(one);
         const bool can_run = test_has_precision(device, one->precision);
         for (size_t g = 0; g < one->num_groups && can_run; g++) {
-            run_case(one, &data, test_group_sizes[g]);
+            run_case(one, &data, TEST_GROUP_SIZES[g]);
         }
         free_data(&data);
     }

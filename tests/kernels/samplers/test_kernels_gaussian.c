@@ -33,8 +33,8 @@ static void compare(size_t num, unsigned dimension, double sigma) {
     find(&sums, x, &host);
     assert_true(host.energy > 0);
     sums.device = &on_device;
-    for (size_t g = 0; g < sizeof test_group_sizes / sizeof test_group_sizes[0]; g++) {
-        ps_device_set_group_size(device, test_group_sizes[g]);
+    for (size_t g = 0; g < sizeof TEST_GROUP_SIZES / sizeof TEST_GROUP_SIZES[0]; g++) {
+        ps_device_set_group_size(device, TEST_GROUP_SIZES[g]);
         memset(sums.sums, 0xFF, (1 + dimension) * sums.stride * sizeof *sums.sums);
         find(&sums, x, &there);
         if (memcmp(&host, &there, sizeof host) != 0) {
