@@ -1,0 +1,100 @@
+/* Preloaded into a program (bench/gpu/static.sh): its OpenCL device says that it is a large GPU, and launches are written
+ * down, into the file that POINTSPEC_LAUNCHES names, instead of being run: what is read back is zeros. */
+#define _GNU_SOURCE
+#include <CL/cl.h>
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+/* As NVIDIA's driver says of an H100; what chooses engines and their parameters for a GPU. The lanes are 1 on AMD's, too.
+ * Memory is what there is here. */
+cl_int clGetDeviceInfo(cl_device_id id, cl_device_info what, size_t bytes, void *value,
+                       size_t *size) {
+    const cl_int code = REAL(clGetDeviceInfo)(id, what, bytes, value, size);
+    if (code != CL_SUCCESS || value == NULL) {
+        return code;
+    }
+    switch (what) {
+    case CL_DEVICE_TYPE:
+        *(cl_device_type *)value = CL_DEVICE_TYPE_GPU;
+        break;
+    case CL_DEVICE_LOCAL_MEM_TYPE:
+        *(cl_device_local_mem_type *)value = CL_LOCAL;
+        break;
+    case CL_DEVICE_LOCAL_MEM_SIZE:
+        *(cl_ulong *)value = 48 << 10;
+        break;
+    case CL_DEVICE_MAX_COMPUTE_UNITS:
+        *(cl_uint *)value = 132;
+        break;
+    case CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT:
+    case CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE:
+        *(cl_uint *)value = 1;
+        break;
+    case CL_DEVICE_MAX_WORK_GROUP_SIZE:
+        *(size_t *)value = 1024;
+        break;
+    case CL_DEVICE_HOST_UNIFIED_MEMORY:
+        *(cl_bool *)value = CL_FALSE;
+        break;
+    default:
+        break;
+    }
+    return code;
+}
+
+cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem memory, cl_bool waits_here, size_t offset,
+                           size_t bytes, void *data, cl_uint num_waits, const cl_event *waits,
+                           cl_event *event) {
+    const cl_int code = REAL(clEnqueueReadBuffer)(queue, memory, waits_here, offset, bytes, data,
+                                                  num_waits, waits, event);
+    memset(data, 0, bytes);
+    return code;
+}
+
+static _Thread_local size_t local_bytes; /* of the arguments set last */
+
+cl_int clSetKernelArg(cl_kernel kernel, cl_uint index, size_t bytes, const void *value) {
+    local_bytes = (index > 0 ? local_bytes : 0) + (value == NULL ? bytes : 0);
+    return REAL(clSetKernelArg)(kernel, index, bytes, value);
+}
+
+/* A line "SOURCE KERNEL GROUP LOCAL-BYTES OPTIONS"; the text of a program begins with the name of its source
+ * (host/device/kernel_source.c). */
+static void write_down(cl_command_queue queue, cl_kernel kernel, size_t group) {
+    cl_program program = NULL;
+    cl_device_id id = NULL;
+    char name[128] = "", options[1024] = "", source[128] = "";
+    size_t bytes = 0;
+    clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
+    clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof(cl_program), &program, NULL);
+    clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof(cl_device_id), &id, NULL);
+    clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_OPTIONS, sizeof options, options, NULL);
+    clGetProgramInfo(program, CL_PROGRAM_SOURCE, 0, NULL, &bytes);
+    char *const text = calloc(bytes + 1, 1);
+    FILE *const file = fopen(getenv("POINTSPEC_LAUNCHES"), "a");
+    if (text == NULL || file == NULL) {
+        abort();
+    }
+    clGetProgramInfo(program, CL_PROGRAM_SOURCE, bytes, text, NULL);
+    sscanf(text, "#line 1 \"%127[^\"]", source);
+    fprintf(file, "%s %s %zu %zu %s\n", source, name, group, local_bytes, options);
+    fclose(file);
+    free(text);
+}
+
+cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint rank,
+                              const size_t *offset, const size_t *global, const size_t *local,
+                              cl_uint num_waits, const cl_event *waits, cl_event *event) {
+    size_t group = 1;
+    (void)offset;
+    (void)global;
+    for (cl_uint i = 0; local != NULL && i < rank; i++) {
+        group *= local[i];
+    }
+    write_down(queue, kernel, group);
+    return event != NULL ? clEnqueueMarkerWithWaitList(queue, num_waits, waits, event) : CL_SUCCESS;
+}
