@@ -105,13 +105,17 @@ static ps_problem make_problem(const contract_way *way) {
     return ps_engine_problem(way->engine, &asked);
 }
 
-/* Is it the variant that the case is there for? (GPUs may be given another.) */
+/* Is it the variant that the case is there for? (GPUs may be given another, but have no grids in
+ * one piece: those cases would ask tiles once more.) */
 static bool is_meant(const contract_way *way) {
     const bool is_gpu = ps_device_get_limits(way->device)->has_dedicated_local_memory;
     void *state = NULL;
     ps_text text = {0};
-    if (way->what->says == NULL || way->engine != &ps_torus_nufft || is_gpu) {
-        return way->what->says == NULL || way->engine == &ps_torus_nufft;
+    if (way->what->says == NULL || way->engine != &ps_torus_nufft) {
+        return way->what->says == NULL;
+    }
+    if (is_gpu) {
+        return strcmp(way->what->says, "whole=") != 0;
     }
     assert_ok(way->engine->create(&state, &way->problem, way->precision, 1, way->device, error));
     way->engine->describe(state, &text);
