@@ -9,6 +9,8 @@ forbidden="$word(_?exit|_Exit|quick_exit|abort|v?printf|puts|putchar|perror)[[:s
 handler="${word}gsl_set_error_handler"
 forbidden+="|${word}stderr([^A-Za-z0-9_]|$)"
 stdout="${word}stdout([^A-Za-z0-9_]|$)"
+# The preprocessor, which takes long for them all, sees files that have one of the names.
+names='_?exit|_Exit|quick_exit|abort|v?printf|puts|putchar|perror|stderr|stdout|gsl_set_error_handler'
 bad=0
 while IFS= read -r file; do
     # -fpreprocessed drops comments and expands nothing; strings go with sed.
@@ -21,7 +23,7 @@ while IFS= read -r file; do
         sed -E 's/^[[:space:]]*/    /' <<<"$found" >&2
         bad=1
     fi
-done < <(find host -name '*.[ch]' -not -path 'host/cli/*' | sort)
+done < <(find host -name '*.[ch]' -not -path 'host/cli/*' -exec grep -lwE "$names" {} + | sort)
 if found=$(grep -rn '#include <gsl/' host --include='*.[ch]' | grep -v '^host/math/'); then
     printf 'GSL outside of host/math:\n%s\n' "$found" >&2
     bad=1
