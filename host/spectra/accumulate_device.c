@@ -79,16 +79,16 @@ static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error)
     pspec_status status = PSPEC_OK;
     ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u", self->real_bytes * 8,
                    self->options.lanes);
+    PS_TRY_OUT(status, ps_text_check(&options, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "accumulate/fold.cl",
+                                        "accumulate_fold", ps_text_string(&options), error));
     ps_text_append(&options, " -DSQUARES=%d", self->options.mean_only ? 0 : 1);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    const char *text = ps_text_string(&options);
     PS_TRY_OUT(status,
                ps_kernel_create(self->device, &self->blocks, "accumulate/blocks.cl",
                                 self->options.want_frequencies ? "accumulate_bins_and_frequencies"
                                                                : "accumulate_bins",
-                                text, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "accumulate/fold.cl",
-                                        "accumulate_fold", text, error));
+                                ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;

@@ -37,13 +37,16 @@ static pspec_status create_kernels(ps_torus_sums *self, const ps_torus_layout *l
                                    ps_device *device, ps_error *error) {
     ps_text common = {0};
     ps_text list = {0};
+    ps_text last = {0}; /* of passes that know no coordinates: the same for every dimension */
     pspec_status status = PSPEC_OK;
     ps_torus_options(&common, layout, self->dimension);
+    ps_text_append(&last, "-DPRECISION=%zu -DLANES=%u", layout->real_bytes * 8, layout->lanes);
     ps_text_append(&list, "%s -DSTORE_TABLE=%d -DLEFT_AXES=%u", ps_text_string(&common),
                    self->has_table, self->has_table ? layout->left_axes : self->dimension);
-    PS_TRY_OUT(status, ps_text_check(&list, error));
     PS_TRY_OUT(status, ps_text_check(&common, error));
-    const char *options = ps_text_string(&common);
+    PS_TRY_OUT(status, ps_text_check(&list, error));
+    PS_TRY_OUT(status, ps_text_check(&last, error));
+    const char *options = ps_text_string(&last);
     PS_TRY_OUT(status, ps_kernel_create(device, &self->list, "torus/list.cl", "torus_list",
                                         ps_text_string(&list), error));
     PS_TRY_OUT(status, ps_kernel_create(device, &self->fold, "torus/fold.cl", "torus_fold", options,
@@ -53,6 +56,7 @@ static pspec_status create_kernels(ps_torus_sums *self, const ps_torus_layout *l
 out:
     ps_text_free(&common);
     ps_text_free(&list);
+    ps_text_free(&last);
     return status;
 }
 
