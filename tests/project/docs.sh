@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # docs.sh PROGRAM SOURCE_DIR [PAGE...]: every ```sh block of the pages runs, in the order of the page, in one empty folder
 # for each page; ```python blocks too where there is numpy. Lines that begin with ./dev are left out. Indented lines
-# behind a block are what it prints: tests/project/printed.awk compares. Without pages they are the README and the
-# tutorial, relative links of all pages are looked up, lists of pages are compared with those of --help, and every
+# behind a block are what it prints: tests/project/printed.awk compares. Without pages it is the README,
+# relative links of all pages are looked up, lists of pages are compared with those of --help, and every
 # scene is planned.
 set -euo pipefail
 program=$(realpath "$1")
@@ -118,7 +118,7 @@ check_lists() {
 
 pages=("${@:3}")
 if ((${#pages[@]} == 0)); then
-    pages=(README.md docs/user/tutorial.md)
+    pages=(README.md)
     check_lists
     # The scenes that pages run are shorter than some of those that lie there.
     for scene in "$source_dir"/docs/scenes/*.yaml; do
