@@ -79,7 +79,7 @@ static double run(errors_bench *bench, size_t kind) {
     const double micro = 1e6;
     const bench_job *job = &bench->job;
     ps_estimator *estimator = bench->estimators[kind];
-    BENCH_TRY(ps_estimator_reset(estimator, error));
+    ps_estimator_reset(estimator);
     BENCH_TRY(ps_device_finish(job->device, error));
     const double begin = bench_seconds();
     BENCH_TRY(ps_estimator_add(estimator, job->patterns, NULL, job->num_realizations, error));

@@ -105,7 +105,8 @@ pspec_status pspec_plan_reset(pspec_plan *plan) {
         return note(plan, ps_public_plan_begin_anew(plan, false));
     }
     ps_gather_reset(plan->gather);
-    return note(plan, ps_estimator_reset(plan->runner.estimator, &plan->context->error));
+    ps_estimator_reset(plan->runner.estimator);
+    return note(plan, PSPEC_OK);
 }
 
 /* All that were run are in the averages, out of an engine that is within the tolerance of their

@@ -18,6 +18,7 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .slots = self->slots,
         .stride = options->engine->get_stride(self->engine_state),
         .batch = self->batch,
+        .expected = options->problem.num_realizations,
         .is_on_device = is_on_device,
         .precision = options->precision == PS_SINGLE && is_on_device ? PS_SINGLE : PS_DOUBLE,
         .lanes = is_on_device
@@ -340,11 +341,11 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
     return PSPEC_OK;
 }
 
-pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {
+void ps_estimator_reset(ps_estimator *estimator) {
     estimator->totals = (ps_pattern_totals){0};
     estimator->accuracy = (ps_accuracy){0};
     if (estimator->options.want_c2) {
         ps_pair_sums_reset(&estimator->c2);
     }
-    return ps_accumulator_reset(estimator->accumulator, error);
+    ps_accumulator_reset(estimator->accumulator);
 }

@@ -104,7 +104,7 @@ pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_patt
 
 /* Forgets all realizations, and any failure: what follows has the bits of a new estimator.
  * Allocates nothing. */
-pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
+void ps_estimator_reset(ps_estimator *estimator);
 
 /* Realizations that one call of ps_estimator_add takes best. */
 size_t ps_estimator_batch(const ps_estimator *estimator);

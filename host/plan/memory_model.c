@@ -1,5 +1,6 @@
 #include "plan/memory_model.h"
 
+#include "accumulate/blocks.h"
 #include "base/round.h"
 #include "device/reals.h"
 
@@ -29,19 +30,26 @@ static void add_weighted(ps_memory *sum, const ps_work *work, const ps_problem *
     sum->host += (num > 0 ? stride : 0) * (double)sizeof(double) + numbers * (double)sizeof(double);
 }
 
-/* Adds what rows of powers on the device bring: their sums and sums of squares in pairs, also read
+/* Numbers that are kept of every sum over realizations (spectra/sums.h): an open block, and
+ * the levels of whole ones; where nobody knows how many there are, as of one batch. */
+static double running_states(const ps_problem *problem, size_t batch) {
+    const uint64_t known = problem->num_realizations;
+    return 4 * (1.0 + sum_levels(known > 0 ? known : batch));
+}
+
+/* Adds what rows of powers on the device bring: their sums over realizations, also read
  * back; members of bins, and the pieces of bins in the blocks of a row: 3 numbers for each, and its
- * sum in pairs. In one dimension all frequencies of a block are one piece; else rings cross a block
- * in about 36. */
+ * sum in pairs. In one dimension all frequencies of a block are of one ring, which makes pieces of
+ * PS_ACCUMULATE_PIECE; else rings cross a block in about 36, some of them in two pieces. */
 static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_problem *problem,
-                            double rows, double real_bytes) {
-    const double pieces_of_block = problem->frequencies->dimension == 1 ? 1 : 36;
+                            double rows, double states, double real_bytes) {
+    const double pieces_of_block = problem->frequencies->dimension == 1 ? 32 : 44;
     const double num = (double)problem->frequencies->num;
     const double blocks = ceil(work->row_bytes / real_bytes / block);
     const double pieces = fmin(num, blocks * pieces_of_block);
-    sum->device += 4 * work->row_bytes + num * (double)sizeof(uint16_t) +
+    sum->device += states * work->row_bytes + num * (double)sizeof(uint16_t) +
                    pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
-    sum->host += 4 * work->row_bytes;
+    sum->host += states * work->row_bytes;
 }
 
 double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
@@ -85,8 +93,9 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
                        2 * (double)sizeof(double)) +
                 num * (double)problem->num_weighted * (double)sizeof(double) +
                 problem->making_bytes};
+    const double states = running_states(problem, batch);
     if (limits == NULL || engine->rows_on_host) {
-        sum.host += num * 4 * (double)sizeof(double); /* the sums of the accumulator */
+        sum.host += num * states * (double)sizeof(double); /* the sums of the accumulator */
     }
     if (limits == NULL) {
         sum.host += sum.device;
@@ -97,7 +106,7 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     }
     const double rows = padded_rows(limits, precision, batch);
     const double real_bytes = (double)ps_real_bytes(precision);
-    add_accumulator(&sum, work, problem, rows, real_bytes);
+    add_accumulator(&sum, work, problem, rows, states, real_bytes);
     add_weighted(&sum, work, problem, rows, real_bytes);
     return sum;
 }

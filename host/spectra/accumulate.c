@@ -12,17 +12,17 @@ struct ps_accumulator {
     uint32_t *slots;
     ps_device_accumulator *on_device; /* NULL: rows are on the host */
     ps_device_weighted *weighted;     /* NULL: that, or no weights */
-    uint64_t num_realizations;
-    ps_bin all;  /* members of all bins in one, */
-    ps_bins one; /* and that alone */
+    ps_bin all;                       /* members of all bins in one, */
+    ps_bins one;                      /* and that alone */
     /* bins whose powers are formed for each realization: all of them, or that one */
     const ps_bins *formed;
     double *bin_powers;  /* [batch][formed->num] */
     double *mean_powers; /* [batch] */
-    ps_sums *bin_sums; /* [num_bins]; of single members: from the device when they are asked for */
-    ps_sums *frequency_sums;        /* [num_frequencies], host rows only */
+    uint64_t num_realizations;
+    ps_running_sums bin_sums;       /* none of single members: those of frequencies are theirs */
+    ps_running_sums frequency_sums; /* host rows only */
     double *weighted_powers;        /* [batch][num_weighted] */
-    ps_sums *weighted_sums;         /* [num_weighted] */
+    ps_running_sums weighted_sums;
     ps_block_sums *weighted_blocks; /* the same */
 };
 
@@ -37,6 +37,17 @@ static pspec_status allocate_powers(const ps_accumulator *self, double **powers,
     return PS_NEW(powers, num_powers, "powers of bins", error);
 }
 
+/* Single frequencies need no squares where only means are wanted, or no errors of theirs. */
+static bool no_squares(const ps_accumulator_options *options) {
+    return options->mean_only || options->no_frequency_errors;
+}
+
+static pspec_status create_sums(const ps_accumulator *self, ps_running_sums *sums, size_t num,
+                                ps_error *error) {
+    const ps_accumulator_options *options = &self->options;
+    return ps_running_sums_create(sums, num, options->expected, options->mean_only, error);
+}
+
 static pspec_status allocate(ps_accumulator *self, ps_error *error) {
     const ps_accumulator_options *options = &self->options;
     PS_TRY(PS_NEW(&self->slots, options->num_frequencies, "slots", error));
@@ -44,39 +55,16 @@ static pspec_status allocate(ps_accumulator *self, ps_error *error) {
     PS_TRY(allocate_powers(self, &self->bin_powers, self->formed->num, "bins", error));
     PS_TRY(allocate_powers(self, &self->weighted_powers, options->num_weighted, "weighted sums",
                            error));
-    PS_TRY(PS_NEW(&self->weighted_sums, options->num_weighted, "weighted sums", error));
     PS_TRY(PS_NEW(&self->weighted_blocks, options->num_weighted, "weighted sums", error));
     PS_TRY(PS_NEW(&self->mean_powers, options->batch, "mean powers", error));
-    PS_TRY(PS_NEW(&self->bin_sums, options->bins->num, "sums of bins", error));
-    if (options->want_frequencies && !options->is_on_device) {
-        PS_TRY(
-            PS_NEW(&self->frequency_sums, options->num_frequencies, "sums of frequencies", error));
-    }
-    return PSPEC_OK;
-}
-
-static void clear(ps_sums *sums, size_t num, bool mean_only) {
-    for (size_t i = 0; i < num; i++) {
-        sums[i] = mean_only ? PS_SUMS_MEAN_ONLY : (ps_sums){0};
-    }
-}
-
-/* Single frequencies need no squares where only means are wanted, or no errors of theirs. */
-static bool no_squares(const ps_accumulator_options *options) {
-    return options->mean_only || options->no_frequency_errors;
-}
-
-static void clear_all(ps_accumulator *self) {
-    const ps_accumulator_options *options = &self->options;
-    self->num_realizations = 0;
-    clear(self->bin_sums, options->bins->num, options->mean_only);
-    clear(self->weighted_sums, options->num_weighted, options->mean_only);
-    for (size_t w = 0; w < options->num_weighted; w++) {
-        self->weighted_blocks[w] = (ps_block_sums){0};
-    }
-    if (self->frequency_sums != NULL) {
-        clear(self->frequency_sums, options->num_frequencies, no_squares(options));
-    }
+    PS_TRY(create_sums(self, &self->weighted_sums, options->num_weighted, error));
+    PS_TRY(create_sums(self, &self->bin_sums,
+                       self->formed == options->bins ? options->bins->num : 0, error));
+    self->frequency_sums.mean_only = no_squares(options);
+    return options->want_frequencies && !options->is_on_device
+               ? ps_running_sums_create(&self->frequency_sums, options->num_frequencies,
+                                        options->expected, no_squares(options), error)
+               : PSPEC_OK;
 }
 
 /* None is empty (spectra/bins.h). */
@@ -128,7 +116,6 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
         ps_accumulator_destroy(self);
         return status;
     }
-    clear_all(self);
     *out = self;
     return PSPEC_OK;
 }
@@ -142,20 +129,12 @@ void ps_accumulator_destroy(ps_accumulator *accumulator) {
     free(accumulator->slots);
     free(accumulator->bin_powers);
     free(accumulator->mean_powers);
-    free(accumulator->bin_sums);
-    free(accumulator->frequency_sums);
+    ps_running_sums_free(&accumulator->bin_sums);
+    ps_running_sums_free(&accumulator->frequency_sums);
+    ps_running_sums_free(&accumulator->weighted_sums);
     free(accumulator->weighted_powers);
-    free(accumulator->weighted_sums);
     free(accumulator->weighted_blocks);
     free(accumulator);
-}
-
-static void add(ps_sums *sums, double power, bool mean_only) {
-    if (mean_only) {
-        ps_sums_add_to_mean(sums, power);
-    } else {
-        ps_sums_add(sums, power);
-    }
 }
 
 /* Means over bins of one host row. */
@@ -188,9 +167,7 @@ static void add_host_rows(ps_accumulator *self, const ps_rows *rows) {
         const double *row = rows->host + r * rows->stride;
         average_bins(self, row, self->bin_powers + r * self->options.bins->num);
         weigh(self, row, self->weighted_powers + r * self->options.num_weighted);
-        for (size_t i = 0; self->frequency_sums != NULL && i < self->options.num_frequencies; i++) {
-            add(&self->frequency_sums[i], row[self->slots[i]], no_squares(&self->options));
-        }
+        ps_running_sums_add(&self->frequency_sums, row, self->slots);
     }
 }
 
@@ -210,22 +187,29 @@ static void add_bins(ps_accumulator *self, size_t num_rows) {
     for (size_t r = 0; r < num_rows; r++) {
         const double *bin_powers = self->bin_powers + r * bins->num;
         self->mean_powers[r] = mean_power(bins, bin_powers);
-        for (size_t b = 0; bins == self->options.bins && b < bins->num; b++) {
-            add(&self->bin_sums[b], bin_powers[b], self->options.mean_only);
-        }
+        ps_running_sums_add(&self->bin_sums, bin_powers, NULL);
     }
 }
 
 static void add_weighted(ps_accumulator *self, size_t num_rows) {
     const size_t num = self->options.num_weighted;
     for (size_t i = 0; i < num_rows * num; i++) {
-        add(&self->weighted_sums[i % num], self->weighted_powers[i], self->options.mean_only);
         ps_block_sums_add(&self->weighted_blocks[i % num], self->weighted_powers[i]);
     }
+    for (size_t r = 0; r < num_rows; r++) {
+        ps_running_sums_add(&self->weighted_sums, self->weighted_powers + r * num, NULL);
+    }
+}
+
+static pspec_status reserve(ps_accumulator *self, uint64_t count, ps_error *error) {
+    PS_TRY(ps_running_sums_reserve(&self->bin_sums, count, error));
+    PS_TRY(ps_running_sums_reserve(&self->frequency_sums, count, error));
+    return ps_running_sums_reserve(&self->weighted_sums, count, error);
 }
 
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double **mean_powers, ps_error *error) {
+    PS_TRY(reserve(accumulator, accumulator->num_realizations + rows->num_rows, error));
     if (accumulator->on_device != NULL) {
         PS_TRY(ps_device_accumulator_add(accumulator->on_device, rows, accumulator->bin_powers,
                                          error));
@@ -245,11 +229,17 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
     return PSPEC_OK;
 }
 
-pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) {
-    clear_all(accumulator);
-    return accumulator->on_device != NULL
-               ? ps_device_accumulator_reset(accumulator->on_device, error)
-               : PSPEC_OK;
+void ps_accumulator_reset(ps_accumulator *accumulator) {
+    accumulator->num_realizations = 0;
+    accumulator->bin_sums.count = 0;
+    accumulator->frequency_sums.count = 0;
+    accumulator->weighted_sums.count = 0;
+    for (size_t w = 0; w < accumulator->options.num_weighted; w++) {
+        accumulator->weighted_blocks[w] = (ps_block_sums){0};
+    }
+    if (accumulator->on_device != NULL) {
+        ps_device_accumulator_reset(accumulator->on_device);
+    }
 }
 
 static void pick_bins(const ps_accumulator *self, const ps_sums *frequencies, ps_sums *bins) {
@@ -259,66 +249,79 @@ static void pick_bins(const ps_accumulator *self, const ps_sums *frequencies, ps
     }
 }
 
-/* Sums of bins that are sums of frequencies come to self->bin_sums. */
-static pspec_status fetch_bins(ps_accumulator *self, ps_error *error) {
-    const size_t num = self->options.num_frequencies;
-    ps_sums *frequencies = NULL;
+static pspec_status get_frequencies(ps_accumulator *self, ps_sums *sums, ps_error *error) {
+    if (self->on_device != NULL) {
+        return ps_device_accumulator_sums(self->on_device, sums, error);
+    }
+    for (size_t i = 0; i < self->options.num_frequencies; i++) {
+        sums[i] = ps_running_sums_get(&self->frequency_sums, i);
+    }
+    return PSPEC_OK;
+}
+
+/* frequencies: their sums, or NULL */
+static pspec_status get_bins(ps_accumulator *self, const ps_sums *frequencies, ps_sums *bins,
+                             ps_error *error) {
+    ps_sums *own = NULL;
     if (self->formed == self->options.bins) {
+        for (size_t b = 0; b < self->options.bins->num; b++) {
+            bins[b] = ps_running_sums_get(&self->bin_sums, b);
+        }
         return PSPEC_OK;
     }
-    PS_TRY(PS_NEW(&frequencies, num, "sums of frequencies", error));
-    const pspec_status status = ps_device_accumulator_sums(self->on_device, frequencies, error);
-    if (status == PSPEC_OK) {
-        pick_bins(self, frequencies, self->bin_sums);
+    if (frequencies == NULL) {
+        PS_TRY(PS_NEW(&own, self->options.num_frequencies, "sums of frequencies", error));
     }
-    free(frequencies);
+    const pspec_status status = own != NULL ? get_frequencies(self, own, error) : PSPEC_OK;
+    if (status == PSPEC_OK) {
+        pick_bins(self, own != NULL ? own : frequencies, bins);
+    }
+    free(own);
     return status;
 }
 
 pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
                                  ps_error *error) {
-    const ps_accumulator_options *options = &accumulator->options;
-    if (frequencies == NULL) {
-        PS_TRY(fetch_bins(accumulator, error));
-    } else if (accumulator->on_device != NULL) {
-        PS_TRY(ps_device_accumulator_sums(accumulator->on_device, frequencies, error));
-    } else {
-        memcpy(frequencies, accumulator->frequency_sums,
-               options->num_frequencies * sizeof(ps_sums));
+    if (frequencies != NULL) {
+        PS_TRY(get_frequencies(accumulator, frequencies, error));
     }
-    if (frequencies != NULL && accumulator->formed != options->bins) {
-        pick_bins(accumulator, frequencies, accumulator->bin_sums);
+    return get_bins(accumulator, frequencies, bins, error);
+}
+
+static void finish(const ps_accumulator *self, const ps_sums *sums, size_t num, ps_mean *means) {
+    for (size_t i = 0; i < num; i++) {
+        ps_sums_finish(&sums[i], self->num_realizations, &means[i].mean, &means[i].standard_error);
     }
-    memcpy(bins, accumulator->bin_sums, options->bins->num * sizeof(ps_sums));
-    return PSPEC_OK;
 }
 
 pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means, ps_error *error) {
-    PS_TRY(fetch_bins(accumulator, error));
-    for (size_t b = 0; b < accumulator->options.bins->num; b++) {
-        ps_sums_finish(&accumulator->bin_sums[b], accumulator->num_realizations, &means[b].mean,
-                       &means[b].standard_error);
+    const size_t num = accumulator->options.bins->num;
+    ps_sums *sums = NULL;
+    PS_TRY(PS_NEW(&sums, num, "sums of bins", error));
+    const pspec_status status = get_bins(accumulator, NULL, sums, error);
+    if (status == PSPEC_OK) {
+        finish(accumulator, sums, num, means);
     }
-    return PSPEC_OK;
+    free(sums);
+    return status;
 }
 
 pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
                                         ps_error *error) {
     if (accumulator->on_device != NULL) {
-        return ps_device_accumulator_frequencies(accumulator->on_device,
-                                                 accumulator->num_realizations, means, error);
+        return ps_device_accumulator_frequencies(accumulator->on_device, means, error);
     }
     for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
-        ps_sums_finish(&accumulator->frequency_sums[i], accumulator->num_realizations,
-                       &means[i].mean, &means[i].standard_error);
+        const ps_sums sums = ps_running_sums_get(&accumulator->frequency_sums, i);
+        finish(accumulator, &sums, 1, &means[i]);
     }
     return PSPEC_OK;
 }
 
 void ps_accumulator_weighted(const ps_accumulator *accumulator, ps_mean *means) {
     for (size_t w = 0; w < accumulator->options.num_weighted; w++) {
-        ps_sums_finish(&accumulator->weighted_sums[w], accumulator->num_realizations,
-                       &means[w].mean, &means[w].standard_error);
+        const ps_sums sums = ps_running_sums_get(&accumulator->weighted_sums, w);
+        finish(accumulator, &sums, 1, &means[w]);
     }
 }
 

@@ -3,8 +3,8 @@
  * Per frequency: sum and sum of squares of the power, in pairs (on the device where the rows are).
  * Per bin: the mean over the bin is formed for each realization first, then summed in the same way;
  * so a bin's standard error catches correlations between its frequencies
- * (docs/mathematics/statistics.md#standard-errors). Realizations are taken one after the other in
- * their order, whatever the batches were.
+ * (docs/mathematics/statistics.md#standard-errors). All sums over realizations have the order of
+ * kernels/accumulate/sums.h, whatever the batches were and wherever the rows are.
  *
  * Weighted sums, sum over frequencies of weight * power, are formed for each realization likewise:
  * their standard errors have the correlations of all frequencies
@@ -33,6 +33,7 @@ typedef struct ps_accumulator_options {
     size_t num_frequencies;
     const uint32_t *slots; /* [num_frequencies] places in a row, copied */
     size_t stride, batch;  /* of the rows; batch is the largest number of rows at a time */
+    uint64_t expected; /* realizations in all, or 0: more than were expected take memory later */
     bool is_on_device;
     ps_precision precision;   /* of the rows */
     unsigned lanes;           /* of device rows */
@@ -51,13 +52,14 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_accumulator_destroy(ps_accumulator *accumulator);
 
-/* Adds the rows of one batch. mean_powers[r], owned by the accumulator until the next call, is the
+/* Adds the rows of one batch; allocates nothing unless there are more realizations than were
+ * expected. mean_powers[r], owned by the accumulator until the next call, is the
  * mean over all members of bins of realization r; may be NULL if nobody asks. */
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double **mean_powers, ps_error *error) PS_MUST_CHECK;
 
 /* Forgets every realization; allocates nothing. */
-pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
+void ps_accumulator_reset(ps_accumulator *accumulator);
 
 /* The sums themselves: bins[bins->num], frequencies[num_frequencies] or NULL when nobody asks. With
  * mean_only their squares are nan. */

@@ -9,13 +9,14 @@
 /* Where the next ring and the next member of a block go while bins are walked through. */
 typedef struct cursor {
     size_t bin; /* of the last ring, plus 1 */
-    uint32_t ring, member;
+    uint32_t length, ring, member;
 } cursor;
 
-/* A ring more in the block of this slot, unless the last one is of the same bin already. */
+/* A ring more in the block of this slot, unless the last one is of the same bin and not full. */
 static bool is_new_ring(cursor *block, size_t bin) {
-    const bool is_new = block->bin != bin + 1;
+    const bool is_new = block->bin != bin + 1 || block->length == PS_ACCUMULATE_PIECE;
     block->bin = bin + 1;
+    block->length = is_new ? 1 : block->length + 1;
     return is_new;
 }
 
@@ -68,12 +69,12 @@ static void fill(ps_accumulate_blocks *self, const ps_bins *bins, const uint32_t
 /* Rings of equal length one after the other: the loop over members becomes predictable. Those of
  * one length stay in the order of bins. */
 static void sort_rings(ps_block_ring *rings, size_t num, ps_block_ring *sorted) {
-    uint32_t begins[PS_ACCUMULATE_BLOCK + 1] = {0}; /* of a length, from 1 on */
+    uint32_t begins[PS_ACCUMULATE_PIECE + 1] = {0}; /* of a length, from 1 on */
     uint32_t begin = 0;
     for (size_t i = 0; i < num; i++) {
         begins[rings[i].end - rings[i].first]++;
     }
-    for (size_t length = 0; length <= PS_ACCUMULATE_BLOCK; length++) {
+    for (size_t length = 0; length <= PS_ACCUMULATE_PIECE; length++) {
         const uint32_t count = begins[length];
         begins[length] = begin;
         begin += count;

@@ -6,8 +6,11 @@
 
 /* Slots of a block, as in the kernel. */
 enum { PS_ACCUMULATE_BLOCK = 512 };
+/* Members of a piece at most, so that one item of a GPU does not add up long ones while others
+ * wait. Sums depend on it. */
+enum { PS_ACCUMULATE_PIECE = 16 };
 
-/* The members of one bin in one block; their sum is a piece of the bin. */
+/* Successive members of one bin in one block; their sum is a piece of the bin. */
 typedef struct ps_block_ring {
     uint32_t first, end, piece;
 } ps_block_ring;

@@ -19,13 +19,11 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator);
 /* Adds the rows; bin_powers[num_rows][num_bins] receives the means over bins. */
 pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const ps_rows *rows,
                                        double *bin_powers, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_device_accumulator_reset(ps_device_accumulator *accumulator,
-                                         ps_error *error) PS_MUST_CHECK;
+void ps_device_accumulator_reset(ps_device_accumulator *accumulator);
 /* Only with want_frequencies: [num_frequencies] */
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) PS_MUST_CHECK;
-pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator,
-                                               uint64_t num_realizations, ps_mean *means,
+pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator, ps_mean *means,
                                                ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,10 +1,15 @@
 #include "spectra/sums.h"
 
+#include "accumulate/blocks.h"
+#include "base/memory.h"
+
 #define PRECISION 64
 #include "shared/pair.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 void ps_sums_add(ps_sums *sums, double x) {
     pair_add(&sums->sum, &sums->sum_low, x);
@@ -71,6 +76,83 @@ void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *s
     /* written so that nan stays nan */
     const double variance = difference <= rounding ? 0 : difference / n / (n - 1);
     *standard_error = sqrt(variance / n);
+}
+
+/* ---- sums over realizations ---------------------------------------------------------------- */
+
+static pspec_status allocate(ps_running_sums *self, unsigned levels, ps_error *error) {
+    ps_sums *rows = NULL;
+    PS_TRY(PS_NEW(&rows, (1 + (size_t)levels) * self->num, "sums over realizations", error));
+    if (self->rows != NULL && self->num > 0) {
+        memcpy(rows, self->rows, (1 + (size_t)self->levels) * self->num * sizeof *rows);
+    }
+    free(self->rows);
+    self->rows = rows;
+    self->levels = levels;
+    return PSPEC_OK;
+}
+
+pspec_status ps_running_sums_create(ps_running_sums *out, size_t num, uint64_t expected,
+                                    bool mean_only, ps_error *error) {
+    *out = (ps_running_sums){.num = num, .mean_only = mean_only};
+    return allocate(out, sum_levels(expected), error);
+}
+
+void ps_running_sums_free(ps_running_sums *sums) {
+    free(sums->rows);
+    sums->rows = NULL;
+}
+
+pspec_status ps_running_sums_reserve(ps_running_sums *sums, uint64_t count, ps_error *error) {
+    const unsigned levels = sum_levels(count);
+    return levels > sums->levels ? allocate(sums, levels, error) : PSPEC_OK;
+}
+
+static ps_sums no_sums(const ps_running_sums *sums) {
+    return sums->mean_only ? PS_SUMS_MEAN_ONLY : (ps_sums){0};
+}
+
+/* Carries whole block number `block` of number i up. */
+static void carry(ps_running_sums *self, uint64_t block, size_t i) {
+    ps_sums *row = &self->rows[i];
+    ps_sums merged = *row;
+    for (row += self->num; block & 1; block /= 2, row += self->num) {
+        ps_sums_merge(&merged, row, 1);
+    }
+    *row = merged;
+}
+
+void ps_running_sums_add(ps_running_sums *sums, const double *values, const uint32_t *places) {
+    const bool is_first = sums->count % SUM_BLOCK == 0;
+    const bool is_last = (sums->count + 1) % SUM_BLOCK == 0;
+    for (size_t i = 0; i < sums->num; i++) {
+        const double value = values[places != NULL ? places[i] : i];
+        ps_sums *open = &sums->rows[i];
+        *open = is_first ? no_sums(sums) : *open;
+        if (sums->mean_only) {
+            ps_sums_add_to_mean(open, value);
+        } else {
+            ps_sums_add(open, value);
+        }
+        if (is_last) {
+            carry(sums, sums->count / SUM_BLOCK, i);
+        }
+    }
+    sums->count++;
+}
+
+bool ps_running_has_row(uint64_t count, unsigned row) {
+    return row == 0 ? count % SUM_BLOCK > 0 : count / SUM_BLOCK >> (row - 1) & 1;
+}
+
+ps_sums ps_running_sums_get(const ps_running_sums *sums, size_t i) {
+    ps_sums all = no_sums(sums);
+    for (unsigned row = 0; row <= sums->levels; row++) {
+        if (ps_running_has_row(sums->count, row)) {
+            ps_sums_merge(&all, &sums->rows[row * sums->num + i], 1);
+        }
+    }
+    return all;
 }
 
 /* ---- blocks -------------------------------------------------------------------------------- */

@@ -3,7 +3,10 @@
 #ifndef PS_SPECTRA_SUMS_H
 #define PS_SPECTRA_SUMS_H
 
+#include "base/status.h"
+
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -23,6 +26,36 @@ void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor);
  * count < 2. Numbers that differ by no more than rounding give exactly 0: a standard error below
  * sqrt(count) 2^-53 of the mean is taken for that. */
 void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *standard_error);
+
+/* ---- sums over realizations ---------------------------------------------------------------- */
+
+/* Sums of many numbers over realizations in the order of kernels/accumulate/sums.h: the same bits
+ * as on a device, whatever came at a time. */
+
+typedef struct ps_running_sums {
+    size_t num;
+    uint64_t count;  /* of realizations */
+    unsigned levels; /* that there is room for */
+    bool mean_only;
+    ps_sums *rows; /* [1 + levels][num]: the open block; levels of whole ones */
+} ps_running_sums;
+
+/* With room for `expected` realizations. What was created may be freed twice. */
+pspec_status ps_running_sums_create(ps_running_sums *out, size_t num, uint64_t expected,
+                                    bool mean_only, ps_error *error) PS_MUST_CHECK;
+void ps_running_sums_free(ps_running_sums *sums);
+/* Room for so many realizations in all, where there were more than expected. */
+pspec_status ps_running_sums_reserve(ps_running_sums *sums, uint64_t count,
+                                     ps_error *error) PS_MUST_CHECK;
+/* One more realization, number i of which is values[i], or values[places[i]] unless that is
+ * NULL. */
+void ps_running_sums_add(ps_running_sums *sums, const double *values, const uint32_t *places);
+/* The plain sums: rows are merged into a copy, from the open block on. */
+ps_sums ps_running_sums_get(const ps_running_sums *sums, size_t i);
+/* Do so many realizations have that row? Those of the others are left from before. */
+bool ps_running_has_row(uint64_t count, unsigned row);
+
+/* ---- blocks -------------------------------------------------------------------------------- */
 
 /* Sums over blocks of successive numbers, of one power of two each but for the last, and no more
  * than so many: in constant memory, how two means over the same realizations depend on each

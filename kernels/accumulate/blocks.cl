@@ -2,11 +2,11 @@
  * (rings, shells) for every realization. Launch: (work-items of one group, blocks).
  *
  * A block is BLOCK slots of a row. A work-group walks through the realizations of the batch in
- * order, LANES at a time. Frequencies are lanes at first and are added to the state. The square of
- * LANES realizations and LANES slots is turned, so that realizations are lanes, and goes to local
- * memory, where the members of each bin are added up: a piece of the bin, which accumulate/fold.cl
- * puts together. Every sum has a fixed order, so results do not depend on work-group sizes or on
- * the batch.
+ * order, LANES at a time. Frequencies are lanes at first and are added to the state, in the order
+ * of accumulate/sums.h. The square of LANES realizations and LANES slots is turned, so that
+ * realizations are lanes, and goes to local memory, where the members of each bin are added up: a
+ * piece of the bin, which accumulate/fold.cl puts together. Every sum has a fixed order, so results
+ * do not depend on work-group sizes or on the batch.
  *
  *   numbers  of accumulate/blocks.h; their names are used here
  *   power    [realization][stride]
@@ -15,12 +15,13 @@
  *   members  slots within their block
  *   sums     [group of LANES realizations][piece][high, low][LANES]
  *   sum, sum_low, square, square_low
- *            [stride] each, continued: sums of powers and of their squares in pairs, each as long as a row of powers, so
- *            that they need no larger buffer; the last two are not touched without SQUARES
+ *            [1 + level][stride] each, continued: the open block, and behind it whole ones; the
+ *            last two are not touched without SQUARES
  *   block    local, [BLOCK][LANES]
  */
 #include "accumulate/blocks.h"
 #include "accumulate/rows.h"
+#include "accumulate/sums.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
 #include "shared/transpose.h"
@@ -38,30 +39,73 @@ typedef struct ring {
 /* sum 0: nobody asks for frequencies. */
 typedef struct state {
     __global real *sum, *sum_low, *square, *square_low;
+    ulong done; /* realizations before the LANES that are added */
 } state;
 
-static inline void add_to_state(const state sums, const size_t slot, const realv *powers,
-                                const uint count) {
-    realv sum = load_global(sums.sum + slot, 0), sum_low = load_global(sums.sum_low + slot, 0);
+static inline block_sums load_sums(const state sums, const size_t at) {
+    block_sums block;
+    block.sum = load_global(sums.sum + at, 0);
+    block.sum_low = load_global(sums.sum_low + at, 0);
 #if SQUARES
-    realv square = load_global(sums.square + slot, 0);
-    realv square_low = load_global(sums.square_low + slot, 0);
+    block.square = load_global(sums.square + at, 0);
+    block.square_low = load_global(sums.square_low + at, 0);
+#else
+    block.square = block.square_low = 0;
 #endif
+    return block;
+}
+
+static inline void store_sums(const state sums, const size_t at, const block_sums block) {
+    store_global(sums.sum + at, 0, block.sum);
+    store_global(sums.sum_low + at, 0, block.sum_low);
+#if SQUARES
+    store_global(sums.square + at, 0, block.square);
+    store_global(sums.square_low + at, 0, block.square_low);
+#endif
+}
+
+/* The block is whole: number `blocks` of the job, counted from 0. */
+static inline void carry(const state sums, const size_t slot, const ulong stride,
+                         const ulong blocks, block_sums block) {
+    uint level = 0;
+    for (; blocks >> level & 1; level++) {
+        const block_sums early = load_sums(sums, (1 + level) * stride + slot);
+        merge_blocks(&block, &early);
+    }
+    store_sums(sums, (1 + level) * stride + slot, block);
+}
+
+/* Realizations first .. end - 1 of them, all of one block. */
+static inline void add_to_open(const state sums, const size_t slot, const realv *powers,
+                               const ulong stride, const uint first, const uint end) {
+    block_sums block;
+    if ((sums.done + first) % SUM_BLOCK > 0) {
+        block = load_sums(sums, slot);
+    } else {
+        block.sum = block.sum_low = block.square = block.square_low = 0;
+    }
 #pragma unroll
     for (uint i = 0; i < LANES; i++) {
-        if (i < count) {
-            pair_add(&sum, &sum_low, powers[i]);
-#if SQUARES
-            pair_add_square(&square, &square_low, powers[i]);
-#endif
+        if (i >= first && i < end) {
+            add_to_block(&block, powers[i]);
         }
     }
-    store_global(sums.sum + slot, 0, sum);
-    store_global(sums.sum_low + slot, 0, sum_low);
-#if SQUARES
-    store_global(sums.square + slot, 0, square);
-    store_global(sums.square_low + slot, 0, square_low);
-#endif
+    if ((sums.done + end) % SUM_BLOCK == 0) {
+        carry(sums, slot, stride, (sums.done + end) / SUM_BLOCK - 1, block);
+    } else {
+        store_sums(sums, slot, block);
+    }
+}
+
+/* The first `count` of LANES realizations; they are of two blocks at most. */
+static inline void add_to_state(const state sums, const size_t slot, const realv *powers,
+                                const ulong stride, const uint count) {
+    const uint left = SUM_BLOCK - (uint)(sums.done % SUM_BLOCK);
+    const uint end = min(count, left);
+    add_to_open(sums, slot, powers, stride, 0, end);
+    if (end < count) {
+        add_to_open(sums, slot, powers, stride, end, count);
+    }
 }
 
 /* LANES realizations of a block that begins at first_slot. */
@@ -73,7 +117,7 @@ static inline void load_block(__local real *block, __global const real *rows, co
         realv powers[LANES];
         load_rows(powers, rows + slot, stride, count);
         if (sums.sum != 0) {
-            add_to_state(sums, slot, powers, count);
+            add_to_state(sums, slot, powers, stride, count);
         }
         transpose(powers);
 #pragma unroll
@@ -99,8 +143,8 @@ static inline void add_rings(__global real *sums, __local const real *block,
 
 static inline void add_block(const blocks_numbers numbers, __global const real *power,
                              __global const uint *blocks, __global const ring *rings,
-                             __global const ushort *members, __global real *sums,
-                             const state frequencies, __local real *block) {
+                             __global const ushort *members, __global real *sums, state frequencies,
+                             __local real *block) {
     const uint num_realizations = numbers.num_realizations;
     const ulong stride = numbers.stride, num_pieces = numbers.num_pieces;
     const size_t index = get_global_id(1), first_slot = index * BLOCK;
@@ -112,6 +156,7 @@ static inline void add_block(const blocks_numbers numbers, __global const real *
         add_rings(sums + first * num_pieces * 2, block, rings, members, blocks[index],
                   blocks[index + 1]);
         barrier(CLK_LOCAL_MEM_FENCE);
+        frequencies.done += LANES;
     }
 }
 
@@ -120,7 +165,7 @@ __kernel void accumulate_bins(const blocks_numbers numbers, __global const real 
                               __global const ring *restrict rings,
                               __global const ushort *restrict members, __global real *restrict sums,
                               __local real *block) {
-    const state none = {0, 0, 0, 0};
+    const state none = {0, 0, 0, 0, 0};
     add_block(numbers, power, blocks, rings, members, sums, none, block);
 }
 
@@ -129,6 +174,6 @@ __kernel void accumulate_bins_and_frequencies(
     __global const uint *restrict blocks, __global const ring *restrict rings,
     __global const ushort *restrict members, __global real *restrict sums, __global real *sum,
     __global real *sum_low, __global real *square, __global real *square_low, __local real *block) {
-    const state frequencies = {sum, sum_low, square, square_low};
+    const state frequencies = {sum, sum_low, square, square_low, numbers.done};
     add_block(numbers, power, blocks, rings, members, sums, frequencies, block);
 }

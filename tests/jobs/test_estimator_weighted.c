@@ -147,7 +147,7 @@ static void find_each(const fixture *what, double (*values)[WEIGHTED]) {
         const bool is_mean = what->options.normalization == PSPEC_NORMALIZATION_INTEGRAL;
         const double unit = is_mean ? mean_points / (double)pattern->num_points : 1;
         ps_mean alone[WEIGHTED];
-        assert_ok(ps_estimator_reset(estimator, error));
+        ps_estimator_reset(estimator);
         assert_ok(ps_estimator_add(estimator, pattern, NULL, 1, error));
         assert_ok(ps_estimator_weighted(estimator, alone, error));
         for (size_t w = 0; w < WEIGHTED; w++) {
@@ -222,7 +222,7 @@ static void reset(void **state) {
     estimate(&made, &made.options, made.sample.patterns, 4, expected, NULL);
     assert_ok(ps_estimator_create(&estimator, &made.options, device, error));
     assert_ok(ps_estimator_add(estimator, made.sample.patterns + 2, NULL, M - 2, error));
-    assert_ok(ps_estimator_reset(estimator, error));
+    ps_estimator_reset(estimator);
     assert_int_equal(ps_estimator_weighted(estimator, found, &nothing), PSPEC_ERROR_INPUT);
     assert_ok(ps_estimator_add(estimator, made.sample.patterns, NULL, 4, error));
     assert_ok(ps_estimator_weighted(estimator, found, error));

@@ -84,14 +84,15 @@ static void free_table(ring_table *table) {
     free(table->members);
 }
 
-/* Sums of frequencies, as the kernel has them: of powers and of squares, in pairs. */
-enum { NUM_STATES = 4 };
+/* What the kernel keeps of frequencies. Batches begin behind BEFORE realizations of power 0: one
+ * whole block, and an open one that they fill up, so that both are carried to the second level. */
+enum { NUM_STATES = 4, LEVELS = 2, BEFORE = 2 * SUM_BLOCK - 28 };
 
 /* What a launch is given; states NULL: bins alone; mean_only: no squares, the last two are not
  * touched. */
 typedef struct launch {
     const build *one;
-    size_t group, stride;
+    size_t group, stride, done;
     const ring_table *table;
     const test_memory *sums, *states;
     bool mean_only;
@@ -114,6 +115,7 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
         test_memory_create(device, table->members, table->num_members * sizeof *table->members);
     const blocks_numbers numbers = {.stride = with->stride,
                                     .num_pieces = table->num_rings,
+                                    .done = with->done,
                                     .num_realizations = (uint32_t)num_rows};
     const ps_argument block = PS_LOCAL(BLOCK * one->lanes * one->precision / 8);
     if (with->states != NULL) {
@@ -177,21 +179,30 @@ static double largest_power(unsigned precision) {
     return precision == 64 ? 0x1p32 : 0x1p16;
 }
 
+/* Slot i of one row of sums: realizations first .. end - 1, and zeros. */
+static void check_row(const launch *with, double *const *found, size_t row, size_t i,
+                      const double *power, size_t first, size_t end) {
+    const size_t at = row * with->stride + i;
+    wide sum = 0, squares = 0;
+    for (size_t r = first; r < end; r++) {
+        const int64_t p = (int64_t)power[r * with->stride + i];
+        sum += p;
+        squares += with->mean_only ? 0 : (wide)p * p;
+    }
+    assert_true((wide)found[0][at] + (wide)found[1][at] == sum);
+    assert_true((wide)found[2][at] + (wide)found[3][at] == squares);
+}
+
 static void check_states(const launch *with, const double *power, size_t num_rows) {
     const size_t stride = with->stride;
     double *found[NUM_STATES];
     for (size_t i = 0; i < NUM_STATES; i++) {
         found[i] = test_reals_read(&with->states[i], with->one->precision);
     }
-    for (size_t i = 0; i < stride; i++) {
-        wide sum = 0, squares = 0;
-        for (size_t r = 0; r < num_rows; r++) {
-            const int64_t p = (int64_t)power[r * stride + i];
-            sum += p;
-            squares += with->mean_only ? 0 : (wide)p * p;
-        }
-        assert_true((wide)found[0][i] + (wide)found[1][i] == sum);
-        assert_true((wide)found[2][i] + (wide)found[3][i] == squares);
+    const size_t closing = 2 * SUM_BLOCK - BEFORE;
+    for (size_t i = 0; i < stride && num_rows > closing; i++) {
+        check_row(with, found, LEVELS, i, power, 0, closing);
+        check_row(with, found, 0, i, power, closing, num_rows);
     }
     for (size_t i = 0; i < NUM_STATES; i++) {
         free(found[i]);
@@ -199,18 +210,21 @@ static void check_states(const launch *with, const double *power, size_t num_row
 }
 
 /* Batches of 7, 0, 1 and 32 realizations, one after the other. */
-static void run_batches(launch with, const double *power) {
+static void run_batches(launch with) {
+    double *power = test_whole_numbers(&seed, 40 * with.stride, largest_power(with.one->precision));
     const size_t batches[] = {7, 0, 1, 32};
-    double *zeros = calloc(with.stride, sizeof *zeros);
+    double *zeros = calloc((1 + LEVELS) * with.stride, sizeof *zeros);
     test_memory states[NUM_STATES];
     size_t done = 0;
     for (size_t i = 0; i < NUM_STATES; i++) {
-        states[i] = test_reals_create(device, with.one->precision, zeros, with.stride);
+        states[i] =
+            test_reals_create(device, with.one->precision, zeros, (1 + LEVELS) * with.stride);
     }
     with.states = states;
     for (size_t b = 0; b < 4; b++) {
         test_memory sums = create_sums(with.one, batches[b], with.table->num_rings);
         with.sums = &sums;
+        with.done = BEFORE + done;
         launch_blocks(&with, power + done * with.stride, batches[b]);
         check_pieces(&with, power + done * with.stride, batches[b]);
         test_memory_free(&sums);
@@ -221,6 +235,7 @@ static void run_batches(launch with, const double *power) {
         test_memory_free(&states[i]);
     }
     free(zeros);
+    free(power);
 }
 
 /* Less than a block, a block, two and a part. */
@@ -228,15 +243,13 @@ static void check_frequencies(const build *one) {
     const size_t strides[] = {one->lanes, 5 * one->lanes, BLOCK, 2 * BLOCK + 3 * one->lanes};
     for (size_t i = 0; i < 4; i++) {
         ring_table table = make_table(strides[i]);
-        double *power = test_whole_numbers(&seed, 40 * strides[i], largest_power(one->precision));
         for (size_t g = 0; g < one->num_groups; g++) {
             launch with = {
                 .one = one, .group = TEST_GROUP_SIZES[g], .stride = strides[i], .table = &table};
-            run_batches(with, power);
+            run_batches(with);
             with.mean_only = true;
-            run_batches(with, power);
+            run_batches(with);
         }
-        free(power);
         free_table(&table);
     }
 }

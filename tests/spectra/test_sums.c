@@ -7,12 +7,49 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void finish(const double *x, size_t count, double *mean, double *standard_error) {
-    ps_sums sums = {0};
-    for (size_t i = 0; i < count; i++) {
-        ps_sums_add(&sums, x[i]);
+/* Added up one after the other, or, running, as sums over realizations are. */
+typedef struct adding {
+    ps_sums plain;
+    ps_running_sums running;
+    bool is_running;
+} adding;
+
+static void begin(adding *adds, bool is_running) {
+    *adds = (adding){.is_running = is_running};
+    assert_ok(ps_running_sums_create(&adds->running, 1, 0, false, error));
+}
+
+static void add(adding *adds, double x) {
+    if (adds->is_running) {
+        assert_ok(ps_running_sums_reserve(&adds->running, adds->running.count + 1, error));
+        ps_running_sums_add(&adds->running, &x, NULL);
+    } else {
+        ps_sums_add(&adds->plain, x);
     }
+}
+
+static void end(adding *adds, size_t count, double *mean, double *standard_error) {
+    const ps_sums sums = adds->is_running ? ps_running_sums_get(&adds->running, 0) : adds->plain;
     ps_sums_finish(&sums, count, mean, standard_error);
+    ps_running_sums_free(&adds->running);
+}
+
+static void finish_by(bool is_running, const double *x, size_t count, double *mean,
+                      double *standard_error) {
+    adding sums;
+    begin(&sums, is_running);
+    for (size_t i = 0; i < count; i++) {
+        add(&sums, x[i]);
+    }
+    end(&sums, count, mean, standard_error);
+}
+
+static void finish(const double *x, size_t count, double *mean, double *standard_error) {
+    double plain[2];
+    finish_by(true, x, count, mean, standard_error);
+    finish_by(false, x, count, &plain[0], &plain[1]);
+    assert_true(isnan(plain[0]) || fabs(plain[0] - *mean) <= DBL_EPSILON * fabs(*mean));
+    assert_true(isnan(plain[1]) || fabs(plain[1] - *standard_error) <= 1e-12 * *standard_error);
 }
 
 /* Relative error of the standard error within tolerance; the mean to the last bit but one. */
@@ -76,19 +113,19 @@ static void two_numbers(void **state) {
     assert_true(standard_error == 2 * DBL_EPSILON);
 }
 
-static void equal_numbers_have_no_error(void **state) {
-    (void)state;
+static void check_equal_numbers(bool is_running) {
     const double values[] = {0, 1, 0.1, 1.0 / 3, 1e-300, 1e8 + 0.1, 3.7e12, 1.2345678901234567e-5};
     const size_t counts[] = {2, 3, 7, 10, 1000, 100000, 1000000};
     for (size_t v = 0; v < sizeof values / sizeof values[0]; v++) {
         for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
-            ps_sums sums = {0};
+            adding sums;
             double mean = -1;
             double standard_error = -1;
+            begin(&sums, is_running);
             for (size_t i = 0; i < counts[c]; i++) {
-                ps_sums_add(&sums, values[v]);
+                add(&sums, values[v]);
             }
-            ps_sums_finish(&sums, counts[c], &mean, &standard_error);
+            end(&sums, counts[c], &mean, &standard_error);
             if (standard_error != 0) {
                 fail_msg("%zu times %.17g has the standard error %.3g", counts[c], values[v],
                          standard_error);
@@ -96,6 +133,12 @@ static void equal_numbers_have_no_error(void **state) {
             assert_true(fabs(mean - values[v]) <= DBL_EPSILON * values[v]);
         }
     }
+}
+
+static void equal_numbers_have_no_error(void **state) {
+    (void)state;
+    check_equal_numbers(false);
+    check_equal_numbers(true);
 }
 
 static void one_number_has_no_standard_error(void **state) {

@@ -3,6 +3,7 @@
  */
 #include "harness.h"
 
+#include "accumulate/blocks.h"
 #include "device/reals.h"
 #include "spectra/accumulate.h"
 
@@ -121,11 +122,13 @@ static ps_accumulator *make_accumulator(const fixture *what, const layout *how,
     return made;
 }
 
+/* More than M realizations are the same ones again. */
 static void add_all(ps_accumulator *accumulator, const fixture *what, const layout *how,
                     const uint32_t *slots, size_t num) {
-    for (size_t r = 0; r < num; r += how->batch) {
-        const size_t rest = num - r < how->batch ? num - r : how->batch;
-        ps_rows rows = make_rows(what, how, slots, r, rest);
+    for (size_t r = 0, taken = 0; r < num; r += taken) {
+        const size_t most = M - r % M < num - r ? M - r % M : num - r;
+        taken = most < how->batch ? most : how->batch;
+        ps_rows rows = make_rows(what, how, slots, r % M, taken);
         assert_ok(ps_accumulator_add(accumulator, &rows, NULL, error));
         release(&rows);
     }
@@ -147,7 +150,7 @@ static const layout layouts[] = {
     {true, PS_SINGLE, 2, 1024, 3, 1},    {true, PS_DOUBLE, 8, 4096, 1235, 3},
     {true, PS_DOUBLE, 4, 1028, 5, 30},   {true, PS_DOUBLE, 16, 2000, 77, M},
 };
-enum { LAYOUTS = sizeof layouts / sizeof layouts[0] };
+enum { LAYOUTS = sizeof layouts / sizeof layouts[0], FIRST_SINGLE = 2, FIRST_DOUBLE = 7 };
 
 static void for_all_layouts(void (*check)(const fixture *, const layout *)) {
     fixture what = make_fixture();
@@ -292,6 +295,77 @@ static void frequencies(void **state) {
     for_all_layouts(check_frequency);
 }
 
+/* Two blocks of realizations that are merged, and an open one. */
+enum { MANY = 2 * SUM_BLOCK + 40 };
+
+/* Means of frequencies, and behind them those of bins. */
+static void find_all(const fixture *what, const layout *how, bool is_gpu, ps_mean *means) {
+    uint32_t *slots = make_slots(what, how);
+    ps_device_set_dedicated_local_memory(device, is_gpu);
+    ps_accumulator *accumulator = make_accumulator(what, how, slots, false);
+    add_all(accumulator, what, how, slots, MANY);
+    assert_ok(ps_accumulator_frequencies(accumulator, means, error));
+    assert_ok(ps_accumulator_bins(accumulator, means + what->set.num, error));
+    ps_accumulator_destroy(accumulator);
+    ps_device_set_dedicated_local_memory(device, false);
+    free(slots);
+}
+
+/* Frequencies have the same bits on the host and on the device, bins on the device, whatever the
+ * layout. */
+static void check_everywhere(const fixture *what, const layout *how) {
+    const bool is_single = how->precision == PS_SINGLE;
+    const layout *frequencies_of = &layouts[is_single ? FIRST_SINGLE : 0];
+    const layout *bins_of = is_single           ? &layouts[FIRST_SINGLE]
+                            : how->is_on_device ? &layouts[FIRST_DOUBLE]
+                                                : &layouts[0];
+    const size_t num = what->set.num;
+    ps_mean *means[3];
+    for (size_t i = 0; i < 3; i++) {
+        means[i] = calloc(num + what->bins.num, sizeof(ps_mean));
+    }
+    find_all(what, frequencies_of, false, means[0]);
+    find_all(what, bins_of, false, means[1]);
+    for (size_t gpu = 0; gpu < 2; gpu++) {
+        find_all(what, how, gpu > 0, means[2]);
+        assert_memory_equal(means[2], means[0], num * sizeof(ps_mean));
+        assert_memory_equal(means[2] + num, means[1] + num, what->bins.num * sizeof(ps_mean));
+    }
+    for (size_t i = 0; i < 3; i++) {
+        free(means[i]);
+    }
+}
+
+static void same_sums_everywhere(void **state) {
+    (void)state;
+    for_all_layouts(check_everywhere);
+}
+
+/* Equal rows have no standard error, exactly. */
+static void check_equal_rows(const fixture *given, const layout *how) {
+    fixture what = *given;
+    const size_t num = what.set.num;
+    ps_mean *means = calloc(num + what.bins.num, sizeof *means);
+    what.powers = calloc(M * num, sizeof *what.powers);
+    for (size_t i = 0; i < M * num; i++) {
+        what.powers[i] = given->powers[i % num];
+    }
+    for (size_t gpu = 0; gpu < 2; gpu++) {
+        find_all(&what, how, gpu > 0, means);
+        for (size_t i = 0; i < num + what.bins.num; i++) {
+            assert_true(means[i].standard_error == 0);
+            assert_true(i >= num || means[i].mean == what.powers[i]);
+        }
+    }
+    free(what.powers);
+    free(means);
+}
+
+static void equal_rows(void **state) {
+    (void)state;
+    for_all_layouts(check_equal_rows);
+}
+
 /* ---- correlations ------------------------------------------------------------------------ */
 
 /* Every frequency has the power x of its realization, or 2 - x: equal powers have the relative
@@ -349,7 +423,7 @@ static void check_means_and_reset(const fixture *what, const layout *how) {
             assert_true(found[w].mean == expected[w].mean && expected[w].standard_error > 0);
             assert_true(isnan(found[w].standard_error));
         }
-        assert_ok(ps_accumulator_reset(accumulator, error));
+        ps_accumulator_reset(accumulator);
     }
     ps_accumulator_destroy(accumulator);
     free(slots);
@@ -365,6 +439,7 @@ int main(void) {
         cmocka_unit_test(sums_of_rows), cmocka_unit_test(same_bits_for_every_batch),
         cmocka_unit_test(rings),        cmocka_unit_test(frequencies),
         cmocka_unit_test(correlations), cmocka_unit_test(means_and_reset),
+        cmocka_unit_test(equal_rows),   cmocka_unit_test(same_sums_everywhere),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("weighted", tests, NULL, NULL);
