@@ -39,6 +39,19 @@ typedef struct sort_numbers {
     ps_u32 has_weights; /* or all are 1 */
 } sort_numbers;
 
+/* order.cl: sets of up to `tiles` tiles, and the digit of keys that they are ordered by. */
+typedef struct order_numbers {
+    ps_u32 tile, tiles;
+    ps_u32 workers; /* of a tile, which take neighbours each; a multiple of 16 */
+    ps_u32 shift, bits;
+    ps_u32 is_first; /* sets are in the order in which they came */
+    ps_u32 row;      /* of numbers of keys below 0, 1, .. */
+} order_numbers;
+
+/* Bits of a place in a tile, and parts that the tiles of a set are summed in. */
+#define ORDER_PLACE_BITS 12
+#define ORDER_SEGMENTS 32
+
 typedef struct tile_numbers {
     ps_u64 stride; /* of rows of powers */
     axis_numbers along;
@@ -78,6 +91,7 @@ typedef struct powers_numbers {
 } powers_numbers;
 
 SAME_SIZE(sort_numbers, 88);
+SAME_SIZE(order_numbers, 28);
 SAME_SIZE(tile_numbers, 64);
 SAME_SIZE(rows_numbers, 88);
 SAME_SIZE(line_numbers, 32);

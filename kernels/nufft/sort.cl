@@ -1,7 +1,7 @@
 /* Points of each realization in the order of the fine-grid cells, or with BOXES of the boxes of
  * cells (nufft/boxes.h), where their windows begin: a counting sort, stable, by one work-item for
- * each realization. Launch: (realizations), rounded up at will. DIMENSION is a constant: loops over
- * axes would cost as much as all the rest.
+ * each realization, as CPUs want it. Launch: (realizations), rounded up at will. DIMENSION is a
+ * constant: loops over axes would cost as much as all the rest.
  *
  *   numbers          sort_numbers of nufft/numbers.h
  *   points, weights  [..][DIMENSION] fixed point, realization r at offsets[r] .. offsets[r + 1]
@@ -10,6 +10,8 @@
  *                    last point again, without weight
  *   starts           [realization][num_keys + 2]: cell or box m has the points starts[m] .. starts[m + 1] of it;
  *                    two axes make cells m = cell * n + second cell
+ *
+ * GPUs have the keys alone of here, and nufft/order.cl for the rest.
  */
 #ifndef DIMENSION
 #define DIMENSION 2
@@ -137,5 +139,20 @@ __kernel void nufft_sort(const sort_numbers numbers, __global const ulong *restr
     for (size_t place = count; place < places[realization + 1] - places[realization]; place++) {
         copy_point(to.points + place * DIMENSION, to.points + (count - 1) * (size_t)DIMENSION);
         to.heights[place] = 0;
+    }
+}
+
+/* Launch: (points / LANES), rounded up at will. keys: [num_points] */
+__kernel void nufft_keys(const sort_numbers numbers, const ulong num_points,
+                         __global const ulong *restrict points, __global uint *restrict keys) {
+    const size_t first = get_global_id(0) * (size_t)LANES;
+    if (first >= num_points) {
+        return;
+    }
+    const uint num = (uint)min((size_t)LANES, (size_t)num_points - first);
+    key_list own;
+    own.together = keys_of(numbers, points + first * DIMENSION, num);
+    for (uint i = 0; i < num; i++) {
+        keys[first + i] = own.key[i];
     }
 }

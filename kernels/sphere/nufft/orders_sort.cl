@@ -1,6 +1,6 @@
 /* Points of a large set in the order of bands of longitudes, within them of tiles of angles from
- * the pole: a counting sort, stable, of each part by one work-item. Launch: (parts), rounded up at
- * will.
+ * the pole: a counting sort, stable, of each part by one work-item, as CPUs want it. Launch:
+ * (parts), rounded up at will.
  *
  *   numbers          of numbers.h; their names are used here
  *   points, weights  [num_points][3], [num_points]
@@ -9,6 +9,8 @@
  *   sorted, heights  [num_points][2] of sphere/turns.h, [num_points]: as long as the points; heights are left alone
  *                    without weights (has_weights 0)
  *   starts           [part][bands tiles + 1]: from the beginning of the part
+ *
+ * GPUs have turns and keys alone of here, and nufft/order.cl for the rest.
  */
 #include "sphere/bands.h"
 #include "sphere/nufft/numbers.h"
@@ -69,4 +71,17 @@ __kernel void sphere_orders_sort(const orders_sort_numbers numbers,
             heights[place] = weights[i];
         }
     }
+}
+
+/* Launch: (points / LANES), rounded up at will. */
+__kernel void sphere_orders_keys(const orders_sort_numbers numbers,
+                                 __global const double *restrict points,
+                                 __global ulong *restrict turns, __global uint *restrict keys) {
+    const size_t first = get_global_id(0) * (size_t)LANES, num_points = numbers.num_points;
+    if (first >= num_points) {
+        return;
+    }
+    make_turns(points, turns, first, num_points, numbers.shift);
+    make_keys(turns, keys, first, (uint)min((size_t)LANES, num_points - first), numbers.n,
+              numbers.width, numbers.bands, numbers.tiles);
 }

@@ -101,6 +101,16 @@ static void as_announced(void **state) {
     }
 }
 
+/* By the layouts of GPUs, whose sort is several launches. */
+static void as_announced_on_gpus(void **state) {
+    (void)state;
+    ps_device_set_dedicated_local_memory(device, true);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i += 2) {
+        check_case(&cases[i], PS_SINGLE);
+    }
+    ps_device_set_dedicated_local_memory(device, false);
+}
+
 static double created_for(const ps_problem *problem, uint64_t num_realizations) {
     ps_problem planned = *problem;
     void *engine = NULL;
@@ -136,6 +146,7 @@ static void batches_of_one(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_announced),
+        cmocka_unit_test(as_announced_on_gpus),
         cmocka_unit_test(batches_of_one),
     };
     ps_error error = {0};

@@ -77,8 +77,9 @@ static size_t fitting(double budget, uint64_t bytes, size_t most) {
     return number >= (double)most ? most : number > 1 ? (size_t)number : 1;
 }
 
-static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem, size_t cores,
-                           size_t real_bytes) {
+static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
+                           const ps_device_limits *limits, size_t real_bytes) {
+    const size_t cores = ps_device_typical(limits).served_units;
     const uint64_t known = problem->num_realizations;
     const bool is_small = (double)shape->value_bytes * MOST_SMALL_AT_ONCE <= small_values;
     const size_t wanted = is_small ? MOST_SMALL_AT_ONCE : MOST_AT_ONCE;
@@ -92,6 +93,10 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem, si
         shape->most_points = PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS;
     }
     const size_t groups = GROUPS_PER_CORE * cores;
+    if (shape->is_sorted) {
+        const uint32_t keys = shape->bands * shape->tiles;
+        shape->order = ps_nufft_order_measure(limits, PS_SPHERE_PART_POINTS, keys, keys + 1);
+    }
     shape->set_points = ps_sphere_has_strips(shape) ? problem->num_points : 0;
     shape->slots = fitting(grid_budget, shape->grid_bytes + shape->row_bytes,
                            shape->together < groups ? shape->together : groups);
@@ -120,8 +125,9 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .vectors = points * 3 * sizeof(double),
         .turns = points * 2 * sizeof(uint64_t),
         .weights = points * real_bytes,
-        .keys = shape->is_sorted ? points * sizeof(uint32_t) : 0,
+        .keys = shape->is_sorted && shape->order.tile == 0 ? points * sizeof(uint32_t) : 0,
         .starts = shape->is_sorted ? parts * (keys + 1) * sizeof(uint32_t) : 0,
+        .order = parts * ps_nufft_order_bytes(&shape->order),
         .grids = (has_strips ? work_groups : shape->slots) * shape->grid_bytes,
         .rows = shape->slots * shape->row_bytes,
         .strip_turns = strip_points * 2 * sizeof(uint64_t),
@@ -147,7 +153,7 @@ static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
 
 void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                             const ps_device_limits *limits, size_t real_bytes) {
-    choose_at_once(shape, problem, ps_device_typical(limits).served_units, real_bytes);
+    choose_at_once(shape, problem, limits, real_bytes);
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, real_bytes);
     const uint64_t sorted = shape->is_sorted ? bytes.turns + bytes.weights : 0;
     const uint64_t host_each = 2 * shape->half_pitch * sizeof(double);
@@ -158,8 +164,8 @@ void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     shape->each_bytes = is_fixed ? 0 : each;
     shape->host_bytes = bytes.weights + (is_fixed ? shape->at_once * host_each : 0);
     shape->fixed_bytes = bytes.weights + bytes.vectors + bytes.turns + bytes.weights + sorted +
-                         bytes.keys + bytes.starts + bytes.grids + bytes.rows + bytes.scratch +
-                         bytes.strip_turns + bytes.strip_weights + bytes.strips +
+                         bytes.keys + bytes.starts + bytes.order + bytes.grids + bytes.rows +
+                         bytes.scratch + bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
                          bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
                          bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
@@ -169,7 +175,9 @@ void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                                 bytes.rows,
                                 shape->at_once * bytes.values + bytes.gaps,
                                 shape->at_once * bytes.powers,
-                                bytes.vectors};
+                                bytes.vectors,
+                                ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS) *
+                                    ps_nufft_order_largest(&shape->order)};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         shape->largest_buffer =
             buffers[i] > shape->largest_buffer ? buffers[i] : shape->largest_buffer;

@@ -14,6 +14,11 @@ __extension__ typedef unsigned __int128 wide; /* not in ISO C */
 
 /* ---- create ------------------------------------------------------------------------------ */
 
+/* Of realizations, or of the parts of one. */
+static size_t num_offsets(const ps_sphere_shape *shape) {
+    return (shape->order.tile > 0 ? PS_SPHERE_PARTS : shape->together) + 1;
+}
+
 static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, ps_real_bytes(self->precision));
@@ -21,19 +26,19 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
         ps_buffer *buffer;
         size_t bytes;
         const char *what;
-        bool is_of_sorted;
+        bool is_there;
     } wanted[] = {
-        {&self->vectors, bytes.vectors, "points", false},
-        {&self->turns, bytes.turns, "angles of points", false},
-        {&self->weights, bytes.weights, "weights", false},
-        {&self->offsets, (shape->together + 1) * sizeof(uint64_t), "offsets", false},
-        {&self->keys, bytes.keys, "bands of points", true},
-        {&self->sorted, bytes.turns, "sorted points", true},
-        {&self->heights, bytes.weights, "sorted weights", true},
-        {&self->starts, bytes.starts, "starts of bands", true},
+        {&self->vectors, bytes.vectors, "points", true},
+        {&self->turns, bytes.turns, "angles of points", true},
+        {&self->weights, bytes.weights, "weights", true},
+        {&self->offsets, num_offsets(shape) * sizeof(uint64_t), "offsets", true},
+        {&self->keys, bytes.keys, "bands of points", bytes.keys > 0},
+        {&self->sorted, bytes.turns, "sorted points", shape->is_sorted},
+        {&self->heights, bytes.weights, "sorted weights", shape->is_sorted},
+        {&self->starts, bytes.starts, "starts of bands", shape->is_sorted},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        if (!wanted[i].is_of_sorted || shape->is_sorted) {
+        if (wanted[i].is_there) {
             PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
                                     error));
         }
@@ -63,9 +68,27 @@ static uint64_t shift_of(const ps_sphere_shape *shape) {
     return (uint64_t)(((wide)shape->half_poles << 63) / shape->axis.n);
 }
 
+static pspec_status create_kernels(ps_sphere_places *self, ps_error *error) {
+    enum { TURN, SORT, KEYS };
+    static const char *const names[][2] = {
+        [TURN] = {"sphere/nufft/orders_turns.cl", "sphere_orders_turns"},
+        [SORT] = {"sphere/nufft/orders_sort.cl", "sphere_orders_sort"},
+        [KEYS] = {"sphere/nufft/orders_sort.cl", "sphere_orders_keys"}};
+    const ps_sphere_shape *const shape = self->shape;
+    const int which = shape->order.tile > 0 ? KEYS : shape->is_sorted ? SORT : TURN;
+    const size_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
+    char options[64];
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
+             self->precision == PS_SINGLE ? 32u : 64u, self->lanes);
+    PS_TRY(ps_kernel_create(self->device, &self->turn, names[which][0], names[which][1], options,
+                            error));
+    return which == KEYS ? ps_nufft_order_create(&self->order, &shape->order, parts, 2,
+                                                 self->precision, self->device, error)
+                         : PSPEC_OK;
+}
+
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
                                      ps_precision precision, ps_device *device, ps_error *error) {
-    char options[64];
     void *memory = NULL;
     *out = (ps_sphere_places){.device = device,
                               .precision = precision,
@@ -75,13 +98,8 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
                               .shift = shift_of(shape)};
     PS_TRY(ps_allocate(&memory, out->most_points, ps_real_bytes(precision), "weights", error));
     out->host_weights = memory;
-    PS_TRY(PS_NEW(&out->host_offsets, shape->together + 1, "offsets", error));
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             precision == PS_SINGLE ? 32u : 64u, out->lanes);
-    PS_TRY(ps_kernel_create(
-        device, &out->turn,
-        shape->is_sorted ? "sphere/nufft/orders_sort.cl" : "sphere/nufft/orders_turns.cl",
-        shape->is_sorted ? "sphere_orders_sort" : "sphere_orders_turns", options, error));
+    PS_TRY(PS_NEW(&out->host_offsets, num_offsets(shape), "offsets", error));
+    PS_TRY(create_kernels(out, error));
     PS_TRY(create_buffers(out, error));
     return upload_unit_weights(out, error);
 }
@@ -90,6 +108,7 @@ void ps_sphere_places_free(ps_sphere_places *points) {
     if (points->turn != NULL) {
         clReleaseKernel(points->turn);
     }
+    ps_nufft_order_free(&points->order);
     ps_buffer_release(&points->vectors);
     ps_buffer_release(&points->turns);
     ps_buffer_release(&points->weights);
@@ -153,6 +172,33 @@ static pspec_status upload_weights(ps_sphere_places *self, const ps_batch *batch
                            error);
 }
 
+/* On GPUs, parts as sets. */
+static pspec_status order_points(ps_sphere_places *self, const orders_sort_numbers *numbers,
+                                 size_t num_parts, ps_error *error) {
+    const ps_range range =
+        ps_range_light(self->device, ps_divide_up(self->num_points, self->lanes), 1, 1, 0,
+                       (double)(self->num_points *
+                                (3 * sizeof(double) + 2 * sizeof(uint64_t) + sizeof(uint32_t))));
+    const ps_nufft_order_points points = {.points = &self->turns,
+                                          .weights = &self->weights,
+                                          .offsets = &self->offsets,
+                                          .places = &self->offsets,
+                                          .sorted = &self->sorted,
+                                          .heights = &self->heights,
+                                          .starts = &self->starts,
+                                          .has_weights = numbers->has_weights != 0};
+    for (size_t part = 0; part <= num_parts; part++) {
+        const uint64_t begin = part * PS_SPHERE_PART_POINTS;
+        self->host_offsets[part] = begin < self->num_points ? begin : self->num_points;
+    }
+    PS_TRY(ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
+                           (num_parts + 1) * sizeof(uint64_t), error));
+    PS_TRY(PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(*numbers),
+                     PS_BUFFER(self->vectors), PS_BUFFER(self->turns),
+                     PS_BUFFER(self->order.keys)));
+    return ps_nufft_order_run(&self->order, &points, num_parts, error);
+}
+
 static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
@@ -167,6 +213,9 @@ static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
                                          .bands = shape->bands,
                                          .tiles = shape->tiles,
                                          .has_weights = !self->has_unit_weights};
+    if (shape->order.tile > 0) {
+        return order_points(self, &numbers, parts, error);
+    }
     return PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(self->vectors), PS_BUFFER(self->weights), PS_BUFFER(self->turns),
                      PS_BUFFER(self->keys), PS_BUFFER(self->sorted), PS_BUFFER(self->heights),

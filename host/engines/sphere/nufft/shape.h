@@ -7,6 +7,7 @@
 
 #include "engines/engine.h"
 #include "engines/nufft/axis.h"
+#include "engines/nufft/order.h"
 
 /* Groups of orders in kernels/sphere/nufft/orders_sum.cl, orders_sum_one.cl, grid_sums.cl and
  * grid_table.cl: each adds up those of its own. There are so many whatever the device, since sums
@@ -47,14 +48,15 @@ typedef struct ps_sphere_shape {
     uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
     uint32_t bands, band_rows;            /* of a grid (kernels/sphere/bands.h) */
     uint32_t tiles;                       /* of angles from the pole, of sorted points */
-    uint32_t strip;       /* columns of a strip (kernels/sphere/nufft/orders_strips.h) */
-    bool is_sorted;       /* one realization at a time, in chunks of points */
-    size_t at_once;       /* realizations between values on rings and powers */
-    size_t together;      /* between points and values on rings */
-    size_t slots;         /* grids */
-    size_t shares;        /* work-groups for each grid */
-    uint64_t most_points; /* on the device at a time */
-    uint64_t set_points;  /* of a realization that comes in strips, else 0 */
+    uint32_t strip;             /* columns of a strip (kernels/sphere/nufft/orders_strips.h) */
+    bool is_sorted;             /* one realization at a time, in chunks of points */
+    ps_nufft_order_sizes order; /* of its parts, on GPUs */
+    size_t at_once;             /* realizations between values on rings and powers */
+    size_t together;            /* between points and values on rings */
+    size_t slots;               /* grids */
+    size_t shares;              /* work-groups for each grid */
+    uint64_t most_points;       /* on the device at a time */
+    uint64_t set_points;        /* of a realization that comes in strips, else 0 */
 
     uint64_t grid_bytes;  /* of a grid, or of a strip */
     uint64_t row_bytes;   /* of the rows of a realization */
@@ -117,7 +119,8 @@ double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, 
  * of at_once realizations, sums for one more. */
 typedef struct ps_sphere_bytes {
     uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
-    uint64_t keys, starts;
+    uint64_t keys, starts;            /* on GPUs the order has the keys */
+    uint64_t order;
     uint64_t grids, rows, scratch;
     uint64_t strip_turns, strip_weights, strips, strip_starts;
     uint64_t values, powers, sums;

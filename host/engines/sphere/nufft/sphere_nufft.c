@@ -53,7 +53,8 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                        ps_precision precision) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double launches_of_some = 4;
+    /* Of places, sums and powers. */
+    const double launches_of_some = 3 + ps_nufft_order_launches(&shape->order);
     const double row = (double)problem->frequencies->num * sizeof(double);
     /* coefficients as the kernel keeps them, on the device and on the host */
     const double kept = problem->harmonics == PS_NO_HARMONICS
@@ -61,7 +62,8 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                             : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
                                   (double)sizeof(double);
     const ps_sphere_variant *variant = ps_sphere_variant_of(shape);
-    const double kernels = variant->kernels + (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
+    const double kernels = variant->kernels + (shape->order.tile > 0 ? 1 : 0) +
+                           (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
     const double flops =
         ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
     return (ps_work){.transform_flops = realizations * flops + variant->count_table_flops(shape),

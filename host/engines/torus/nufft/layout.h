@@ -2,6 +2,7 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 #define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 
+#include "engines/nufft/order.h"
 #include "engines/torus/nufft/sizes/boxes.h"
 #include "engines/torus/nufft/sizes/lines.h"
 #include "engines/torus/nufft/sizes/strips.h"
@@ -43,6 +44,7 @@ typedef struct ps_nufft_layout {
     size_t part_points; /* points sorted together: all of a realization, or part of a chunk */
     size_t part_places; /* whole units of places for them */
     size_t parts;       /* whose places are made at a time */
+    ps_nufft_order_sizes order; /* of the points of parts, on GPUs */
     ps_nufft_whole_sizes whole;
     ps_nufft_strip_sizes strips;
     size_t groups; /* of whole realizations, and of those in strips */

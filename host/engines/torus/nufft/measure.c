@@ -22,7 +22,7 @@ uint64_t ps_nufft_part_bytes(const ps_nufft_layout *layout, unsigned dimension) 
     enum { COPIES = 3, BEGINNINGS = 4, MEANS = 2 };
     const uint64_t point = dimension * sizeof(uint64_t) + layout->real_bytes;
     return COPIES * layout->part_places * point + ps_nufft_starts_bytes(layout) +
-           (BEGINNINGS + MEANS) * sizeof(uint64_t);
+           ps_nufft_order_bytes(&layout->order) + (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
 uint64_t ps_nufft_host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
@@ -122,7 +122,10 @@ bool ps_nufft_measure_rows(ps_nufft_layout *layout, const ps_problem *problem,
     return true;
 }
 
-void ps_nufft_set_part_points(ps_nufft_layout *layout, size_t part_points) {
+void ps_nufft_set_part_points(ps_nufft_layout *layout, size_t part_points,
+                              const ps_device_limits *limits) {
     layout->part_points = part_points;
     layout->part_places = ps_round_up(part_points, PS_NUFFT_PLACE_UNIT);
+    layout->order =
+        ps_nufft_order_measure(limits, part_points, layout->num_keys, layout->num_keys + 2);
 }

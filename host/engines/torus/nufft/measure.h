@@ -10,7 +10,9 @@ bool ps_nufft_measure_rows(ps_nufft_layout *layout, const ps_problem *problem,
                            const ps_device_limits *limits);
 /* Tiles, rows and powers for layout->lanes. */
 void ps_nufft_measure_axes(ps_nufft_layout *layout);
-void ps_nufft_set_part_points(ps_nufft_layout *layout, size_t part_points);
+/* After num_keys. */
+void ps_nufft_set_part_points(ps_nufft_layout *layout, size_t part_points,
+                              const ps_device_limits *limits);
 
 /* Realizations at a time whose `each` bytes of work stay in the cache or fill the device, in whole
  * units, no more than there are. */
@@ -18,7 +20,7 @@ size_t ps_nufft_fitting_parts(const ps_problem *problem, const ps_device_limits 
                               double each, size_t unit);
 
 /* Points sorted together: on the host, as they came and sorted; where cells, places and points
- * begin. */
+ * begin, and on GPUs what makes their order. */
 uint64_t ps_nufft_part_bytes(const ps_nufft_layout *layout, unsigned dimension);
 uint64_t ps_nufft_starts_bytes(const ps_nufft_layout *layout);
 /* What one point of every part takes in the copy that the host keeps

@@ -23,12 +23,16 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
 }
 
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
+    const ps_nufft_layout *const layout = self->layout;
+    const bool has_order = layout->order.tile > 0;
     char options[64];
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DBOXES=%u",
-             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->dimension,
-             self->layout->has_boxes);
-    return ps_kernel_create(self->device, &self->sort, "nufft/sort.cl", "nufft_sort", options,
-                            error);
+             precision == PS_SINGLE ? 32u : 64u, layout->lanes, self->dimension, layout->has_boxes);
+    PS_TRY(ps_kernel_create(self->device, &self->sort, "nufft/sort.cl",
+                            has_order ? "nufft_keys" : "nufft_sort", options, error));
+    return has_order ? ps_nufft_order_create(&self->order, &layout->order, layout->parts,
+                                             self->dimension, precision, self->device, error)
+                     : PSPEC_OK;
 }
 
 pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
@@ -46,6 +50,7 @@ void ps_nufft_places_free(ps_nufft_places *places) {
     if (places->sort != NULL) {
         clReleaseKernel(places->sort);
     }
+    ps_nufft_order_free(&places->order);
     ps_buffer_release(&places->places);
     ps_buffer_release(&places->sorted);
     ps_buffer_release(&places->heights);
@@ -93,6 +98,26 @@ static void set_keys(const ps_nufft_layout *layout, sort_numbers *numbers) {
     }
 }
 
+/* On GPUs. */
+static pspec_status order_points(ps_nufft_places *self, const sort_numbers *numbers,
+                                 ps_error *error) {
+    const size_t num = self->num_points;
+    const ps_nufft_order_points points = {.points = &self->points.points,
+                                          .weights = &self->points.weights,
+                                          .offsets = &self->points.offsets,
+                                          .places = &self->places,
+                                          .sorted = &self->sorted,
+                                          .heights = &self->heights,
+                                          .starts = &self->starts,
+                                          .has_weights = numbers->has_weights != 0};
+    const size_t bytes = num * (self->dimension * sizeof(uint64_t) + sizeof(uint32_t));
+    const ps_range range = ps_range_light(self->device, ps_divide_up(num, self->layout->lanes), 1,
+                                          1, 0, (double)bytes);
+    PS_TRY(PS_LAUNCH(self->device, self->sort, &range, error, PS_STRUCT(*numbers), PS_U64(num),
+                     PS_BUFFER(self->points.points), PS_BUFFER(self->order.keys)));
+    return ps_nufft_order_run(&self->order, &points, numbers->num_realizations, error);
+}
+
 pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_error *error) {
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
     const ps_range range = ps_range_heavy(places->device, num_parts, 1, 1,
@@ -100,6 +125,9 @@ pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_
     sort_numbers numbers = {.num_realizations = num_parts,
                             .has_weights = places->points.has_unit_weights ? 0 : 1};
     set_keys(places->layout, &numbers);
+    if (places->layout->order.tile > 0) {
+        return order_points(places, &numbers, error);
+    }
     return PS_LAUNCH(places->device, places->sort, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(places->points.points), PS_BUFFER(places->points.weights),
                      PS_BUFFER(places->points.offsets), PS_BUFFER(places->places),

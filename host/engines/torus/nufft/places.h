@@ -10,8 +10,9 @@ typedef struct ps_nufft_places {
     ps_device *device;
     unsigned dimension;
     ps_torus_points points;
-    size_t num_points; /* that were uploaded */
-    cl_kernel sort;
+    size_t num_points;    /* that were uploaded */
+    cl_kernel sort;       /* or keys, where there is an order */
+    ps_nufft_order order; /* on GPUs */
     uint64_t *host_places;
     ps_buffer places, sorted, heights, starts;
 } ps_nufft_places;
@@ -25,7 +26,7 @@ void ps_nufft_places_free(ps_nufft_places *places);
 /* Every pattern has at most layout->part_points points; at most layout->parts of them. */
 pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *parts,
                                     ps_error *error) PS_MUST_CHECK;
-/* Sorts what was uploaded by the first axis of the fine grid. */
+/* Sorts what was uploaded by the cells or boxes of the layout. */
 pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts,
                                   ps_error *error) PS_MUST_CHECK;
 

@@ -54,7 +54,8 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
         .transform_flops =
             realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
         .launches = variant->count_launches(layout, (double)problem->num_points, realizations),
-        .kernels = variant->kernels[layout->choice.num_axes > 1] + kernels_of_line(&layout->choice),
+        .kernels = variant->kernels[layout->choice.num_axes > 1] +
+                   kernels_of_line(&layout->choice) + (layout->order.tile > 0 ? 1 : 0),
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
         .bytes_per_realization = (double)layout->bytes_per_realization,

@@ -165,6 +165,7 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uin
                                 transformed,
                                 strip,
                                 layout->parts * ps_nufft_starts_bytes(layout),
+                                layout->parts * ps_nufft_order_largest(&layout->order),
                                 layout->parts * layout->part_places * dimension * sizeof(uint64_t)};
     layout->largest_buffer = layout->num_slabs > PS_NUFFT_MOST_SLABS
                                  ? reals
@@ -197,7 +198,8 @@ static void measure(ps_nufft_layout *layout, const ps_problem *problem,
     }
     layout->lanes = has_rows && choose_boxes(layout, limits) ? layout->lanes : 0;
     if (layout->lanes > 0) {
-        ps_nufft_set_part_points(layout, problem->num_points < most ? problem->num_points : most);
+        ps_nufft_set_part_points(layout, problem->num_points < most ? problem->num_points : most,
+                                 limits);
         measure_grid(layout, problem, limits->max_allocation_bytes);
         layout->host_bytes =
             ps_nufft_host_point_bytes(layout, problem, limits) * layout->part_places;
@@ -212,7 +214,8 @@ static double count_launches(const ps_nufft_layout *layout, double num_points,
     const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
     const uint32_t *const colours = layout->boxes.colours;
     const double spreading = (double)(colours[0] * colours[1] * colours[2]);
-    return realizations * ((1 + spreading) * chunks + 1 + num_last);
+    return realizations *
+           ((ps_nufft_order_launches(&layout->order) + spreading) * chunks + 1 + num_last);
 }
 
 static void describe(const ps_nufft_layout *layout, ps_text *text) {

@@ -122,7 +122,8 @@ static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
     layout->parts = ps_nufft_fitting_parts(problem, limits, (double)each, 1);
     layout->fixed_bytes = layout->parts * each + ps_nufft_table_bytes(layout);
     const uint64_t buffers[] = {grid, layout->part_places * dimension * sizeof(uint64_t),
-                                ps_nufft_starts_bytes(layout)};
+                                ps_nufft_starts_bytes(layout),
+                                ps_nufft_order_largest(&layout->order)};
     layout->largest_buffer =
         layout->parts * ps_nufft_largest(buffers, sizeof buffers / sizeof buffers[0]);
 }
@@ -141,7 +142,7 @@ static void count_lines(ps_nufft_layout *layout) {
 static void measure(ps_nufft_layout *layout, const ps_problem *problem,
                     const ps_device_limits *limits) {
     if (ps_nufft_measure_rows(layout, problem, limits)) {
-        ps_nufft_set_part_points(layout, problem->num_points);
+        ps_nufft_set_part_points(layout, problem->num_points, limits);
         choose_at_once(layout, problem, limits);
         count_lines(layout);
         layout->host_bytes =
@@ -157,7 +158,9 @@ static double count_launches(const ps_nufft_layout *layout, double num_points,
     (void)num_points;
     ps_nufft_last_axes(&layout->choice, &num_last);
     const double of_lines = layout->choice.has_line ? num_last : 0;
-    return ceil(realizations / (double)layout->parts) * (1 + num_last) + of_lines;
+    return ceil(realizations / (double)layout->parts) *
+               (ps_nufft_order_launches(&layout->order) + num_last) +
+           of_lines;
 }
 
 static void describe(const ps_nufft_layout *layout, ps_text *text) {
