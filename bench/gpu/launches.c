@@ -1,5 +1,6 @@
-/* Preloaded into a program (bench/gpu/static.sh): its OpenCL device says that it is a large GPU, and launches are written
- * down, into the file that POINTSPEC_LAUNCHES names, instead of being run: what is read back is zeros. */
+/* Preloaded into a program (bench/gpu/static.sh): its OpenCL device says that it is a large GPU,
+ * and launches are written down, into the file that POINTSPEC_LAUNCHES names, instead of being run:
+ * what is read back is zeros. */
 #define _GNU_SOURCE
 #include <CL/cl.h>
 #include <dlfcn.h>
@@ -9,8 +10,8 @@
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-/* As NVIDIA's driver says of an H100; what chooses engines and their parameters for a GPU. The lanes are 1 on AMD's, too.
- * Memory is what there is here. */
+/* As NVIDIA's driver says of an H100; what chooses engines and their parameters for a GPU. The
+ * lanes are 1 on AMD's, too. Memory is what there is here. */
 cl_int clGetDeviceInfo(cl_device_id id, cl_device_info what, size_t bytes, void *value,
                        size_t *size) {
     const cl_int code = REAL(clGetDeviceInfo)(id, what, bytes, value, size);

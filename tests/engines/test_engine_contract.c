@@ -353,8 +353,8 @@ static void keep_law(void **state) {
 
 /* ---- as on GPUs -------------------------------------------------------------------------- */
 
-/* Engines with the vectors, work-groups and kernels that GPUs get keep the laws, too. A processor is
- * slow with these: two sizes of batches are enough. */
+/* So do engines with the vectors, work-groups and kernels of GPUs. PoCL is slow with these: two
+ * sizes of batches are enough. */
 static void keep_laws_of_gpus(const contract_way *way) {
     if (has_work_groups(way)) {
         memory_is_announced(way);

@@ -54,7 +54,8 @@ pspec_pattern test_pattern(const test_set *set);
 /* Opens the default device, or ends the test program as skipped when there is none. */
 ps_device *test_open_device(void);
 
-/* Items of a work-group as GPUs have them: POINTSPEC_TEST_GROUP, which .ci/run draws from 32 to 512, else `usual`. */
+/* Items of a work-group as GPUs have them: POINTSPEC_TEST_GROUP, which .ci/run draws from 32 to
+ * 512, else `usual`. */
 size_t test_group(size_t usual);
 
 /* Runs an engine on patterns with scale 1 and returns |S|^2 as [pattern][frequency], freed by the

@@ -326,7 +326,7 @@ static void check_everywhere(const fixture *what, const layout *how) {
     }
     find_all(what, frequencies_of, false, means[0]);
     find_all(what, bins_of, false, means[1]);
-    for (size_t gpu = 0; gpu < 2; gpu++) {
+    for (size_t gpu = 0; gpu < (how->is_on_device ? 2 : 1); gpu++) {
         find_all(what, how, gpu > 0, means[2]);
         assert_memory_equal(means[2], means[0], num * sizeof(ps_mean));
         assert_memory_equal(means[2] + num, means[1] + num, what->bins.num * sizeof(ps_mean));
@@ -350,7 +350,7 @@ static void check_equal_rows(const fixture *given, const layout *how) {
     for (size_t i = 0; i < M * num; i++) {
         what.powers[i] = given->powers[i % num];
     }
-    for (size_t gpu = 0; gpu < 2; gpu++) {
+    for (size_t gpu = 0; gpu < (how->is_on_device ? 2 : 1); gpu++) {
         find_all(&what, how, gpu > 0, means);
         for (size_t i = 0; i < num + what.bins.num; i++) {
             assert_true(means[i].standard_error == 0);

@@ -97,21 +97,6 @@ static void copies_add_up(void **state) {
     ps_frequencies_free(&set);
 }
 
-/* By the layout of GPUs, which sorts in parallel. */
-static void copies_add_up_on_gpus(void **state) {
-    (void)state;
-    ps_frequencies set = {0};
-    if (!ps_device_get_limits(device)->has_fp64) {
-        return;
-    }
-    assert_ok(ps_frequencies_degrees(&set, DEGREE, false, error));
-    assert_ok(ps_frequencies_enumerate(&set, error));
-    ps_device_set_dedicated_local_memory(device, true);
-    check(&test_sphere_shapes[0], PS_DOUBLE, 1e-10, true, &set);
-    ps_device_set_dedicated_local_memory(device, false);
-    ps_frequencies_free(&set);
-}
-
 /* Alone, in a batch, and by work-groups of several items, whether one is expected or several. */
 static void check_bits(uint64_t num_expected) {
     enum { NUM = 100000 };
@@ -151,7 +136,6 @@ static void same_bits(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(copies_add_up),
-        cmocka_unit_test(copies_add_up_on_gpus),
         cmocka_unit_test(same_bits),
     };
     device = test_open_device();
