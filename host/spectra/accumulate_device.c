@@ -1,28 +1,24 @@
 #include "spectra/accumulate_device.h"
 
-#include "accumulate/blocks.h"
 #include "base/memory.h"
 #include "base/round.h"
 #include "base/workers.h"
 #include "device/reals.h"
 #include "spectra/accumulate_blocks.h"
+#include "spectra/accumulate_states.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* Sums per frequency, and of squares, in pairs. */
-enum { SUM, SUM_LOW, SQUARE, SQUARE_LOW, NUM_STATES };
 
 struct ps_device_accumulator {
     ps_device *device;
     ps_accumulator_options options; /* lanes: those of the accumulator */
     size_t real_bytes, num_groups, num_blocks, num_pieces, num_members;
+    bool is_gpu;
     cl_kernel blocks, fold;
     ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums;
-    ps_buffer states[NUM_STATES]; /* a buffer each, of the rows of ps_running_sums, by slots */
-    uint64_t count;               /* of realizations */
-    unsigned levels;
-    void *host; /* staging for bin sums, and for the states */
+    ps_device_states states; /* of frequencies, where they are wanted */
+    void *host;              /* staging for bin sums */
 };
 
 static double get_real(const ps_device_accumulator *self, const void *array, size_t i) {
@@ -77,6 +73,11 @@ out:
     return status;
 }
 
+/* Work-groups of CPUs add frequencies and bins in one pass over the rows. */
+static bool has_strips(const ps_device_accumulator *self) {
+    return self->options.want_frequencies && self->is_gpu;
+}
+
 static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error) {
     ps_text options = {0};
     pspec_status status = PSPEC_OK;
@@ -87,11 +88,11 @@ static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error)
                                         "accumulate_fold", ps_text_string(&options), error));
     ps_text_append(&options, " -DSQUARES=%d", self->options.mean_only ? 0 : 1);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status,
-               ps_kernel_create(self->device, &self->blocks, "accumulate/blocks.cl",
-                                self->options.want_frequencies ? "accumulate_bins_and_frequencies"
-                                                               : "accumulate_bins",
-                                ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->blocks, "accumulate/blocks.cl",
+                                        self->options.want_frequencies && !self->is_gpu
+                                            ? "accumulate_bins_and_frequencies"
+                                            : "accumulate_bins",
+                                        ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
@@ -101,62 +102,6 @@ out:
  * up. */
 static bool is_whole(const ps_device_accumulator *self) {
     return self->num_pieces == self->options.bins->num;
-}
-
-/* Without squares where nobody asks for standard errors. */
-static size_t num_states(const ps_device_accumulator *self) {
-    return !self->options.want_frequencies ? 0 : self->options.mean_only ? SQUARE : NUM_STATES;
-}
-
-static size_t state_bytes(const ps_device_accumulator *self, unsigned levels) {
-    return (1 + (size_t)levels) * self->options.stride * self->real_bytes;
-}
-
-static pspec_status create_staging(ps_device_accumulator *self, unsigned levels, ps_error *error) {
-    const size_t bins =
-        self->num_groups * 2 * self->options.lanes * self->options.bins->num * self->real_bytes;
-    const size_t states = num_states(self) * state_bytes(self, levels);
-    void *host = NULL;
-    PS_TRY(ps_allocate(&host, bins > states ? bins : states, 1, "sums of bins", error));
-    free(self->host);
-    self->host = host;
-    return PSPEC_OK;
-}
-
-/* A larger buffer, with what was in the old one. */
-static pspec_status grow(const ps_device_accumulator *self, ps_buffer *buffer, size_t bytes,
-                         ps_error *error) {
-    ps_buffer grown = {0};
-    pspec_status status =
-        ps_buffer_create(self->device, &grown, bytes, "sums of frequencies", error);
-    if (status == PSPEC_OK && buffer->bytes > 0) {
-        const ps_rectangle all = {.row_bytes = buffer->bytes,
-                                  .num_rows = 1,
-                                  .from_pitch = buffer->bytes,
-                                  .to_pitch = buffer->bytes};
-        status = ps_buffer_copy_rectangle(self->device, buffer, &grown, &all, error);
-    }
-    ps_buffer *const released = status == PSPEC_OK ? buffer : &grown;
-    const ps_buffer kept = status == PSPEC_OK ? grown : *buffer;
-    ps_buffer_release(released);
-    *buffer = kept;
-    return status;
-}
-
-/* Room for so many realizations. */
-static pspec_status reserve(ps_device_accumulator *self, uint64_t count, ps_error *error) {
-    const unsigned levels = sum_levels(count);
-    if (self->host != NULL && (levels <= self->levels || num_states(self) == 0)) {
-        return PSPEC_OK;
-    }
-    for (size_t i = 0; i < num_states(self); i++) {
-        if (state_bytes(self, levels) > self->states[i].bytes) {
-            PS_TRY(grow(self, &self->states[i], state_bytes(self, levels), error));
-        }
-    }
-    PS_TRY(create_staging(self, levels, error));
-    self->levels = levels;
-    return PSPEC_OK;
 }
 
 static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error) {
@@ -169,7 +114,10 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
         PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
                                 "sums of bins", error));
     }
-    return reserve(self, options->expected, error);
+    PS_TRY(ps_allocate(&self->host, bin_entries, self->real_bytes, "sums of bins", error));
+    return options->want_frequencies
+               ? ps_device_states_create(&self->states, options, self->device, error)
+               : PSPEC_OK;
 }
 
 pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
@@ -183,6 +131,7 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
     self->real_bytes = ps_real_bytes(options->precision);
     self->options.lanes = ps_accumulate_lanes(options, ps_device_get_limits(device));
     self->num_groups = ps_divide_up(options->batch, self->options.lanes);
+    self->is_gpu = ps_device_get_limits(device)->has_dedicated_local_memory;
     pspec_status status = create_kernels(self, error);
     if (status == PSPEC_OK) {
         status = upload_blocks(self, error);
@@ -214,9 +163,7 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
-    for (size_t i = 0; i < NUM_STATES; i++) {
-        ps_buffer_release(&accumulator->states[i]);
-    }
+    ps_device_states_free(&accumulator->states);
     free(accumulator->host);
     free(accumulator);
 }
@@ -235,30 +182,43 @@ static double power_flops(const ps_accumulator_options *options) {
     PS_BUFFER((rows)->device), PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings),           \
         PS_BUFFER((self)->members), PS_BUFFER((self)->piece_sums)
 
-/* Kernels want a buffer in every place: without squares, that of the sums, which is not touched
- * there. */
-static const ps_buffer *state_of(const ps_device_accumulator *self, size_t i) {
-    return &self->states[i % num_states(self)];
+/* Realizations of a work-group on GPUs: one of 512 slots is a group for each, a launch is to have
+ * hundreds of groups. */
+enum { GPU_VECTORS_AT_ONCE = 8, GPU_ITEMS = 128 };
+
+/* Groups of CPUs go through all realizations, as frequencies want it there. */
+static ps_range blocks_range(const ps_device_accumulator *self, size_t num_rows, size_t at_once,
+                             double flops, double bytes) {
+    return self->is_gpu ? ps_range_shared(self->device, GPU_ITEMS, self->num_blocks,
+                                          ps_divide_up(num_rows, at_once), flops, bytes)
+                        : ps_range_heavy(self->device, 1, self->num_blocks, 1, flops, bytes);
 }
 
-static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows, ps_error *error) {
+static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows,
+                               const blocks_numbers *numbers, ps_error *error) {
     const double powers = (double)(rows->num_rows * rows->stride);
     const ps_range range =
-        ps_range_heavy(self->device, 1, self->num_blocks, 1, power_flops(&self->options) * powers,
-                       powers * (double)self->real_bytes);
-    const blocks_numbers numbers = {.stride = rows->stride,
-                                    .num_pieces = self->num_pieces,
-                                    .done = self->count,
-                                    .num_realizations = (uint32_t)rows->num_rows};
+        blocks_range(self, rows->num_rows, numbers->at_once, power_flops(&self->options) * powers,
+                     powers * (double)self->real_bytes);
     const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
-    if (!self->options.want_frequencies) {
-        return PS_LAUNCH(self->device, self->blocks, &range, error, PS_STRUCT(numbers),
+    if (!self->options.want_frequencies || has_strips(self)) {
+        return PS_LAUNCH(self->device, self->blocks, &range, error, PS_STRUCT(*numbers),
                          BLOCK_ARGUMENTS(self, rows), block);
     }
-    return PS_LAUNCH(self->device, self->blocks, &range, error, PS_STRUCT(numbers),
-                     BLOCK_ARGUMENTS(self, rows), PS_BUFFER(*state_of(self, SUM)),
-                     PS_BUFFER(*state_of(self, SUM_LOW)), PS_BUFFER(*state_of(self, SQUARE)),
-                     PS_BUFFER(*state_of(self, SQUARE_LOW)), block);
+    return PS_LAUNCH(self->device, self->blocks, &range, error, PS_STRUCT(*numbers),
+                     BLOCK_ARGUMENTS(self, rows), PS_STATE_ARGUMENTS(&self->states), block);
+}
+
+static pspec_status sum_rows(ps_device_accumulator *self, const ps_rows *rows, ps_error *error) {
+    const size_t all = ps_round_up(rows->num_rows, self->options.lanes);
+    const size_t some = GPU_VECTORS_AT_ONCE * (size_t)self->options.lanes;
+    const blocks_numbers numbers = {.stride = rows->stride,
+                                    .num_pieces = self->num_pieces,
+                                    .done = self->states.count,
+                                    .num_realizations = (uint32_t)rows->num_rows,
+                                    .at_once = (uint32_t)(self->is_gpu ? some : all)};
+    PS_TRY(sum_blocks(self, rows, &numbers, error));
+    return has_strips(self) ? ps_device_states_add(&self->states, rows, &numbers, error) : PSPEC_OK;
 }
 
 static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_error *error) {
@@ -294,9 +254,11 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
     ps_device_accumulator *self = accumulator;
     const size_t lanes = self->options.lanes;
     const size_t num_groups = ps_divide_up(rows->num_rows, lanes);
-    PS_TRY(reserve(self, self->count + rows->num_rows, error));
-    PS_TRY(sum_blocks(self, rows, error));
-    self->count += rows->num_rows;
+    if (self->options.want_frequencies) {
+        PS_TRY(ps_device_states_reserve(&self->states, self->states.count + rows->num_rows, error));
+    }
+    PS_TRY(sum_rows(self, rows, error));
+    self->states.count += rows->num_rows;
     if (!is_whole(self)) {
         PS_TRY(fold(self, num_groups, error));
     }
@@ -304,52 +266,11 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
 }
 
 void ps_device_accumulator_reset(ps_device_accumulator *accumulator) {
-    accumulator->count = 0;
-}
-
-/* Brings the sums per frequency into the staging memory, one behind the other. */
-static pspec_status read_states(const ps_device_accumulator *self, ps_error *error) {
-    const size_t bytes = state_bytes(self, self->levels);
-    for (size_t i = 0; i < num_states(self); i++) {
-        PS_TRY(ps_buffer_read(self->device, &self->states[i], 0, (char *)self->host + i * bytes,
-                              bytes, error));
-    }
-    return PSPEC_OK;
-}
-
-/* Sums of squares of 128 equal numbers are off by up to 2^-38.8 in pairs of single precision
- * (measured, 400000 numbers); what differs by less, 2e-6 of the mean, is taken for
- * equal, as ps_sums_finish does in double precision. */
-static void drop_rounding(ps_sums *sums, uint64_t count) {
-    const double rounding = 0x1p-38;
-    const double n = (double)count;
-    const double sum = sums->sum + sums->sum_low;
-    const double square = sums->square + sums->square_low;
-    if (fabs(n * square - sum * sum) <= rounding * sum * sum) {
-        const double product = sum * sum;
-        sums->square = product / n;
-        sums->square_low = (fma(-sums->square, n, product) + fma(sum, sum, -product)) / n;
-    }
+    accumulator->states.count = 0;
 }
 
 static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
-    const size_t stride = self->options.stride;
-    ps_sums sums = self->options.mean_only ? PS_SUMS_MEAN_ONLY : (ps_sums){0};
-    for (unsigned row = 0; row <= self->levels; row++) {
-        double state[NUM_STATES] = {0};
-        for (size_t i = 0; i < num_states(self); i++) {
-            const size_t at = (i * (1 + (size_t)self->levels) + row) * stride;
-            state[i] = get_real(self, self->host, at + self->options.slots[frequency]);
-        }
-        if (ps_running_has_row(self->count, row)) {
-            const ps_sums part = {state[SUM], state[SUM_LOW], state[SQUARE], state[SQUARE_LOW]};
-            ps_sums_merge(&sums, &part, 1);
-        }
-    }
-    if (self->real_bytes == sizeof(float) && self->count > 0) {
-        drop_rounding(&sums, self->count);
-    }
-    return sums;
+    return ps_device_states_get(&self->states, self->options.slots[frequency]);
 }
 
 typedef struct state_sums {
@@ -370,17 +291,17 @@ pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_s
                                         ps_error *error) {
     const size_t num = accumulator->options.num_frequencies;
     state_sums work = {accumulator, sums};
-    PS_TRY(read_states(accumulator, error));
+    PS_TRY(ps_device_states_read(&accumulator->states, error));
     ps_workers_share(num, get_some_sums, &work);
     return PSPEC_OK;
 }
 
 pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator, ps_mean *means,
                                                ps_error *error) {
-    PS_TRY(read_states(accumulator, error));
+    PS_TRY(ps_device_states_read(&accumulator->states, error));
     for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
         const ps_sums sums = get_sums(accumulator, i);
-        ps_sums_finish(&sums, accumulator->count, &means[i].mean, &means[i].standard_error);
+        ps_sums_finish(&sums, accumulator->states.count, &means[i].mean, &means[i].standard_error);
     }
     return PSPEC_OK;
 }

@@ -1,8 +1,9 @@
 /* Sums of powers in one pass over the rows: over realizations for every frequency, and over bins
- * (rings, shells) for every realization. Launch: (work-items of one group, blocks).
+ * (rings, shells) for every realization. Launch: (work-items of one group, blocks, groups of
+ * at_once realizations), which are one where there are frequencies.
  *
- * A block is BLOCK slots of a row. A work-group walks through the realizations of the batch in
- * order, LANES at a time. Frequencies are lanes at first and are added to the state, in the order
+ * A block is BLOCK slots of a row. A work-group walks through its realizations in order, LANES at a
+ * time. Frequencies are lanes at first and are added to the state, in the order
  * of accumulate/sums.h. The square of LANES realizations and LANES slots is turned, so that
  * realizations are lanes, and goes to local memory, where the members of each bin are added up: a
  * piece of the bin, which accumulate/fold.cl puts together. Every sum has a fixed order, so results
@@ -21,59 +22,14 @@
  */
 #include "accumulate/blocks.h"
 #include "accumulate/rows.h"
-#include "accumulate/sums.h"
+#include "accumulate/state.h"
 #include "shared/lanes.h"
-#include "shared/pair.h"
 #include "shared/transpose.h"
-
-/* 0: sums alone, nobody asks for standard errors of frequencies. */
-#ifndef SQUARES
-#define SQUARES 1
-#endif
 
 typedef struct ring {
     uint first, end; /* members */
     uint piece;
 } ring;
-
-/* sum 0: nobody asks for frequencies. */
-typedef struct state {
-    __global real *sum, *sum_low, *square, *square_low;
-    ulong done; /* realizations before the LANES that are added */
-} state;
-
-static inline block_sums load_sums(const state sums, const size_t at) {
-    block_sums block;
-    block.sum = load_global(sums.sum + at, 0);
-    block.sum_low = load_global(sums.sum_low + at, 0);
-#if SQUARES
-    block.square = load_global(sums.square + at, 0);
-    block.square_low = load_global(sums.square_low + at, 0);
-#else
-    block.square = block.square_low = 0;
-#endif
-    return block;
-}
-
-static inline void store_sums(const state sums, const size_t at, const block_sums block) {
-    store_global(sums.sum + at, 0, block.sum);
-    store_global(sums.sum_low + at, 0, block.sum_low);
-#if SQUARES
-    store_global(sums.square + at, 0, block.square);
-    store_global(sums.square_low + at, 0, block.square_low);
-#endif
-}
-
-/* The block is whole: number `blocks` of the job, counted from 0. */
-static inline void carry(const state sums, const size_t slot, const ulong stride,
-                         const ulong blocks, block_sums block) {
-    uint level = 0;
-    for (; blocks >> level & 1; level++) {
-        const block_sums early = load_sums(sums, (1 + level) * stride + slot);
-        merge_blocks(&block, &early);
-    }
-    store_sums(sums, (1 + level) * stride + slot, block);
-}
 
 /* Realizations first .. end - 1 of them, all of one block. */
 static inline void add_to_open(const state sums, const size_t slot, const realv *powers,
@@ -145,13 +101,14 @@ static inline void add_block(const blocks_numbers numbers, __global const real *
                              __global const uint *blocks, __global const ring *rings,
                              __global const ushort *members, __global real *sums, state frequencies,
                              __local real *block) {
-    const uint num_realizations = numbers.num_realizations;
+    const uint begin = (uint)get_global_id(2) * numbers.at_once;
+    const uint end = min(begin + numbers.at_once, numbers.num_realizations);
     const ulong stride = numbers.stride, num_pieces = numbers.num_pieces;
     const size_t index = get_global_id(1), first_slot = index * BLOCK;
     const uint num_slots = (uint)min((ulong)BLOCK, stride - first_slot);
-    for (uint first = 0; first < num_realizations; first += LANES) {
+    for (uint first = begin; first < end; first += LANES) {
         load_block(block, power + first * stride, frequencies, stride, first_slot, num_slots,
-                   min((uint)LANES, num_realizations - first));
+                   min((uint)LANES, end - first));
         barrier(CLK_LOCAL_MEM_FENCE);
         add_rings(sums + first * num_pieces * 2, block, rings, members, blocks[index],
                   blocks[index + 1]);

@@ -86,7 +86,7 @@ static void free_table(ring_table *table) {
 
 /* What the kernel keeps of frequencies. Batches begin behind BEFORE realizations of power 0: one
  * whole block, and an open one that they fill up, so that both are carried to the second level. */
-enum { NUM_STATES = 4, LEVELS = 2, BEFORE = 2 * SUM_BLOCK - 28 };
+enum { NUM_STATES = 4, LEVELS = 2, BEFORE = 2 * SUM_BLOCK - 28, MOST_STRIPS = 2 };
 
 /* What a launch is given; states NULL: bins alone; mean_only: no squares, the last two are not
  * touched. */
@@ -96,16 +96,45 @@ typedef struct launch {
     const ring_table *table;
     const test_memory *sums, *states;
     bool mean_only;
+    bool by_strips; /* as on GPUs: bins by several groups, frequencies by strips.cl */
 } launch;
+
+#define STATES(with)                                                                               \
+    PS_BUFFER((with)->states[0].buffer), PS_BUFFER((with)->states[1].buffer),                      \
+        PS_BUFFER((with)->states[2].buffer), PS_BUFFER((with)->states[3].buffer)
+
+static void launch_strips(const launch *with, const blocks_numbers *numbers,
+                          const test_memory *rows) {
+    const build *one = with->one;
+    const size_t vectors = with->stride / one->lanes;
+    const size_t end = numbers->done + numbers->num_realizations;
+    const size_t num_strips = (end + SUM_BLOCK - 1) / SUM_BLOCK - numbers->done / SUM_BLOCK;
+    cl_kernel kernels[2];
+    for (size_t i = 0; i < 2; i++) {
+        kernels[i] = test_kernel(device, "accumulate/strips.cl",
+                                 i == 0 ? "accumulate_strips" : "accumulate_merge",
+                                 "-DPRECISION=%u -DLANES=%u -DSQUARES=%d", one->precision,
+                                 one->lanes, with->mean_only ? 0 : 1);
+    }
+    assert_true(num_strips <= MOST_STRIPS);
+    TEST_LAUNCH(device, kernels[0], with->group, vectors, num_strips, 1, PS_STRUCT(*numbers),
+                PS_BUFFER(rows->buffer), STATES(with), PS_U32(1 + LEVELS));
+    TEST_LAUNCH(device, kernels[1], with->group, vectors, 1, 1, PS_STRUCT(*numbers), STATES(with),
+                PS_U32(1 + LEVELS));
+    clReleaseKernel(kernels[0]);
+    clReleaseKernel(kernels[1]);
+}
 
 static void launch_blocks(const launch *with, const double *power, size_t num_rows) {
     const build *one = with->one;
     const ring_table *table = with->table;
-    cl_kernel kernel =
-        test_kernel(device, "accumulate/blocks.cl",
-                    with->states != NULL ? "accumulate_bins_and_frequencies" : "accumulate_bins",
-                    "-DPRECISION=%u -DLANES=%u -DSQUARES=%d", one->precision, one->lanes,
-                    with->mean_only ? 0 : 1);
+    const bool in_one = with->states != NULL && !with->by_strips;
+    const size_t at_once = one->lanes * (in_one ? num_rows + 1 : 2); /* all, or some */
+    const size_t num_groups = num_rows / at_once + 1;
+    cl_kernel kernel = test_kernel(device, "accumulate/blocks.cl",
+                                   in_one ? "accumulate_bins_and_frequencies" : "accumulate_bins",
+                                   "-DPRECISION=%u -DLANES=%u -DSQUARES=%d", one->precision,
+                                   one->lanes, with->mean_only ? 0 : 1);
     test_memory rows = test_reals_create(device, one->precision, power, num_rows * with->stride);
     test_memory first_rings = test_memory_create(
         device, table->first_rings, (table->num_blocks + 1) * sizeof *table->first_rings);
@@ -116,18 +145,21 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
     const blocks_numbers numbers = {.stride = with->stride,
                                     .num_pieces = table->num_rings,
                                     .done = with->done,
-                                    .num_realizations = (uint32_t)num_rows};
+                                    .num_realizations = (uint32_t)num_rows,
+                                    .at_once = (uint32_t)at_once};
     const ps_argument block = PS_LOCAL(BLOCK * one->lanes * one->precision / 8);
-    if (with->states != NULL) {
+    if (in_one) {
         TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_STRUCT(numbers),
                     PS_BUFFER(rows.buffer), PS_BUFFER(first_rings.buffer), PS_BUFFER(rings.buffer),
-                    PS_BUFFER(members.buffer), PS_BUFFER(with->sums->buffer),
-                    PS_BUFFER(with->states[0].buffer), PS_BUFFER(with->states[1].buffer),
-                    PS_BUFFER(with->states[2].buffer), PS_BUFFER(with->states[3].buffer), block);
+                    PS_BUFFER(members.buffer), PS_BUFFER(with->sums->buffer), STATES(with), block);
     } else {
-        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_STRUCT(numbers),
-                    PS_BUFFER(rows.buffer), PS_BUFFER(first_rings.buffer), PS_BUFFER(rings.buffer),
-                    PS_BUFFER(members.buffer), PS_BUFFER(with->sums->buffer), block);
+        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, num_groups,
+                    PS_STRUCT(numbers), PS_BUFFER(rows.buffer), PS_BUFFER(first_rings.buffer),
+                    PS_BUFFER(rings.buffer), PS_BUFFER(members.buffer),
+                    PS_BUFFER(with->sums->buffer), block);
+    }
+    if (with->by_strips) {
+        launch_strips(with, &numbers, &rows);
     }
     test_memory_free_unchanged(&rows);
     test_memory_free_unchanged(&first_rings);
@@ -213,12 +245,12 @@ static void check_states(const launch *with, const double *power, size_t num_row
 static void run_batches(launch with) {
     double *power = test_whole_numbers(&seed, 40 * with.stride, largest_power(with.one->precision));
     const size_t batches[] = {7, 0, 1, 32};
-    double *zeros = calloc((1 + LEVELS) * with.stride, sizeof *zeros);
+    const size_t num = (1 + LEVELS + MOST_STRIPS) * with.stride;
+    double *zeros = calloc(num, sizeof *zeros);
     test_memory states[NUM_STATES];
     size_t done = 0;
     for (size_t i = 0; i < NUM_STATES; i++) {
-        states[i] =
-            test_reals_create(device, with.one->precision, zeros, (1 + LEVELS) * with.stride);
+        states[i] = test_reals_create(device, with.one->precision, zeros, num);
     }
     with.states = states;
     for (size_t b = 0; b < 4; b++) {
@@ -246,9 +278,11 @@ static void check_frequencies(const build *one) {
         for (size_t g = 0; g < one->num_groups; g++) {
             launch with = {
                 .one = one, .group = TEST_GROUP_SIZES[g], .stride = strides[i], .table = &table};
-            run_batches(with);
-            with.mean_only = true;
-            run_batches(with);
+            for (int way = 0; way < 4; way++) {
+                with.by_strips = way / 2 > 0;
+                with.mean_only = way % 2 > 0;
+                run_batches(with);
+            }
         }
         free_table(&table);
     }
