@@ -3,13 +3,13 @@
 # there, without a GPU. PROGRAM, pointspec, takes the lines of scripts/same_bits.txt and those below, once more in double, for
 # jobs on an H100 (bench/gpu/launches.c), whose launches, not run, say the sources, options, work-groups and local memory.
 # Each program of them is compiled for sm_80, sm_90 (clang, libclc, ptxas: NVIDIA's last stage) and gfx90a (clang, libclc).
-# Standard output: a table, the most registers first; FOLDER has all else. --sample: every sixth program, chosen by
+# Standard output: a table, the most registers first; FOLDER has all else. --sample: every tenth program, chosen by
 # NUMBER. Exit code 1 when registers are spilled to memory, or a source that PROGRAM has is never launched, and
 # static_listed.txt does not say why; or says it of one that is. JOBS compilers at a time.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 program=$(realpath "$1") jobs=${JOBS:-$(nproc)} sample=
-[[ ${3-} != --sample ]] || sample=$(($4 % 6))
+[[ ${3-} != --sample ]] || sample=$(($4 % 10))
 mkdir -p "$2/runs"
 cd "$2"
 folder=$PWD patience=60 # seconds for one line, as in run.sh; they take two
@@ -84,7 +84,7 @@ compile() { # SOURCE OPTION...
 }
 export -f compile
 export kernels=$here/../../kernels
-awk '{ $2 = $3 = $4 = ""; print }' launches.txt | sort -u | awk -v turn="$sample" 'turn == "" || NR % 6 == turn' >programs.txt
+awk '{ $2 = $3 = $4 = ""; print }' launches.txt | sort -u | awk -v turn="$sample" 'turn == "" || NR % 10 == turn' >programs.txt
 # shellcheck disable=SC2016 # words of the inner shell
 xargs -P "$jobs" -I{} bash -c 'compile $1' _ {} <programs.txt >compiled.txt
 [[ ! -s failed.txt ]] || { cat failed.txt >&2; exit 1; }

@@ -106,16 +106,21 @@ static ps_problem make_problem(const contract_way *way) {
 }
 
 /* Is it the variant that the case is there for? (GPUs may be given another, but have no grids in
- * one piece: those cases would ask tiles once more.) */
+ * one piece and no strips: those cases would ask tiles once more. PoCL is slow with their layouts:
+ * high degrees are for CPUs.) */
 static bool is_meant(const contract_way *way) {
     const bool is_gpu = ps_device_get_limits(way->device)->has_dedicated_local_memory;
+    const int32_t most_degree_of_gpus = 64;
     void *state = NULL;
     ps_text text = {0};
+    if (is_gpu && way->what->dimension == 0 && way->what->max_frequency > most_degree_of_gpus) {
+        return false;
+    }
     if (way->what->says == NULL || way->engine != &ps_torus_nufft) {
         return way->what->says == NULL;
     }
     if (is_gpu) {
-        return strcmp(way->what->says, "whole=") != 0;
+        return strcmp(way->what->says, "gridded") == 0 || strcmp(way->what->says, "group=") == 0;
     }
     assert_ok(way->engine->create(&state, &way->problem, way->precision, 1, way->device, error));
     way->engine->describe(state, &text);
