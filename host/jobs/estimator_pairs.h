@@ -4,7 +4,7 @@
 #define PS_JOBS_ESTIMATOR_PAIRS_H
 
 #include "engines/engine.h"
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 #include "spectra/sums.h"
 
 /* Told of the realizations, one after the other in their order: Z(l) = sum_j w_j P_l(z_j) and C_l^2

@@ -57,8 +57,8 @@ static void set_bytes(ps_candidate *candidate, const ps_memory *sum, const ps_de
     candidate->is_crowded = candidate->host_bytes > candidate->host_room;
 }
 
-/* Where rows stay on the device, two kernels average them there (spectra/accumulate_device.c), and
- * one makes weighted sums (spectra/accumulate_weighted.c). */
+/* Where rows stay on the device, two kernels average them there, and one makes weighted sums
+ * (spectra/accumulate/). */
 static double kernels_of_averages(const ps_engine *engine, const ps_problem *problem) {
     const bool has_rows = engine->needs_device && !engine->rows_on_host;
     return has_rows ? 2 + (problem->num_weighted > 0 ? 1 : 0) : 0;

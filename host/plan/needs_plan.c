@@ -49,7 +49,7 @@ static void skip_precision(ps_needs *needs, const ps_candidate *chosen, double t
 }
 
 /* By operations at the device's peak: a sum of squares in two parts
- * (spectra/accumulate_device.c). */
+ * (spectra/accumulate/accumulate_device.c). */
 static void skip_squares(ps_needs *needs, const ps_problem *problem, const ps_plan *plan,
                          const ps_device_limits *limits) {
     const double square_flops = 9;

@@ -4,7 +4,7 @@
 #ifndef PS_SPECTRA_RING_STATISTICS_H
 #define PS_SPECTRA_RING_STATISTICS_H
 
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 /* Anisotropy of one ring: 10 log10(s^2 / P^2), s^2 the sample variance of the averaged periodogram
  * over the ring's half-lattice frequencies, P their mean. nan when there are fewer than two of them

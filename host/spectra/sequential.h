@@ -18,7 +18,7 @@
 #ifndef PS_SPECTRA_SEQUENTIAL_H
 #define PS_SPECTRA_SEQUENTIAL_H
 
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 #include "spectra/bins.h"
 
 /* Fewer say too little of their own scatter. */

@@ -2,7 +2,7 @@
 #ifndef PS_SPECTRA_SPECTRUM_H
 #define PS_SPECTRA_SPECTRUM_H
 
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 #include "spectra/bins.h"
 #include "spectra/spares.h"
 

@@ -7,7 +7,7 @@
 #ifdef __OPENCL_C_VERSION__
 
 /* Fixed: sums depend on it. Long enough that pieces are few, short enough for the local memory of
- * any device and for the nearest cache of a core. host/spectra/accumulate_blocks.h knows it too. */
+ * any device and for the nearest cache of a core. PS_ACCUMULATE_BLOCK of the host is the same. */
 #define BLOCK 512
 
 /* LANES slots of the first `count` of LANES realizations; the others are 0. */

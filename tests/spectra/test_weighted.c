@@ -5,7 +5,7 @@
 
 #include "accumulate/blocks.h"
 #include "device/reals.h"
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 #include <float.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #ifndef PS_JOBS_VARIANCE_LOG_VARIANCE_H
 #define PS_JOBS_VARIANCE_LOG_VARIANCE_H
 
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 #include <math.h>
 

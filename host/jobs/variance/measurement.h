@@ -4,7 +4,7 @@
 
 #include "integrands/integrand.h"
 #include "jobs/source.h"
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 typedef struct ps_measurement_plan {
     ps_source *source; /* at the first set that is measured */

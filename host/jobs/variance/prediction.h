@@ -7,7 +7,7 @@
 #include "frequencies/frequencies.h"
 #include "integrands/integrand.h"
 #include "jobs/variance/point_powers.h"
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 #include "spectra/spectrum.h"
 
 typedef struct ps_prediction {

@@ -1,6 +1,6 @@
 /* Members of bins by blocks of slots: what kernels/accumulate/blocks.cl walks through. */
-#ifndef PS_SPECTRA_ACCUMULATE_BLOCKS_H
-#define PS_SPECTRA_ACCUMULATE_BLOCKS_H
+#ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_BLOCKS_H
+#define PS_SPECTRA_ACCUMULATE_ACCUMULATE_BLOCKS_H
 
 #include "spectra/bins.h"
 

@@ -1,11 +1,11 @@
-#include "spectra/accumulate_device.h"
+#include "spectra/accumulate/accumulate_device.h"
 
 #include "base/memory.h"
 #include "base/round.h"
 #include "base/workers.h"
 #include "device/reals.h"
-#include "spectra/accumulate_blocks.h"
-#include "spectra/accumulate_states.h"
+#include "spectra/accumulate/accumulate_blocks.h"
+#include "spectra/accumulate/accumulate_states.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* The device half of accumulate.h: sums over rows that stay in device memory. */
-#ifndef PS_SPECTRA_ACCUMULATE_DEVICE_H
-#define PS_SPECTRA_ACCUMULATE_DEVICE_H
+#ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_DEVICE_H
+#define PS_SPECTRA_ACCUMULATE_ACCUMULATE_DEVICE_H
 
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 typedef struct ps_device_accumulator ps_device_accumulator;
 

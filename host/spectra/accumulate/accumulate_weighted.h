@@ -1,8 +1,8 @@
 /* Weighted sums of powers over rows that stay in device memory. */
-#ifndef PS_SPECTRA_ACCUMULATE_WEIGHTED_H
-#define PS_SPECTRA_ACCUMULATE_WEIGHTED_H
+#ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_WEIGHTED_H
+#define PS_SPECTRA_ACCUMULATE_ACCUMULATE_WEIGHTED_H
 
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 typedef struct ps_device_weighted ps_device_weighted;
 

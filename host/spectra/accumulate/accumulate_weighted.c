@@ -1,11 +1,11 @@
-#include "spectra/accumulate_weighted.h"
+#include "spectra/accumulate/accumulate_weighted.h"
 
 #include "accumulate/blocks.h"
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
-#include "spectra/accumulate_blocks.h"
-#include "spectra/accumulate_device.h"
+#include "spectra/accumulate/accumulate_blocks.h"
+#include "spectra/accumulate/accumulate_device.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,11 +2,11 @@
  * (spectra/sums.h), by slots. Kernels of CPUs add to them while they form bins (blocks.cl); on GPUs
  * it is done here, by kernels/accumulate/strips.cl.
  */
-#ifndef PS_SPECTRA_ACCUMULATE_STATES_H
-#define PS_SPECTRA_ACCUMULATE_STATES_H
+#ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_STATES_H
+#define PS_SPECTRA_ACCUMULATE_ACCUMULATE_STATES_H
 
 #include "accumulate/blocks.h"
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 /* Sums, and sums of squares, in pairs. */
 enum { PS_STATE_SUM, PS_STATE_SUM_LOW, PS_STATE_SQUARE, PS_STATE_SQUARE_LOW, PS_NUM_STATES };
@@ -36,8 +36,8 @@ pspec_status ps_device_states_reserve(ps_device_states *states, uint64_t count,
 pspec_status ps_device_states_add(ps_device_states *states, const ps_rows *rows,
                                   const blocks_numbers *numbers, ps_error *error) PS_MUST_CHECK;
 
-/* Arguments of a kernel. It wants a buffer in every place: without squares, those of the sums, which
- * are not touched there. */
+/* Arguments of a kernel. It wants a buffer in every place: without squares, those of the sums,
+ * which are not touched there. */
 #define PS_STATE_ARGUMENTS(states)                                                                 \
     PS_BUFFER((states)->buffers[PS_STATE_SUM]), PS_BUFFER((states)->buffers[PS_STATE_SUM_LOW]),    \
         PS_BUFFER((states)->buffers[(states)->mean_only ? PS_STATE_SUM : PS_STATE_SQUARE]),        \

@@ -13,8 +13,8 @@
  * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a
  * device only these are formed.
  */
-#ifndef PS_SPECTRA_ACCUMULATE_H
-#define PS_SPECTRA_ACCUMULATE_H
+#ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_H
+#define PS_SPECTRA_ACCUMULATE_ACCUMULATE_H
 
 #include "engines/engine.h"
 #include "spectra/bins.h"

@@ -1,8 +1,8 @@
-#include "spectra/accumulate.h"
+#include "spectra/accumulate/accumulate.h"
 
 #include "base/memory.h"
-#include "spectra/accumulate_device.h"
-#include "spectra/accumulate_weighted.h"
+#include "spectra/accumulate/accumulate_device.h"
+#include "spectra/accumulate/accumulate_weighted.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "spectra/accumulate_states.h"
+#include "spectra/accumulate/accumulate_states.h"
 
 #include "base/memory.h"
 #include "base/round.h"
