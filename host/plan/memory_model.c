@@ -107,7 +107,7 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     const double rows = padded_rows(limits, precision, batch);
     const double real_bytes = (double)ps_real_bytes(precision);
     add_accumulator(&sum, work, problem, rows, states, real_bytes);
-    sum.device += limits->has_dedicated_local_memory /* spectra/accumulate/accumulate_device.h */
+    sum.device += limits->has_dedicated_local_memory /* spectra/accumulate/accumulate_states.h */
                       ? 4 * work->row_bytes * most_strips(batch)
                       : 0;
     add_weighted(&sum, work, problem, rows, real_bytes);

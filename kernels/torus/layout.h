@@ -12,6 +12,17 @@
 #ifndef DIMENSION
 #define DIMENSION 2
 #endif
+/* Left factors of a grid, the first weighted_tiles of a table, look at the axes before LEFT_AXES
+ * only and right ones at the rest (all at the same one in one dimension): elsewhere their
+ * frequencies are zero. */
+#ifndef LEFT_AXES
+#define LEFT_AXES DIMENSION
+#endif
+#if LEFT_AXES < DIMENSION
+#define RIGHT_BEGIN LEFT_AXES
+#else
+#define RIGHT_BEGIN 0
+#endif
 #ifndef RUN
 #define RUN 32
 #endif

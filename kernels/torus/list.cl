@@ -30,18 +30,6 @@
 #define STORE_TABLE 0
 #endif
 
-/* In a table of factors the first weighted_tiles look at the axes before LEFT_AXES only and the
- * others at the rest (all at the same one in one dimension): elsewhere their frequencies are zero.
- */
-#ifndef LEFT_AXES
-#define LEFT_AXES DIMENSION
-#endif
-#if LEFT_AXES < DIMENSION
-#define RIGHT_BEGIN LEFT_AXES
-#else
-#define RIGHT_BEGIN 0
-#endif
-
 /* Tiles of one work-item. Sums alone take two, which share the work on the coordinates of a point;
  * a table is written by one, since its two factors look at different axes. */
 #define SIDE_BY_SIDE (STORE_TABLE ? 1 : 2)

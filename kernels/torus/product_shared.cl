@@ -46,15 +46,6 @@ typedef PS_JOIN(REAL, STRIP) strip_real;
 #endif
 #define JOBS (BLOCK_TILES * STRIPS * BLOCK_TILES)
 
-#ifndef LEFT_AXES
-#define LEFT_AXES DIMENSION
-#endif
-#if LEFT_AXES < DIMENSION
-#define RIGHT_BEGIN LEFT_AXES
-#else
-#define RIGHT_BEGIN 0
-#endif
-
 /* What a run is made of. */
 typedef struct factors {
     __global const ulong *points;

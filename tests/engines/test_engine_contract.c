@@ -353,8 +353,7 @@ static void keep_law(void **state) {
 
 /* ---- as on GPUs -------------------------------------------------------------------------- */
 
-/* So do engines with the vectors, work-groups and kernels of GPUs. PoCL is slow with these: two
- * sizes of batches are enough. */
+/* So do engines with the kernels of GPUs. PoCL is slow with these: two sizes of batches do. */
 static void keep_laws_of_gpus(const contract_way *way) {
     if (has_work_groups(way)) {
         memory_is_announced(way);
