@@ -10,10 +10,17 @@
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
+enum { ASK_CAPABILITY = 0x4000 }; /* host/device/device.c */
+
 /* As NVIDIA's driver says of an H100; what chooses engines and their parameters for a GPU. The
  * lanes are 1 on AMD's, too. Memory is what there is here. */
 cl_int clGetDeviceInfo(cl_device_id id, cl_device_info what, size_t bytes, void *value,
                        size_t *size) {
+    if (what == ASK_CAPABILITY) {
+        const char *const asked = getenv("POINTSPEC_CAPABILITY");
+        *(cl_uint *)value = asked != NULL ? (cl_uint)atoi(asked) : 9;
+        return CL_SUCCESS;
+    }
     const cl_int code = REAL(clGetDeviceInfo)(id, what, bytes, value, size);
     if (code != CL_SUCCESS || value == NULL) {
         return code;
@@ -56,6 +63,26 @@ cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem memory, cl_bool waits_
     return code;
 }
 
+/* Nobody here takes PTX: programs with it are built without, and written down with it. */
+static const char ptx[] = "UNITS=UNITS_PTX", emulated[] = "UNITS=UNITS_EMULATED";
+
+static void replace(char *text, size_t room, const char *what, const char *by) {
+    char *const at = strstr(text, what);
+    if (at != NULL) {
+        char rest[1024];
+        snprintf(rest, sizeof rest, "%s", at + strlen(what));
+        snprintf(at, room - (size_t)(at - text), "%s%s", by, rest);
+    }
+}
+
+cl_int clBuildProgram(cl_program program, cl_uint num, const cl_device_id *ids, const char *options,
+                      void (*done)(cl_program, void *), void *payload) {
+    char changed[1024];
+    snprintf(changed, sizeof changed, "%s", options);
+    replace(changed, sizeof changed, ptx, emulated);
+    return REAL(clBuildProgram)(program, num, ids, changed, done, payload);
+}
+
 static _Thread_local size_t local_bytes; /* of the arguments set last */
 
 cl_int clSetKernelArg(cl_kernel kernel, cl_uint index, size_t bytes, const void *value) {
@@ -75,6 +102,7 @@ static void write_down(cl_command_queue queue, cl_kernel kernel, size_t group) {
     clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof(cl_device_id), &id, NULL);
     clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_OPTIONS, sizeof options, options, NULL);
     clGetProgramInfo(program, CL_PROGRAM_SOURCE, 0, NULL, &bytes);
+    replace(options, sizeof options, emulated, ptx);
     char *const text = calloc(bytes + 1, 1);
     FILE *const file = fopen(getenv("POINTSPEC_LAUNCHES"), "a");
     if (text == NULL || file == NULL) {

@@ -2,7 +2,7 @@
 # static.sh PROGRAM FOLDER [--sample NUMBER]: what compilers for GPUs make of every kernel with the parameters that it has
 # there, without a GPU. PROGRAM, pointspec, takes the lines of scripts/same_bits.txt and those below, once more in double, for
 # jobs on an H100 (bench/gpu/launches.c), whose launches, not run, say the sources, options, work-groups and local memory.
-# Each program of them is compiled for sm_80, sm_90 (clang, libclc, ptxas: NVIDIA's last stage) and gfx90a (clang, libclc).
+# Each program of them is compiled for sm_80, sm_90 (clang, libclc, ptxas: NVIDIA's last stage) and, unless it has PTX, gfx90a.
 # Standard output: a table, the most registers first; FOLDER has all else. --sample: every tenth program, chosen by
 # NUMBER. Exit code 1 when registers are spilled to memory, or a source that PROGRAM has is never launched, and
 # static_listed.txt does not say why; or says it of one that is. JOBS compilers at a time.
@@ -43,7 +43,11 @@ record_all() {
         echo 'stress --case chords')
     while read -r -a words; do record "${words[@]}"; done < <(grep -E '^(quadrature|sample) ' "$here/../../scripts/same_bits.txt"
         echo 'sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0'
-        echo 'bench --quick --case list --engine torus_direct --precision single')
+        echo 'bench --quick --case list --engine torus_direct --precision single'
+        echo 'power --sampler white -n 256 -m 20 -k 32 --engine torus_direct --precision single')
+    for precision in single double; do # as cards without matrix units have it
+        POINTSPEC_CAPABILITY=0 record power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision $precision
+    done
 }
 "${CC:-cc}" -std=gnu11 -Wall -Wextra -Werror -shared -fPIC -DCL_TARGET_OPENCL_VERSION=120 "$here/launches.c" -o launches.so
 export POINTSPEC_LAUNCHES=$folder/launched.txt POINTSPEC_CACHE_DIR=$folder/no-cache
@@ -68,7 +72,8 @@ compile() { # SOURCE OPTION...
     { "${clang[@]}" /usr/lib/clc/nvptx64--nvidiacl.bc -target nvptx64--nvidiacl -Xclang -target-cpu -Xclang sm_80 \
         -Xclang -target-feature -Xclang +ptx75 -Dcl_khr_fp64 -S -o "$object" "$kernels/$source" &&
         "$ptxas" -arch=sm_80 -v -o /dev/null "$object" && "$ptxas" -arch=sm_90 -v -o /dev/null "$object" &&
-        "${clang[@]}" /usr/lib/clc/amdgcn--amdhsa.bc -target amdgcn--amdhsa -mcpu=gfx90a -nogpulib -S -o - "$kernels/$source"
+        { [[ "$*" == *UNITS_PTX* ]] ||
+            "${clang[@]}" /usr/lib/clc/amdgcn--amdhsa.bc -target amdgcn--amdhsa -mcpu=gfx90a -nogpulib -S -o - "$kernels/$source"; }
     } >"$object.said" 2>&1 || { echo "$source $*: $(grep -m 3 error "$object.said")" >>failed.txt; }
     awk -v source="$source" -v options="$*" '
         function put(target) { print target, source, kernel, registers, local + 0, stack, spilled, options }

@@ -126,6 +126,10 @@ static void query_kind(questions *ask, ps_device_limits *limits) {
         query_number(ask, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof(cl_bool)) != 0;
 }
 
+/* NVIDIA's compute capability that has mma.sync for fp16 and double precision, and the question for
+ * it (cl_nv_device_attribute_query), to which others have no answer. */
+enum { LEAST_CAPABILITY_OF_UNITS = 8, ASK_CAPABILITY = 0x4000 };
+
 static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_error *error) {
     questions ask = {id, PSPEC_OK, error};
     *limits = (ps_device_limits){0};
@@ -144,6 +148,8 @@ static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_er
         limits->local_bytes -= PS_DRIVERS_LOCAL_BYTES;
     }
     limits->cache_bytes = query_number(&ask, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, sizeof(cl_ulong));
+    limits->units = query_uint(&ask, ASK_CAPABILITY) >= LEAST_CAPABILITY_OF_UNITS ? PS_UNITS_UNKNOWN
+                                                                                  : PS_UNITS_NONE;
     return ask.status;
 }
 
@@ -326,6 +332,10 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
     if (status != PSPEC_OK) {
         ps_device_close(device);
         return status;
+    }
+    if (device->limits.units == PS_UNITS_UNKNOWN) {
+        device->limits.units =
+            ps_units_are_right(device, PS_UNITS_PTX) ? PS_UNITS_PTX : PS_UNITS_NONE;
     }
     *out = device;
     return PSPEC_OK;

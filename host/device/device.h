@@ -18,6 +18,17 @@
 
 /* ---- what a device can do ------------------------------------------------------------------ */
 
+/* Units that multiply matrices, of kernels/torus/units.h. */
+typedef enum ps_units {
+    PS_UNITS_NONE = 0,
+    PS_UNITS_UNKNOWN,  /* of a listed device that may have them: opening it tries them */
+    PS_UNITS_EMULATED, /* by plain arithmetic, for tests */
+    PS_UNITS_PTX       /* of NVIDIA, by inline PTX */
+} ps_units;
+const char *ps_units_name(ps_units units);
+/* Of kernels that include kernels/torus/units.h, "-DUNITS=.." */
+const char *ps_units_option(ps_units units);
+
 typedef struct ps_device_limits {
     char name[128], platform[128], driver[128], version[128];
     bool is_gpu, is_cpu;
@@ -28,6 +39,7 @@ typedef struct ps_device_limits {
     unsigned native_float_lanes, native_double_lanes;
     size_t max_work_group_size;
     uint64_t global_bytes, max_allocation_bytes, local_bytes, cache_bytes;
+    ps_units units;
     /* what was measured of it, owned by the open device; NULL: nothing */
     const ps_figures *figures;
 } ps_device_limits;
@@ -137,6 +149,11 @@ void ps_device_set_local_bytes(ps_device *device, uint64_t bytes);
 /* The native vectors of both precisions from now on; 0 restores those of the device. For tests: the
  * kernels of other CPUs. */
 void ps_device_set_native_lanes(ps_device *device, unsigned lanes);
+
+/* The matrix units that kernels are to use from now on. For tests: they are not tried. */
+void ps_device_set_units(ps_device *device, ps_units units);
+/* Whether they build and multiply known numbers right, in every precision of the device. */
+bool ps_units_are_right(ps_device *device, ps_units units);
 
 /* ---- programs and kernels -------------------------------------------------------------------- */
 

@@ -7,10 +7,12 @@ ps_device_kind ps_device_kind_of(const ps_device_limits *limits) {
     if (limits == NULL) {
         return (ps_device_kind){"the host"};
     }
-    snprintf(out.text, sizeof out.text, "%s %s, vectors of %u and %u, local memory %s",
+    const bool has_units = limits->units != PS_UNITS_NONE;
+    snprintf(out.text, sizeof out.text, "%s %s, vectors of %u and %u, local memory %s%s%s",
              limits->platform, limits->driver, limits->native_float_lanes,
              limits->native_double_lanes,
-             limits->has_dedicated_local_memory ? "of its own" : "in the cache");
+             limits->has_dedicated_local_memory ? "of its own" : "in the cache",
+             has_units ? ", matrix units " : "", has_units ? ps_units_name(limits->units) : "");
     return out;
 }
 

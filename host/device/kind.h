@@ -1,7 +1,7 @@
 /* Kinds of devices. Results have the same bits on all devices of a kind, and the same engines are
- * chosen there: the driver, which compiles the kernels, the widths of its vectors, and whether
- * local memory is memory of its own. How many compute units a device has, and how fast they are,
- * makes no other kind. */
+ * chosen there: the driver, which compiles the kernels, the widths of its vectors, whether local
+ * memory is memory of its own, and matrix units that were tried when the device was opened. How
+ * many compute units a device has, and how fast they are, makes no other kind. */
 #ifndef PS_DEVICE_KIND_H
 #define PS_DEVICE_KIND_H
 
@@ -11,7 +11,7 @@ typedef struct ps_device_kind {
     char text[400]; /* "PLATFORM DRIVER, vectors of 16 and 8, local memory in the cache" */
 } ps_device_kind;
 
-/* limits: NULL for the host without a device. */
+/* limits: of an open device, NULL for the host without a device. */
 ps_device_kind ps_device_kind_of(const ps_device_limits *limits);
 
 /* What choices take a device of its kind to have, whatever it has. */

@@ -81,7 +81,8 @@ typedef struct ps_work {
     bool takes_blocks; /* ps_engine.stream will */
 } ps_work;
 
-/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0); on
+/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0),
+ * the largest of which jobs make a number in [1/2, 1): factors of fp16 have no place for others; on
  * the sphere |S|^2 is Q(l) = (4 pi / (2l + 1)) sum_m |c_lm|^2, whose expectation is sum w^2 for
  * white noise, as that of |S|^2 on the torus. Points of the sphere are vectors of a length between
  * 1 - 1e-6 and 1 + 1e-6: they stand for their directions, and it is the engine that divides.

@@ -23,9 +23,8 @@
 #include "shared/real.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
-#include "shared/turn.h"
+#include "torus/factors.h"
 #include "torus/layout.h"
-#include "torus/phase.h"
 #include "torus/powers.h"
 #include "torus/product.h"
 
@@ -46,14 +45,6 @@ typedef PS_JOIN(REAL, STRIP) strip_real;
 #endif
 #define JOBS (BLOCK_TILES * STRIPS * BLOCK_TILES)
 
-/* What a run is made of. */
-typedef struct factors {
-    __global const ulong *points;
-    __global const real *weights;
-    __global const word *frequencies;
-    size_t num_tiles;
-} factors;
-
 /* Cosines and sines of the num points from first on, of tiles first_tile .. of one side, over its
  * axes, which are constants in every call; zeros of tiles from end_tile on. */
 static inline void make_side(__local realv *to, const factors *from, const uint first_tile,
@@ -62,22 +53,11 @@ static inline void make_side(__local realv *to, const factors *from, const uint 
     for (uint i = get_local_id(0); i < BLOCK_TILES * num; i += get_local_size(0)) {
         const uint own = i % BLOCK_TILES, j = i / BLOCK_TILES;
         __local realv *const at = to + 2 * j * BLOCK_TILES + own;
-        const size_t tile = min(first_tile + own, end_tile - 1);
-        const realv weight =
-            first_tile + own < end_tile ? (realv)from->weights[first + j] : (realv)0;
-        const realv factor = is_weighted || first_tile + own >= end_tile ? weight : (realv)1;
-        wordv k[DIMENSION];
-        realv k_real[DIMENSION], cosine, sine;
-#pragma unroll
-        for (int axis = 0; axis < DIMENSION; axis++) {
-            k[axis] = LOADV(axis * from->num_tiles + tile, from->frequencies);
-            k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
-        }
-        turn_cosine_sine(phase_of_point(k, k_real, from->points + (first + j) * DIMENSION,
-                                        first_axis, last_axis),
-                         &cosine, &sine);
-        at[0] = factor * cosine;
-        at[BLOCK_TILES] = factor * sine;
+        realv cosine, sine;
+        make_factors(from, first_tile + own, end_tile, first + j, first_axis, last_axis,
+                     is_weighted, &cosine, &sine);
+        at[0] = cosine;
+        at[BLOCK_TILES] = sine;
     }
 }
 

@@ -2,10 +2,12 @@
 #include "harness_kernels.h"
 
 #include "device/kernel_source.h"
+#include "device/kind.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static ps_device *device;
@@ -21,6 +23,12 @@ static void write_file(const char *name, const char *text) {
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
+}
+
+static void remove_file(const char *name) {
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    unlink(path);
 }
 
 static const char *const file_names[] = {"fill.cl", "local.cl", "broken.cl", "outer.cl",
@@ -63,9 +71,7 @@ static int write_kernels(void **state) {
 static int remove_kernels(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof file_names / sizeof file_names[0]; i++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", folder, file_names[i]);
-        unlink(path);
+        remove_file(file_names[i]);
     }
     unsetenv("POINTSPEC_KERNEL_DIR");
     return rmdir(folder);
@@ -144,6 +150,42 @@ static void check_filled(const test_memory *memory, size_t num, uint32_t value) 
         assert_int_equal(found[i], i < num ? value : UINT32_MAX);
     }
     free(found);
+}
+
+/* Units that do nothing, are wrong or do not build are not taken. */
+static void matrix_units_are_tried(void **state) {
+    static const char *const texts[] = {"__kernel void probe_units(__global uint *wrong) {}",
+                                        "__kernel void probe_units(__global uint *wrong) {\n"
+                                        "    wrong[0] = 1;\n"
+                                        "}",
+                                        "__kernel void probe_units(__global uint *wrong) { no; }"};
+    char probes[sizeof folder + sizeof "/probe"];
+    (void)state;
+    unsetenv("POINTSPEC_KERNEL_DIR");
+    assert_true(ps_units_are_right(device, PS_UNITS_EMULATED));
+    setenv("POINTSPEC_KERNEL_DIR", folder, 1);
+    snprintf(probes, sizeof probes, "%s/probe", folder);
+    assert_int_equal(mkdir(probes, S_IRWXU), 0);
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        ps_device *const other = test_open_device();
+        write_file("probe/units.cl", texts[i]);
+        assert_false(ps_units_are_right(other, PS_UNITS_EMULATED));
+        ps_device_close(other);
+    }
+    remove_file("probe/units.cl");
+    assert_int_equal(rmdir(probes), 0);
+}
+
+/* What was found is part of the kind of device. */
+static void matrix_units_are_in_the_kind(void **state) {
+    (void)state;
+    ps_device_limits limits = *ps_device_get_limits(device);
+    limits.units = PS_UNITS_NONE;
+    const ps_device_kind plain = ps_device_kind_of(&limits);
+    limits.units = PS_UNITS_PTX;
+    const ps_device_kind with_units = ps_device_kind_of(&limits);
+    assert_memory_equal(with_units.text, plain.text, strlen(plain.text));
+    assert_string_equal(with_units.text + strlen(plain.text), ", matrix units ptx");
 }
 
 static void launches_reach_the_device(void **state) {
@@ -335,6 +377,8 @@ int main(void) {
         cmocka_unit_test(includes_are_expanded),
         cmocka_unit_test(build_logs_name_file_and_line),
         cmocka_unit_test(missing_sources),
+        cmocka_unit_test(matrix_units_are_tried),
+        cmocka_unit_test(matrix_units_are_in_the_kind),
         cmocka_unit_test(launches_reach_the_device),
         cmocka_unit_test(ranges_are_rounded_up),
         cmocka_unit_test(wrong_arguments_are_refused),

@@ -6,6 +6,7 @@
 #include "harness_contract.h"
 
 #include "engines/host/host_direct.h"
+#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -367,6 +368,11 @@ static void layouts_of_gpus_keep_the_laws(void **state) {
     ps_device_set_dedicated_local_memory(device, true);
     ps_device_set_group_size(device, test_group(0));
     assert_true(contract_walk(device, asked, keep_laws_of_gpus) > 0);
+    if (asked == NULL || asked == &ps_torus_direct) { /* which has matrix units */
+        ps_device_set_units(device, PS_UNITS_EMULATED);
+        contract_walk(device, &ps_torus_direct, keep_laws_of_gpus);
+        ps_device_set_units(device, PS_UNITS_NONE);
+    }
     ps_device_set_group_size(device, 0);
     ps_device_set_dedicated_local_memory(device, false);
 }

@@ -182,6 +182,18 @@ double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_
     return found;
 }
 
+void test_normalize_weights(double *weights, size_t num) {
+    double most = 0;
+    int exponent = 0;
+    for (size_t j = 0; j < num; j++) {
+        most = fmax(most, fabs(weights[j]));
+    }
+    frexp(most, &exponent);
+    for (size_t j = 0; j < num; j++) {
+        weights[j] = ldexp(weights[j], -exponent);
+    }
+}
+
 double test_uniform(uint64_t *state) {
     return ps_stress_uniform(state);
 }

@@ -84,6 +84,9 @@ void test_read_rows(const ps_engine *engine, const void *state, const ps_frequen
 double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
                          ps_device *device, double mean_power);
 
+/* The largest is made a number in [1/2, 1), as jobs do by the exponents of a batch. */
+void test_normalize_weights(double *weights, size_t num);
+
 /* Reproducible numbers in [0,1) for tests that must not depend on math/random. */
 double test_uniform(uint64_t *state);
 

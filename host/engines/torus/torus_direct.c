@@ -5,14 +5,13 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
-#include "engines/torus/torus_layout.h"
 #include "engines/torus/torus_coefficients.h"
+#include "engines/torus/torus_error.h"
+#include "engines/torus/torus_layout.h"
 #include "engines/torus/torus_points.h"
 #include "engines/torus/torus_product.h"
 #include "engines/torus/torus_split.h"
 #include "engines/torus/torus_sums.h"
-#include "math/pi.h"
-#include "torus/product.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,6 +21,7 @@ typedef struct torus_direct {
     ps_device *device;
     const ps_frequencies *frequencies;
     ps_precision precision;
+    uint64_t num_points; /* of the largest realization */
     ps_torus_layout layout;
     size_t batch, stride;
     ps_split split; /* grids only */
@@ -33,15 +33,6 @@ typedef struct torus_direct {
 } torus_direct;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
-
-/* Errors of S in units of sqrt(sum w^2). Cosines and sines round independently from point to point,
- * and runs of L = PS_TORUS_RUN terms in a far-apart order (torus_points.h) like sums of white
- * noise: together random_error, measured up to 1.8e-7 and 3e-16. Terms that are all equal
- * (coincident points, lattices at their peaks) round the same way and add up to L u / 4 of S itself
- * (u = 2^-24, 2^-53): coherent_error. Measured, with slack, in
- * tests/engines/torus/test_tolerance.c; docs/engines/torus_direct.md. */
-static const double random_error[2] = {2.2e-7, 4.0e-16};
-static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 
 static const char *refuse(const ps_torus_layout *layout, const ps_device_limits *limits) {
     if (layout->largest_buffer > limits->max_allocation_bytes ||
@@ -62,7 +53,12 @@ static double product_points(double num_points) {
            (1 + points_per_run / PS_TORUS_RUN);
 }
 
-static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem) {
+/* Of products by matrix units, in that of fused operations: 1.95 to 2.95 us for (2, 1024, 128),
+ * prototypes on an H200, 2026-11-28. In double precision nobody measured both. */
+static const double time_by_units[2] = {0.66, 1};
+
+static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem,
+                       ps_precision precision) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double num_points = (double)problem->num_points * realizations;
@@ -83,11 +79,14 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem)
                                          (double)(layout->left_tiles + layout->right_tiles), lanes);
     return (ps_work){
         .kernels = of_list + (layout->is_grid ? 1 : 0),
-        .phases = num_points * lanes *
-                  ((double)(layout->left_tiles + layout->right_tiles) +
-                   (layout->is_shared ? 2.0 * BLOCK_TILES * (double)layout->max_blocks : 0)),
+        .phases =
+            num_points * lanes *
+            ((double)(layout->left_tiles + layout->right_tiles) +
+             (layout->is_shared ? 2.0 * (double)layout->block_tiles * (double)layout->max_blocks
+                                : 0)),
         .product_flops = 8 * realizations * product_points((double)problem->num_points) * box *
-                         (has_corners && share < 1 ? share : 1),
+                         (has_corners && share < 1 ? share : 1) *
+                         (layout->units != PS_UNITS_NONE ? time_by_units[precision] : 1),
         .launches = ceil(realizations / (double)layout->group) *
                     (double)ps_divide_up((size_t)problem->num_points, layout->slab) *
                     (layout->is_grid ? 2 : 1),
@@ -101,21 +100,6 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem)
         .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization};
 }
 
-static double error_of(const ps_frequencies *frequencies, ps_precision precision,
-                       double mean_power) {
-    /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h),
-     * 2^-65 |k| turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a
-     * unit. */
-    const double dimension = frequencies->dimension;
-    const double sum_k = frequencies->max_frequency * dimension;
-    const double phase = precision == PS_SINGLE
-                             ? PS_TWO_PI * (2 + (2 + dimension) * ldexp(sum_k, -24)) * ldexp(1, -32)
-                             : PS_TWO_PI * ldexp(sum_k, -65);
-    const double uniform = sqrt(12.0);
-    const double in_step = (coherent_error[precision] + phase / uniform) * sqrt(mean_power);
-    return hypot(hypot(random_error[precision], phase / uniform), in_step);
-}
-
 static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
                         ps_precision precision) {
     ps_survey result = {0};
@@ -124,15 +108,17 @@ static ps_survey survey(const ps_problem *problem, const ps_device_limits *limit
     }
     const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
     result.why_not = refuse(&layout, limits);
-    result.work = work_of(&layout, problem);
-    result.error = error_of(problem->frequencies, precision, ps_expected_power(problem));
+    result.work = work_of(&layout, problem, precision);
+    result.error = ps_torus_error(problem->frequencies, precision, layout.units != PS_UNITS_NONE,
+                                  (double)problem->num_points, ps_expected_power(problem));
     return result;
 }
 
 static double error_of_state(const void *state, double mean_power, double weight_share) {
     const torus_direct *self = state;
     (void)weight_share;
-    return error_of(self->frequencies, self->precision, mean_power);
+    return ps_torus_error(self->frequencies, self->precision, self->layout.units != PS_UNITS_NONE,
+                          (double)self->num_points, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -204,6 +190,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->device = device;
     self->frequencies = problem->frequencies;
     self->precision = precision;
+    self->num_points = problem->num_points;
     self->batch = batch;
     self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
     self->layout.group = self->layout.group < batch ? self->layout.group : batch;
@@ -350,10 +337,15 @@ static void describe(const void *state, ps_text *text) {
     const ps_torus_layout *layout = &self->layout;
     ps_text_append(text, "(torus_direct precision=%s lanes=%u run=%d group=%zu slab=%zu",
                    ps_precision_name(self->precision), layout->lanes,
-                   layout->is_grid ? PS_TORUS_RUN : PS_TORUS_LIST_RUN, layout->group, layout->slab);
+                   !layout->is_grid                 ? PS_TORUS_LIST_RUN
+                   : layout->units != PS_UNITS_NONE ? UNIT_RUN
+                                                    : PS_TORUS_RUN,
+                   layout->group, layout->slab);
     if (layout->is_grid) {
-        ps_text_append(text, " split=%zux%zu tiles=%zu/%zu)", layout->num_left, layout->num_right,
-                       self->split.num_pairs, layout->max_pairs);
+        ps_text_append(text, " split=%zux%zu tiles=%zu/%zu%s%s)", layout->num_left,
+                       layout->num_right, self->split.num_pairs, layout->max_pairs,
+                       layout->units != PS_UNITS_NONE ? " units=" : "",
+                       layout->units != PS_UNITS_NONE ? ps_units_name(layout->units) : "");
     } else {
         ps_text_append(text, " list=%zu)", layout->num_left);
     }

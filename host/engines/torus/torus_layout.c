@@ -3,6 +3,7 @@
 #include "base/round.h"
 #include "device/kind.h"
 #include "device/reals.h"
+#include "engines/torus/torus_error.h"
 #include "engines/torus/torus_split.h"
 #include "torus/product.h"
 
@@ -87,15 +88,25 @@ static uint64_t largest(const uint64_t *numbers, size_t num) {
     return found;
 }
 
+size_t ps_torus_shared_items(const ps_torus_layout *layout) {
+    const size_t bits = 8 * layout->real_bytes, tiles = layout->block_tiles;
+    return layout->units != PS_UNITS_NONE ? UNIT_ITEMS(bits, tiles)
+                                          : tiles * tiles * layout->lanes / PRODUCT_STRIP(bits);
+}
+
 size_t ps_torus_shared_bytes(const ps_torus_layout *layout) {
-    const size_t row = BLOCK_TILES * layout->lanes * layout->real_bytes;
-    return 2 * 2 * PS_TORUS_RUN * row; /* sides, cosines and sines */
+    const size_t row = layout->block_tiles * layout->lanes * layout->real_bytes;
+    const bool has_units = layout->units != PS_UNITS_NONE;
+    const size_t points = has_units ? UNIT_CHUNK : PS_TORUS_RUN;
+    const size_t steps = (size_t)UNIT_STEPS(8 * layout->real_bytes);
+    return 2 * 2 * points * row +
+           (has_units ? 2 * steps * UNIT_GAP : 0); /* sides, cosines and sines */
 }
 
 /* Where tile pairs stand, and blocks of them (torus_product.c). */
 static uint64_t pair_bytes(const ps_torus_layout *layout) {
     enum { NUMBERS = 2 };
-    const uint64_t block = BLOCK_TILES * BLOCK_TILES + NUMBERS;
+    const uint64_t block = (uint64_t)layout->block_tiles * layout->block_tiles + NUMBERS;
     return (layout->is_shared ? layout->max_blocks * block : layout->max_pairs * NUMBERS) *
            sizeof(uint32_t);
 }
@@ -119,6 +130,39 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     layout->largest_buffer = layout->group * largest(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
+static size_t count_blocks(const ps_torus_layout *layout, unsigned block_tiles) {
+    return ps_divide_up(layout->left_tiles, block_tiles) *
+           ps_divide_up(layout->right_tiles, block_tiles);
+}
+
+static bool fits_device(const ps_torus_layout *layout, const ps_device_limits *limits) {
+    return ps_torus_shared_bytes(layout) <= limits->local_bytes &&
+           (layout->units == PS_UNITS_NONE ||
+            ps_torus_shared_items(layout) <= limits->max_work_group_size);
+}
+
+/* Matrix units where they are as exact as is asked. Large blocks take 0.8 of the time of small ones
+ * for the same frequencies (single precision, (2, 1024, 128), prototypes on an H200, 2026-11). */
+static void choose_units(ps_torus_layout *layout, const ps_problem *problem,
+                         const ps_device_limits *limits, ps_precision precision) {
+    enum { SMALL_BLOCKS_OF_LARGE = (LARGE_TILES / BLOCK_TILES) * (LARGE_TILES / BLOCK_TILES) };
+    const double time_of_large = 0.8 * SMALL_BLOCKS_OF_LARGE;
+    const bool has_units = limits->units == PS_UNITS_EMULATED || limits->units == PS_UNITS_PTX;
+    ps_torus_layout offer = *layout;
+    offer.units = limits->units;
+    if (!has_units || layout->lanes != UNIT_LANES ||
+        ps_torus_error(problem->frequencies, precision, true, ps_planned_points(problem),
+                       ps_expected_power(problem)) > problem->tolerance) {
+        return;
+    }
+    offer.block_tiles = LARGE_TILES;
+    if (!fits_device(&offer, limits) || (double)count_blocks(layout, LARGE_TILES) * time_of_large >
+                                            (double)count_blocks(layout, BLOCK_TILES)) {
+        offer.block_tiles = BLOCK_TILES;
+    }
+    *layout = fits_device(&offer, limits) ? offer : *layout;
+}
+
 ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
     const ps_frequencies *set = problem->frequencies;
@@ -136,11 +180,14 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
     layout.max_pairs = layout.left_tiles * layout.right_tiles;
     layout.max_stride = layout.max_pairs * 2 * layout.lanes * layout.lanes +
                         (layout.left_tiles + layout.right_tiles) * layout.lanes;
-    layout.max_blocks = ps_divide_up(layout.left_tiles, BLOCK_TILES) *
-                        ps_divide_up(layout.right_tiles, BLOCK_TILES);
+    layout.block_tiles = BLOCK_TILES;
     layout.is_shared = layout.is_grid && limits->has_dedicated_local_memory &&
                        layout.lanes % PRODUCT_STRIP(8 * layout.real_bytes) == 0 &&
-                       ps_torus_shared_bytes(&layout) <= limits->local_bytes;
+                       fits_device(&layout, limits);
+    if (layout.is_shared) {
+        choose_units(&layout, problem, limits, precision);
+    }
+    layout.max_blocks = count_blocks(&layout, layout.block_tiles);
     layout.has_table = layout.is_grid && !layout.is_shared;
     choose_slab(&layout, problem, limits);
     choose_group(&layout, problem, limits);

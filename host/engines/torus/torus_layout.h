@@ -16,7 +16,9 @@ typedef struct ps_torus_layout {
     unsigned lanes;
     size_t real_bytes;
     bool is_grid;
-    bool is_shared;                 /* products by kernels/torus/product_shared.cl, and no table */
+    bool is_shared;                 /* products of blocks of tiles, and no table */
+    ps_units units;                 /* of these: product_units.cl, or none: product_shared.cl */
+    unsigned block_tiles;           /* of either side of a block */
     bool has_table;                 /* of cosines and sines, for other products */
     unsigned left_axes;             /* of a grid, see torus_split.h */
     size_t num_left, num_right;     /* frequencies; a list is all left */
@@ -34,7 +36,8 @@ typedef struct ps_torus_layout {
     uint64_t largest_buffer_per_realization; /* of the others */
 } ps_torus_layout;
 
-/* Local memory of a work-group that shares factors: a run of both sides. */
+/* Items of a work-group that shares factors, and its local memory: a run of both sides. */
+size_t ps_torus_shared_items(const ps_torus_layout *layout);
 size_t ps_torus_shared_bytes(const ps_torus_layout *layout);
 
 /* Enumerates no frequencies, and so is cheap for planning. */

@@ -1,5 +1,6 @@
 /* Products of the two factors of a grid on the device: tile pairs from tables, each by one
- * work-item, or blocks of them by work-groups that make the factors in local memory. */
+ * work-item, or blocks of them by work-groups that make the factors in local memory, and multiply
+ * by matrix units where the layout has them. */
 #ifndef PS_ENGINES_TORUS_TORUS_PRODUCT_H
 #define PS_ENGINES_TORUS_TORUS_PRODUCT_H
 
@@ -12,6 +13,7 @@ typedef struct ps_torus_product {
     cl_kernel kernel;
     size_t num_blocks; /* 0: tile pairs one by one */
     size_t local_bytes, sharing_items;
+    bool has_units;      /* blocks by matrix units */
     double pair_numbers; /* products of numbers in a pair of tiles */
     double point_bytes;  /* read for each point: a row of the table, or the point by every block */
     double point_flops;  /* of the factors that blocks make */

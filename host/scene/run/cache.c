@@ -34,8 +34,12 @@ static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) 
         *error = none;
         return listed;
     }
-    const pspec_status status =
-        ps_device_choose(all, num, run->arguments->limits.device, &index, error);
+    ps_device *opened = NULL; /* where only that tells the kind */
+    pspec_status status = ps_device_choose(all, num, run->arguments->limits.device, &index, error);
+    if (status == PSPEC_OK && all[index].units == PS_UNITS_UNKNOWN) {
+        PS_TRY_OUT(status, ps_device_open(&opened, run->arguments->limits.device, false, error));
+        all[index] = *ps_device_get_limits(opened);
+    }
     if (status == PSPEC_OK) {
         const ps_device_limits *const limits = &all[index];
         ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\n", limits->platform, limits->name,
@@ -43,6 +47,8 @@ static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) 
                        limits->native_double_lanes);
         run->kind = ps_device_kind_of(limits);
     }
+out:
+    ps_device_close(opened);
     free(all);
     return status;
 }

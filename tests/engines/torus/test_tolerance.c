@@ -9,6 +9,7 @@
 #include "engines/torus/torus_direct.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,7 +104,8 @@ static measured measure(const ps_frequencies *set, const pspec_pattern *pattern,
         error += pow(sqrt(found[i]) - sqrt(expected[i]), 2) / num / squares;
         power += expected[i] / num / squares;
     }
-    const ps_problem problem = {.frequencies = set, .num_points = pattern->num_points};
+    const ps_problem problem = {
+        .frequencies = set, .num_points = pattern->num_points, .tolerance = 1};
     free(found);
     free(expected);
     return (measured){sqrt(2 * error),
@@ -122,6 +124,7 @@ static pspec_pattern make_pattern(const shape *what, unsigned dimension, size_t 
             weights[j] = what->weight(j, &state);
         }
     }
+    test_normalize_weights(weights, weights != NULL ? num_points : 0);
     return (pspec_pattern){dimension, num_points, points, weights};
 }
 
@@ -214,12 +217,45 @@ static void sorted_points(void **state) {
     }
 }
 
+/* Products by the model of matrix units (names end in *): zeros behind the last point, and second
+ * sums, of which N decides, as in the formula. */
+static void check_by_units(const shape *what, const ps_frequencies *grid, size_t num_points,
+                           ps_precision precision) {
+    char name[32];
+    shape by_units = *what;
+    snprintf(name, sizeof name, "%s*", what->name);
+    by_units.name = name;
+    check(&by_units, grid, num_points, precision);
+}
+
+static void matrix_units(void **state) {
+    static const size_t sizes[] = {1, 17, 129, NUM_POINTS};
+    const size_t most_points = 4096;
+    ps_frequencies grid = {0};
+    (void)state;
+    assert_ok(ps_frequencies_lattice(&grid, 2, 12, false, error));
+    assert_ok(ps_frequencies_enumerate(&grid, error));
+    ps_device_set_dedicated_local_memory(device, true);
+    ps_device_set_units(device, PS_UNITS_EMULATED);
+    for (int p = PS_SINGLE; p <= (ps_device_get_limits(device)->has_fp64 ? PS_DOUBLE : PS_SINGLE);
+         p++) {
+        for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++) {
+            for (size_t n = 0; n < sizeof sizes / sizeof sizes[0]; n++) {
+                check_by_units(&shapes[i], &grid, sizes[n], (ps_precision)p);
+            }
+        }
+        check_by_units(&shapes[0], &grid, most_points, (ps_precision)p);
+    }
+    ps_device_set_units(device, PS_UNITS_NONE);
+    ps_device_set_dedicated_local_memory(device, false);
+    ps_frequencies_free(&grid);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sorted_points),
-        cmocka_unit_test(single_precision),
-        cmocka_unit_test(double_precision),
-        cmocka_unit_test(numbers_of_points),
+        cmocka_unit_test(sorted_points),    cmocka_unit_test(single_precision),
+        cmocka_unit_test(double_precision), cmocka_unit_test(numbers_of_points),
+        cmocka_unit_test(matrix_units),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("tolerance", tests, NULL, NULL);

@@ -1,0 +1,53 @@
+/* Matrix units: which a device has is found out by trying them. */
+#include "device/device_private.h"
+
+#include <stdio.h>
+
+const char *ps_units_name(ps_units units) {
+    static const char *const names[] = {"none", "unknown", "emulated", "ptx"};
+    return names[units];
+}
+
+/* *wrong begins as all ones, so that a device that does nothing is not taken to be right. */
+static pspec_status probe(ps_device *device, ps_units units, unsigned precision, uint32_t *wrong) {
+    enum { WARP = 32 }; /* of kernels/torus/units.h */
+    const ps_range range = {.rank = 1, .global = {WARP}, .local = {WARP}};
+    char options[64];
+    cl_kernel kernel = NULL;
+    ps_buffer buffer = {0};
+    pspec_status status = PSPEC_OK;
+    *wrong = UINT32_MAX;
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=4 %s", precision,
+             ps_units_option(units));
+    PS_TRY_OUT(status,
+               ps_kernel_create(device, &kernel, "probe/units.cl", "probe_units", options, NULL));
+    PS_TRY_OUT(status, ps_buffer_create(device, &buffer, sizeof *wrong, "a probe", NULL));
+    PS_TRY_OUT(status, ps_buffer_write(device, &buffer, 0, wrong, sizeof *wrong, NULL));
+    PS_TRY_OUT(status, PS_LAUNCH(device, kernel, &range, NULL, PS_BUFFER(buffer)));
+    PS_TRY_OUT(status, ps_buffer_read(device, &buffer, 0, wrong, sizeof *wrong, NULL));
+out:
+    ps_buffer_release(&buffer);
+    if (kernel != NULL) {
+        clReleaseKernel(kernel);
+    }
+    return status;
+}
+
+bool ps_units_are_right(ps_device *device, ps_units units) {
+    for (unsigned precision = 32; precision <= (device->limits.has_fp64 ? 64 : 32);
+         precision += 32) {
+        uint32_t wrong;
+        if (probe(device, units, precision, &wrong) != PSPEC_OK || wrong != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+const char *ps_units_option(ps_units units) {
+    return units == PS_UNITS_PTX ? "-DUNITS=UNITS_PTX" : "-DUNITS=UNITS_EMULATED";
+}
+
+void ps_device_set_units(ps_device *device, ps_units units) {
+    device->limits.units = units;
+}
