@@ -46,6 +46,17 @@ pspec_status ps_batch_go_on_after(const ps_batch *batch, ps_device *device, ps_e
     return ps_batch_go_on(batch, error);
 }
 
+ps_batch ps_batch_part(const ps_batch *batch, size_t first, size_t most) {
+    const size_t rest = batch->num_patterns - first;
+    ps_batch part = *batch;
+    part.num_patterns = rest < most ? rest : most;
+    part.patterns += first;
+    part.scales = batch->scales != NULL ? batch->scales + first : NULL;
+    part.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
+    part.realization += first;
+    return part;
+}
+
 size_t ps_batch_longest(const ps_batch *batch) {
     size_t longest = 1;
     for (size_t r = 0; r < batch->num_patterns; r++) {

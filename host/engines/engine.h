@@ -13,6 +13,7 @@
 #include "device/device.h"
 #include "device/precision.h"
 #include "frequencies/frequencies.h"
+#include "sets/device_sets.h"
 
 /* Which harmonics coefficients are of: exponentials are those of the torus. */
 typedef enum ps_harmonics {
@@ -93,6 +94,13 @@ typedef struct ps_batch {
     const pspec_pattern *patterns;
     const double *scales;
     const int *exponents;
+    /* Instead of points, which patterns then lack, and weights: realizations that the device makes
+     * itself, the first pattern being number `realization`; with is_one_set patterns are parts of
+     * that one, from first_point on. NULL: patterns have their points. Only for engines that take
+     * them. */
+    ps_device_sets *sets;
+    uint64_t realization, first_point;
+    bool is_one_set;
     bool (*should_stop)(void *payload);
     void *payload;
 } ps_batch;
@@ -106,6 +114,8 @@ pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) PS_MUST_CHEC
  * points for the device in between: the driver would take them all, and nobody could stop them. */
 pspec_status ps_batch_go_on_after(const ps_batch *batch, ps_device *device,
                                   ps_error *error) PS_MUST_CHECK;
+/* Patterns first .. of a batch, `most` at most, as a batch. */
+ps_batch ps_batch_part(const ps_batch *batch, size_t first, size_t most);
 /* Points of the largest pattern, 1 at least. */
 size_t ps_batch_longest(const ps_batch *batch);
 
@@ -152,6 +162,7 @@ typedef struct ps_engine {
     bool needs_device;
     bool rows_on_host;     /* though it needs a device: they are short */
     bool has_precision[3]; /* by ps_precision */
+    bool takes_sets;       /* of ps_batch: points that the device makes */
     bool checks_points;    /* run gives PSPEC_ERROR_INPUT for coordinates outside [0,1) */
     bool sums_pairs; /* Q(l) = sum_ij w_i w_j P_l(u_i.u_j) over pairs; error is another one then */
 

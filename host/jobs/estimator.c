@@ -96,6 +96,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     free(estimator->scales);
     free(estimator->exponents);
     free(estimator->sums);
+    free(estimator->beginning);
     ps_pair_sums_free(&estimator->c2);
     ps_spares_close(estimator->spares);
     free(estimator);
@@ -107,6 +108,17 @@ size_t ps_estimator_batch(const ps_estimator *estimator) {
 
 uint64_t ps_estimator_num_realizations(const ps_estimator *estimator) {
     return estimator->totals.num_realizations;
+}
+
+pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets, ps_error *error) {
+    const uint64_t all = ps_device_sets_points(sets);
+    const size_t num = all < PS_SELF_CHECK_POINTS ? (size_t)all : PS_SELF_CHECK_POINTS;
+    estimator->sets = sets;
+    if (!estimator->options.self_check) {
+        return PSPEC_OK;
+    }
+    PS_TRY(PS_NEW(&estimator->beginning, num * ps_device_sets_dimension(sets), "points", error));
+    return ps_device_sets_beginning(sets, 0, num, estimator->beginning, error);
 }
 
 /* ---- add --------------------------------------------------------------------------------- */
@@ -150,6 +162,21 @@ static ps_pattern_sums plain_sums(const pspec_pattern *pattern) {
         .is_plain = true, .weight_sum = num, .weight_square_sum = num, .weight_size_sum = num};
 }
 
+/* The device makes the points of a batch. */
+static bool are_made(const ps_estimator *self, const pspec_pattern *patterns) {
+    return self->sets != NULL && patterns[0].points == NULL;
+}
+
+/* What a pattern must be, beside its points where others see to them. */
+static pspec_status check_one(const ps_estimator *self, const pspec_pattern *patterns, size_t r,
+                              ps_pattern_sums *sums, ps_error *error) {
+    const uint64_t realization = self->totals.num_realizations + r;
+    return are_made(self, patterns)
+               ? ps_pattern_check_size(self->options.problem.frequencies, patterns[r].num_points,
+                                       realization, error)
+               : ps_estimator_check(self, &patterns[r], realization, sums, error);
+}
+
 /* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
  * points. */
 static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
@@ -160,8 +187,7 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
     for (size_t r = 0; r < num_patterns; r++) {
         ps_pattern_sums found = plain_sums(&patterns[r]);
         if (sums == NULL && !self->leaves_checks) {
-            PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &found,
-                                      error));
+            PS_TRY(check_one(self, patterns, r, &found, error));
         }
         ps_estimator_set_sums(self, r, patterns[r].num_points, sums != NULL ? &sums[r] : &found);
         *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
@@ -207,6 +233,8 @@ ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *
                       .patterns = patterns,
                       .scales = self->scales,
                       .exponents = self->exponents,
+                      .sets = are_made(self, patterns) ? self->sets : NULL,
+                      .realization = self->totals.num_realizations,
                       .should_stop = self->options.should_stop,
                       .payload = self->options.payload};
 }
@@ -316,8 +344,10 @@ static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patter
     if (!is_check_due(self, patterns, rows == NULL)) {
         return PSPEC_OK;
     }
-    PS_TRY(rows == NULL ? ps_estimator_check_beginning(self, patterns, error)
-                        : compare_with_referee(self, rows, patterns, error));
+    pspec_pattern first = patterns[0];
+    first.points = are_made(self, patterns) ? self->beginning : first.points;
+    PS_TRY(rows == NULL ? ps_estimator_check_beginning(self, &first, error)
+                        : compare_with_referee(self, rows, &first, error));
     self->accuracy.was_checked = true;
     return PSPEC_OK;
 }

@@ -64,6 +64,12 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
                                  ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_estimator_destroy(ps_estimator *estimator);
 
+/* From now on patterns without points, of the sets' size, are realizations that the device makes:
+ * the number of a realization is the number of those before it. Before any is added; sets outlive
+ * the estimator, whose engine takes them. */
+pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets,
+                                   ps_error *error) PS_MUST_CHECK;
+
 /* Adds realizations, in order; any number at a time gives the same bits. A pattern larger than
  * problem.num_points is taken all the same (the engine is made anew). Every coordinate and
  * weight is checked, unless sums is there: sums[num_patterns] of ps_estimator_check, which was

@@ -18,6 +18,8 @@ struct ps_estimator {
     int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
     ps_pair_sums c2;         /* with options.want_c2 */
+    ps_device_sets *sets;    /* of patterns without points; NULL: there are none */
+    double *beginning;       /* points of the first of them, for the self-check; else NULL */
     bool leaves_checks;      /* of this batch's coordinates to the engine */
     ps_pattern_totals totals;
     ps_accuracy accuracy;

@@ -248,6 +248,14 @@ pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t rea
     return ps_sampler_place(request, realization, points, num, watch, error);
 }
 
+pspec_status ps_sampler_fill_places(const ps_sampler_request *request, ps_sampler_places *out,
+                                    ps_error *error) {
+    const ps_sampler_by_index *const by_index = &request->sampler->by_index;
+    *out =
+        (ps_sampler_places){.numbers = {.seed = request->seed, .num_points = request->num_points}};
+    return by_index->fill != NULL ? by_index->fill(request, out, error) : PSPEC_OK;
+}
+
 void ps_sampler_identify(const ps_sampler_request *request, ps_text *out) {
     const ps_sampler_request own = own_request(request);
     ps_text_append(out, "%s, version %u\npoints %zu\ndimension %u\nseed %" PRIu64 "\n",

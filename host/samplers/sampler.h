@@ -19,6 +19,7 @@
 #include "math/dimension.h"
 #include "math/lift.h"
 #include "math/morph.h"
+#include "samplers/numbers.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -82,6 +83,23 @@ typedef struct ps_sampler_request {
     ps_lender *lender;
 } ps_sampler_request;
 
+/* What makes points by their index (kernels/samplers/numbers.h), of a request that was resolved. */
+typedef struct ps_sampler_places {
+    sampler_numbers numbers;
+    uint32_t table[SAMPLER_AXES][SAMPLER_DIGITS];
+} ps_sampler_places;
+
+/* Points that are known by their index, without those before, so that devices can make them. */
+typedef struct ps_sampler_by_index {
+    const char *name;   /* of NAME_places in kernels/samplers/; NULL: only one after the other */
+    bool needs_doubles; /* of a device */
+    /* Adds to seed and number of points what is the sampler's own; NULL: nothing. */
+    pspec_status (*fill)(const ps_sampler_request *, ps_sampler_places *, ps_error *);
+    /* The same function, for the host. */
+    void (*places)(const sampler_numbers *, const uint32_t *table, uint32_t dimension,
+                   uint64_t realization, uint64_t j, uint64_t *places);
+} ps_sampler_by_index;
+
 struct ps_sampler {
     const char *name;
     const char *summary;        /* one line, for help */
@@ -133,6 +151,8 @@ struct ps_sampler {
     /* Instead of it where most_points is there: *num_points is how many were written. */
     pspec_status (*generate_some)(const ps_sampler_request *, uint64_t realization, double *points,
                                   size_t *num_points, ps_error *);
+    /* The points of `generate`, rounded to multiples of 2^-64; {0}: not by index. */
+    ps_sampler_by_index by_index;
 };
 
 /* All samplers, ended by NULL. */
@@ -168,6 +188,10 @@ pspec_status ps_sampler_check_device(const ps_sampler_request *request, const ch
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, size_t *num_points, const ps_watch *watch,
                                  ps_error *error) PS_MUST_CHECK;
+
+/* What makes the points of ps_sampler_generate by their index; the sampler has by_index.name. */
+pspec_status ps_sampler_fill_places(const ps_sampler_request *request, ps_sampler_places *out,
+                                    ps_error *error) PS_MUST_CHECK;
 
 /* The two halves of it: the sampler's own points, which are the same whatever lift, homogenize and
  * morph say, with room for points of the request's dimension; and what becomes of these. */

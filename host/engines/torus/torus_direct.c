@@ -291,11 +291,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
     for (size_t row = 0; row < batch->num_patterns; row += self->layout.group) {
-        const size_t rest = batch->num_patterns - row;
-        ps_batch group = *batch;
-        group.num_patterns = rest < self->layout.group ? rest : self->layout.group;
-        group.patterns += row;
-        group.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
+        const ps_batch group = ps_batch_part(batch, row, self->layout.group);
         PS_TRY(run_group(self, &group, row, num_slabs, error));
     }
     if (num_slabs == 1) {
@@ -357,6 +353,7 @@ const ps_engine ps_torus_direct = {
     .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},
+    .takes_sets = true,
     .checks_points = true,
     .survey = survey,
     .error_of_state = error_of_state,

@@ -4,6 +4,7 @@
 #include "base/workers.h"
 #include "device/reals.h"
 #include "math/divisor.h"
+#include "shared/fixed_point.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,23 +12,8 @@
 
 __extension__ typedef unsigned __int128 wide; /* not in ISO C */
 
-static uint64_t bits_of(double x) {
-    uint64_t bits = 0;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-/* There are neither branches nor conversions, since every point passes here: adding 1 leaves the
- * upper 52 bits of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through
- * the mantissa of another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2:
- * the upper part then is 0, the rest negative, and the sum wraps as it should. */
 uint64_t ps_fixed_point(double x) {
-    enum { EXPONENT_BITS = 12 };
-    const double two_to_64 = 18446744073709551616.0;
-    const double rounder = 6755399441055744.0; /* 1.5 * 2^52: its last bit is a unit */
-    const double upper = 1 + x;
-    const double rest = (x - (upper - 1)) * two_to_64;
-    return (bits_of(upper) << EXPONENT_BITS) + (bits_of(rest + rounder) - bits_of(rounder));
+    return fixed_point(x);
 }
 
 /* ---- create ------------------------------------------------------------------------------ */
@@ -117,8 +103,8 @@ uint64_t ps_torus_point_step(uint64_t n) {
 /* The sign bit says that x is in [0,1), without a branch: bits are in the order of numbers, and
  * those of 1 taken off wrap around below 1; -0 + 0 is 0. */
 static inline uint64_t is_inside(double x) {
-    const uint64_t bits = bits_of(x + 0.0);
-    return (bits - bits_of(1)) & ~bits;
+    const uint64_t bits = FIXED_POINT_BITS(x + 0.0);
+    return (bits - FIXED_POINT_BITS(1)) & ~bits;
 }
 
 /* Fixed-point coordinates of count points, from point j on in steps; dimension is a constant in
@@ -130,7 +116,7 @@ static inline uint64_t convert_points(uint64_t *out, const double *points, unsig
     for (size_t i = 0; i < count; i++) {
         for (unsigned axis = 0; axis < dimension; axis++) {
             const double x = points[j * dimension + axis];
-            out[i * dimension + axis] = ps_fixed_point(x);
+            out[i * dimension + axis] = fixed_point(x);
             inside &= is_inside(x);
         }
         j += step;
@@ -210,24 +196,29 @@ static void convert_some(void *payload, unsigned index, unsigned count) {
  * small sets are converted while it has others. */
 static const size_t least_part = 1 << 17;
 
-/* All patterns, to memory of the host or of a buffer. */
-static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_batch *batch,
-                            size_t first, size_t *num_points, ps_error *error) {
-    conversion all = {points, out, batch, first, {0}};
-    uint64_t inside = UINT64_MAX;
+/* Returns the number of points of all patterns. */
+static size_t set_offsets(ps_torus_points *points, const ps_batch *batch, size_t first) {
     size_t at = 0;
-    memset(all.inside, 0xff, sizeof all.inside); /* of threads that are not there */
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
-    }
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->host_offsets[r] = at;
         at += count_points(points, &batch->patterns[r], first);
     }
     points->host_offsets[batch->num_patterns] = at;
-    *num_points = at;
+    return at;
+}
+
+/* All patterns, to memory of the host or of a buffer. */
+static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_batch *batch,
+                            size_t first, size_t *num_points, ps_error *error) {
+    conversion all = {points, out, batch, first, {0}};
+    uint64_t inside = UINT64_MAX;
+    memset(all.inside, 0xff, sizeof all.inside); /* of threads that are not there */
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
+    }
+    *num_points = set_offsets(points, batch, first);
     if (batch->num_patterns > 1 && batch->patterns[0].num_points >= least_part) {
-        ps_workers_share(at, convert_some, &all);
+        ps_workers_share(*num_points, convert_some, &all);
     } else {
         convert_some(&all, 0, 1);
     }
@@ -261,11 +252,40 @@ static pspec_status fill_copied(ps_torus_points *points, ps_device *device, cons
                            *num_points * points->dimension * sizeof(uint64_t), error);
 }
 
+/* The device makes the points itself. */
+static pspec_status make(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                         size_t first, size_t *num_points, ps_error *error) {
+    const uint64_t n = ps_device_sets_points(batch->sets);
+    const uint64_t step = points->far_apart ? ps_torus_point_step(n) : 1;
+    const uint64_t num = batch->is_one_set ? 1 : batch->num_patterns;
+    *num_points = set_offsets(points, batch, first);
+    const sampler_range range = {.realization = batch->realization,
+                                 .num_realizations = num,
+                                 .begin = (uint64_t)((wide)(batch->first_point + first) * step % n),
+                                 .step = step,
+                                 .count = *num_points / num};
+    if (points->mapping.memory != NULL) { /* nobody fills it now */
+        PS_TRY(ps_mapping_end(device, &points->mapping, error));
+    }
+    if (!points->has_unit_weights) {
+        PS_TRY(upload_unit_weights(points, device, error));
+    }
+    points->points = points->buffers[0];
+    return ps_device_sets_write(batch->sets, &range, &points->points, error);
+}
+
+static pspec_status fill(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                         size_t first, size_t *num_points, ps_error *error) {
+    return points->is_unified ? fill_mapped(points, device, batch, first, num_points, error)
+                              : fill_copied(points, device, batch, first, num_points, error);
+}
+
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                                     const ps_batch *batch, size_t first, size_t *num_points,
                                     ps_error *error) {
-    PS_TRY(points->is_unified ? fill_mapped(points, device, batch, first, num_points, error)
-                              : fill_copied(points, device, batch, first, num_points, error));
+    const bool is_made = batch->sets != NULL;
+    PS_TRY(is_made ? make(points, device, batch, first, num_points, error)
+                   : fill(points, device, batch, first, num_points, error));
     if (!points->has_unit_weights) {
         PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
                                *num_points * ps_real_bytes(points->precision), error));
@@ -273,7 +293,7 @@ pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
     PS_TRY(ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error));
     /* This goes before the launch that reads the buffer, so that it need not be waited for. */
-    return points->is_unified
+    return points->is_unified && !is_made
                ? ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error)
                : PSPEC_OK;
 }

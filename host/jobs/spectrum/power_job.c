@@ -216,6 +216,7 @@ void ps_power_job_destroy(ps_power_job *job) {
         return;
     }
     ps_runner_free(&job->runner);
+    ps_device_sets_destroy(job->device_sets);
     ps_spectrum_free(&job->spectrum);
     ps_text_free(&job->description);
     free(job->coefficients);
@@ -269,7 +270,8 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
 static pspec_status begin(void *payload, ps_error *error) {
     ps_power_job *const job = payload;
     job->num_kept = 0;
-    return ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->runner.estimator), error);
+    PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->runner.estimator), error));
+    return ps_power_device_sets_begin(job, error);
 }
 
 static pspec_status tell(void *payload, ps_error *error) {
@@ -286,6 +288,9 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
     *num = 0;
     if (most == 0) {
         return PSPEC_OK;
+    }
+    if (ps_power_job_leaves_points(job)) {
+        return ps_power_device_sets_give(job, most, num, error);
     }
     PS_TRY(ps_power_sets_fill(sets, ps_estimator_can_stream(estimator), most, num, error));
     if (*num == 0 && sets->has_next) {

@@ -8,7 +8,8 @@
 
 struct ps_power_job {
     const ps_power_question *question;
-    ps_power_sets sets; /* of files, the first is read for planning */
+    ps_power_sets sets;          /* of files, the first is read for planning */
+    ps_device_sets *device_sets; /* instead, where the device makes them; else NULL */
     unsigned dimension;
     uint64_t num_points;  /* of the first set, or that a sampler is asked for */
     uint64_t most_points; /* of any set, as far as it is known */
@@ -35,6 +36,13 @@ struct ps_power_job {
     ps_mean *means; /* [all bins] for looks at the standard error */
     ps_sequential_look look;
 };
+
+/* Does the device make the sampler's points, as the plan is? */
+bool ps_power_job_leaves_points(const ps_power_job *job);
+/* Then tells the estimator, before the first realization; and ps_runner_kind.give. */
+pspec_status ps_power_device_sets_begin(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_power_device_sets_give(ps_power_job *job, uint64_t most, size_t *num,
+                                       ps_error *error) PS_MUST_CHECK;
 
 /* Memory for the coefficients that were asked for, if any; frequencies are enumerated. */
 pspec_status ps_power_coefficients_begin(ps_power_job *job, ps_error *error) PS_MUST_CHECK;

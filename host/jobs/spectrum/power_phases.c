@@ -65,7 +65,9 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
         out.sets = job->problem.num_realizations > 0 ? (double)job->problem.num_realizations : 1;
         out.points = out.sets * each;
         const ps_sets_options sets = ps_limits_sets(&question->limits, question->accuracy.no_skip);
-        ps_phases_sample(phases, &job->request, out.sets, &sets);
+        if (!ps_power_job_leaves_points(job)) { /* a GPU makes them in no time */
+            ps_phases_sample(phases, &job->request, out.sets, &sets);
+        }
     } else {
         const bool has_weights = job->sets.next.has_weights;
         out.points =

@@ -1,50 +1,25 @@
-/* Philox 4x32-10: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as
- * easy as 1, 2, 3", SC 2011. Constants from the paper, section 4 and table 2. */
+/* The generator itself is kernels/shared/philox.h, which devices have, too. */
 #include "math/random/random.h"
 
-static const uint32_t MULTIPLIER_0 = 0xD2511F53u;
-static const uint32_t MULTIPLIER_1 = 0xCD9E8D57u;
-static const uint32_t WEYL_0 = 0x9E3779B9u; /* golden ratio */
-static const uint32_t WEYL_1 = 0xBB67AE85u; /* sqrt(3) - 1 */
-
 enum {
-    NUM_ROUNDS = 10,
-    WORDS_PER_BLOCK = 4,
     UNIFORMS_PER_BLOCK = 2,
     /* Blocks made together, so that their rounds overlap and vectorise: 3.6 to 4.4 ns per
      * uniform against 5.0 to 6.4 one at a time (gcc 12 and clang 14, -O2 and -O3, SSE2, EPYC). */
-    NUM_LANES = 8,
-    STREAM_SHIFT = 16, /* stream number above the high half of the 48-bit block index */
-    MANTISSA_DROP = 11 /* 64 - 53 */
+    NUM_LANES = 8
 };
 
 static const double UNIFORM_STEP = 0x1p-53;
 
-static void philox_round(uint32_t c[4], uint32_t key_0, uint32_t key_1) {
-    const uint64_t product_0 = (uint64_t)MULTIPLIER_0 * c[0];
-    const uint64_t product_1 = (uint64_t)MULTIPLIER_1 * c[2];
-    c[0] = (uint32_t)(product_1 >> 32) ^ c[1] ^ key_0;
-    c[1] = (uint32_t)product_1;
-    c[2] = (uint32_t)(product_0 >> 32) ^ c[3] ^ key_1;
-    c[3] = (uint32_t)product_0;
-}
-
 void ps_philox_4x32_10(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4]) {
-    uint32_t c[4] = {counter[0], counter[1], counter[2], counter[3]};
-    for (uint32_t i = 0; i < NUM_ROUNDS; i++) {
-        philox_round(c, key[0] + i * WEYL_0, key[1] + i * WEYL_1);
-    }
-    for (unsigned i = 0; i < WORDS_PER_BLOCK; i++) {
-        out[i] = c[i];
-    }
+    philox_4x32_10(counter, key, out);
 }
 
 ps_random ps_random_init(uint64_t seed, ps_random_stream stream, uint64_t realization) {
     return (ps_random){
         .key = {(uint32_t)seed, (uint32_t)(seed >> 32)},
-        .counter = {0, (uint32_t)stream << STREAM_SHIFT, (uint32_t)realization,
+        .counter = {0, (uint32_t)stream << PHILOX_STREAM_SHIFT, (uint32_t)realization,
                     (uint32_t)(realization >> 32)},
-        .num_used = WORDS_PER_BLOCK,
+        .num_used = PHILOX_WORDS,
     };
 }
 
@@ -61,7 +36,7 @@ static void refill(ps_random *random) {
 }
 
 uint32_t ps_random_u32(ps_random *random) {
-    if (random->num_used == WORDS_PER_BLOCK) {
+    if (random->num_used == PHILOX_WORDS) {
         refill(random);
     }
     return random->words[random->num_used++];
@@ -83,7 +58,7 @@ uint64_t ps_random_seed_of(uint64_t seed, ps_random_stream stream, const char *t
 }
 
 uint64_t ps_random_u53(ps_random *random) {
-    return ps_random_u64(random) >> MANTISSA_DROP;
+    return ps_random_u64(random) >> PHILOX_DROP;
 }
 
 double ps_random_uniform(ps_random *random) {
@@ -116,19 +91,19 @@ uint64_t ps_random_below(ps_random *random, uint64_t bound) {
 }
 
 /* NUM_LANES successive blocks; lane l of word w is lanes[w][l]. */
-static void make_blocks(const ps_random *random, uint32_t lanes[WORDS_PER_BLOCK][NUM_LANES]) {
+static void make_blocks(const ps_random *random, uint32_t lanes[PHILOX_WORDS][NUM_LANES]) {
     for (uint32_t l = 0; l < NUM_LANES; l++) {
         lanes[0][l] = random->counter[0] + l;
         lanes[1][l] = random->counter[1] + (lanes[0][l] < l);
         lanes[2][l] = random->counter[2];
         lanes[3][l] = random->counter[3];
     }
-    for (uint32_t i = 0; i < NUM_ROUNDS; i++) {
-        const uint32_t key_0 = random->key[0] + i * WEYL_0;
-        const uint32_t key_1 = random->key[1] + i * WEYL_1;
+    for (uint32_t i = 0; i < PHILOX_ROUNDS; i++) {
+        const uint32_t key_0 = random->key[0] + i * PHILOX_WEYL_0;
+        const uint32_t key_1 = random->key[1] + i * PHILOX_WEYL_1;
         for (unsigned l = 0; l < NUM_LANES; l++) {
-            const uint64_t product_0 = (uint64_t)MULTIPLIER_0 * lanes[0][l];
-            const uint64_t product_1 = (uint64_t)MULTIPLIER_1 * lanes[2][l];
+            const uint64_t product_0 = (uint64_t)PHILOX_MULTIPLIER_0 * lanes[0][l];
+            const uint64_t product_1 = (uint64_t)PHILOX_MULTIPLIER_1 * lanes[2][l];
             lanes[0][l] = (uint32_t)(product_1 >> 32) ^ lanes[1][l] ^ key_0;
             lanes[1][l] = (uint32_t)product_1;
             lanes[2][l] = (uint32_t)(product_0 >> 32) ^ lanes[3][l] ^ key_1;
@@ -139,12 +114,11 @@ static void make_blocks(const ps_random *random, uint32_t lanes[WORDS_PER_BLOCK]
 
 /* Through a signed integer, since that conversion is one instruction on every machine. */
 static double uniform_of_words(uint32_t low, uint32_t high) {
-    const uint64_t bits = ((uint64_t)high << 32 | low) >> MANTISSA_DROP;
-    return (double)(int64_t)bits * UNIFORM_STEP;
+    return (double)(int64_t)philox_digits(low, high) * UNIFORM_STEP;
 }
 
 static void fill_lanes(ps_random *random, double out[UNIFORMS_PER_BLOCK * NUM_LANES]) {
-    uint32_t lanes[WORDS_PER_BLOCK][NUM_LANES];
+    uint32_t lanes[PHILOX_WORDS][NUM_LANES];
     make_blocks(random, lanes);
     advance(random, NUM_LANES);
     for (unsigned l = 0; l < NUM_LANES; l++) {
@@ -157,7 +131,7 @@ void ps_random_fill_uniform(ps_random *random, double *out, size_t count) {
     enum { CHUNK = UNIFORMS_PER_BLOCK * NUM_LANES };
     size_t i = 0;
     /* A block begun is finished first. Begun by an odd number of words it never is: all scalar. */
-    for (; i < count && random->num_used != WORDS_PER_BLOCK; i++) {
+    for (; i < count && random->num_used != PHILOX_WORDS; i++) {
         out[i] = ps_random_uniform(random);
     }
     for (; count - i >= CHUNK; i += CHUNK) {
@@ -169,8 +143,9 @@ void ps_random_fill_uniform(ps_random *random, double *out, size_t count) {
 }
 
 void ps_random_block(const ps_random *random, uint64_t block, uint32_t out[4]) {
-    const uint32_t stream = random->counter[1] >> STREAM_SHIFT;
-    const uint32_t counter[4] = {(uint32_t)block, stream << STREAM_SHIFT | (uint32_t)(block >> 32),
+    const uint32_t stream = random->counter[1] >> PHILOX_STREAM_SHIFT;
+    const uint32_t counter[4] = {(uint32_t)block,
+                                 stream << PHILOX_STREAM_SHIFT | (uint32_t)(block >> 32),
                                  random->counter[2], random->counter[3]};
     ps_philox_4x32_10(counter, random->key, out);
 }

@@ -11,6 +11,8 @@
 #ifndef PS_MATH_RANDOM_RANDOM_H
 #define PS_MATH_RANDOM_RANDOM_H
 
+#include "shared/philox.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,9 +32,9 @@ typedef struct ps_random {
 
 /* Streams in use; a new use gets a new number at the end. */
 typedef enum ps_random_stream {
-    PS_STREAM_COORDINATES = 0,
+    PS_STREAM_COORDINATES = PHILOX_COORDINATES,
     PS_STREAM_PERMUTATION = 1,
-    PS_STREAM_SCRAMBLE = 2,
+    PS_STREAM_SCRAMBLE = PHILOX_SCRAMBLE,
     PS_STREAM_SHIFT = 3,
     PS_STREAM_FREQUENCIES = 4, /* which frequencies of a ring; the realization is the ring */
     PS_STREAM_ROTATION = 5,    /* of the sphere, one per realization */

@@ -12,11 +12,16 @@
 #ifndef PS_SAMPLERS_TORUS_DIGITAL_NET_H
 #define PS_SAMPLERS_TORUS_DIGITAL_NET_H
 
+#include "samplers/digital_net.h"
 #include "samplers/sampler.h"
 
-enum { PS_NET_DIGITS = 32 };
+enum { PS_NET_DIGITS = SAMPLER_DIGITS };
 
-typedef enum ps_net_scramble { PS_NET_PLAIN, PS_NET_XOR, PS_NET_OWEN } ps_net_scramble;
+typedef enum ps_net_scramble {
+    PS_NET_PLAIN = NET_PLAIN,
+    PS_NET_XOR = NET_XOR,
+    PS_NET_OWEN = NET_OWEN
+} ps_net_scramble;
 
 /* The parameter "scramble", the same for every net. */
 #define PS_NET_SCRAMBLE_PARAMETER                                                                  \
@@ -42,6 +47,10 @@ bool ps_digital_net_is_plain(const ps_sampler_request *request, unsigned i_param
 
 /* For ps_sampler.seconds. */
 double ps_digital_net_seconds(const ps_sampler_request *request, unsigned i_parameter);
+
+/* What ps_sampler_by_index.fill leaves: the net's own numbers and its table. */
+void ps_digital_net_places(const ps_digital_net *net, ps_net_scramble scramble,
+                           ps_sampler_places *out);
 
 /* Writes the first num_points points of the net, scrambled for this realization.
  * PSPEC_ERROR_CANCELLED where the watch asks to stop. */

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "samplers/pace.h"
+#include "samplers/radical_inverse.h"
 #include "samplers/torus/radical_inverse.h"
 #include "samplers/values.h"
 
@@ -35,6 +36,11 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return PSPEC_OK;
 }
 
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    return first_index(request, &out->numbers.start, error);
+}
+
 const ps_sampler ps_sampler_halton = {
     .name = "halton",
     .summary = "radical inverses in the first primes",
@@ -45,4 +51,5 @@ const ps_sampler ps_sampler_halton = {
     .is_deterministic = ps_sampler_always,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "halton", .needs_doubles = true, .fill = fill, .places = halton_places},
 };

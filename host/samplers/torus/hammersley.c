@@ -3,6 +3,7 @@
 #include "samplers/list.h"
 
 #include "samplers/pace.h"
+#include "samplers/radical_inverse.h"
 #include "samplers/torus/radical_inverse.h"
 #include "samplers/values.h"
 
@@ -33,4 +34,5 @@ const ps_sampler ps_sampler_hammersley = {
     .is_deterministic = ps_sampler_always,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "hammersley", .needs_doubles = true, .places = hammersley_places},
 };

@@ -3,6 +3,7 @@
 #include "samplers/list.h"
 
 #include "samplers/pace.h"
+#include "samplers/strata.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -22,6 +23,11 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return ps_strata_place(request, counts, points, error);
 }
 
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    return ps_strata_resolve(request, STRATA, out->numbers.counts, error);
+}
+
 const ps_sampler ps_sampler_jittered = {
     .name = "jittered",
     .summary = "one uniform point in each cell of a grid",
@@ -34,4 +40,8 @@ const ps_sampler ps_sampler_jittered = {
     .most_power = ps_sampler_white_power,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "jittered",
+                 .needs_doubles = true,
+                 .fill = fill,
+                 .places = jittered_places},
 };

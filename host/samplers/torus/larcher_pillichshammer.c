@@ -62,15 +62,31 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     return PSPEC_OK;
 }
 
+static pspec_status prepare(const ps_sampler_request *request, ps_digital_net *net,
+                            ps_net_scramble *scramble, ps_error *error) {
+    unsigned is_centred = 0;
+    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, scramble, error));
+    PS_TRY(ps_sampler_choice(request, CENTRED, ANSWERS, &is_centred, error));
+    *net = (ps_digital_net){.dimension = request->dimension};
+    build_net(log2_points(request), is_centred, net);
+    return PSPEC_OK;
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_net_scramble scramble = PS_NET_PLAIN;
-    unsigned is_centred = 0;
-    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, &scramble, error));
-    PS_TRY(ps_sampler_choice(request, CENTRED, ANSWERS, &is_centred, error));
-    ps_digital_net net = {.dimension = request->dimension};
-    build_net(log2_points(request), is_centred, &net);
+    ps_digital_net net;
+    PS_TRY(prepare(request, &net, &scramble, error));
     return ps_digital_net_generate(&net, scramble, request, realization, points, error);
+}
+
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    ps_digital_net net;
+    PS_TRY(prepare(request, &net, &scramble, error));
+    ps_digital_net_places(&net, scramble, out);
+    return PSPEC_OK;
 }
 
 const ps_sampler ps_sampler_larcher_pillichshammer = {
@@ -85,4 +101,5 @@ const ps_sampler ps_sampler_larcher_pillichshammer = {
     .is_deterministic = is_deterministic,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "net", .fill = fill, .places = net_places},
 };

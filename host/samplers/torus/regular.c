@@ -3,6 +3,7 @@
 #include "samplers/list.h"
 
 #include "samplers/pace.h"
+#include "samplers/strata.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -22,6 +23,11 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return ps_strata_place(request, counts, points, error);
 }
 
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    return ps_strata_resolve(request, STRATA, out->numbers.counts, error);
+}
+
 const ps_sampler ps_sampler_regular = {
     .name = "regular",
     .summary = "centres of the cells of a grid",
@@ -33,4 +39,5 @@ const ps_sampler ps_sampler_regular = {
     .is_deterministic = ps_sampler_always,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "regular", .needs_doubles = true, .fill = fill, .places = regular_places},
 };

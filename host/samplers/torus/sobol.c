@@ -70,13 +70,29 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     return ps_digital_net_scramble(request, SCRAMBLE, &scramble, error);
 }
 
+static pspec_status prepare(const ps_sampler_request *request, ps_digital_net *net,
+                            ps_net_scramble *scramble, ps_error *error) {
+    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, scramble, error));
+    *net = (ps_digital_net){.dimension = request->dimension};
+    build_net(net);
+    return PSPEC_OK;
+}
+
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_net_scramble scramble = PS_NET_PLAIN;
-    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, &scramble, error));
-    ps_digital_net net = {.dimension = request->dimension};
-    build_net(&net);
+    ps_digital_net net;
+    PS_TRY(prepare(request, &net, &scramble, error));
     return ps_digital_net_generate(&net, scramble, request, realization, points, error);
+}
+
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    ps_digital_net net;
+    PS_TRY(prepare(request, &net, &scramble, error));
+    ps_digital_net_places(&net, scramble, out);
+    return PSPEC_OK;
 }
 
 /* The first two dimensions are the same in every table of direction numbers, the others are not. */
@@ -95,4 +111,5 @@ const ps_sampler ps_sampler_sobol = {
     .note = note,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "net", .fill = fill, .places = net_places},
 };

@@ -1,9 +1,8 @@
 #include "samplers/torus/strata.h"
 
 #include "samplers/pace.h"
+#include "samplers/strata.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,26 +86,8 @@ pspec_status ps_strata_resolve(const ps_sampler_request *request, unsigned i_par
                : fail_aspect(request, error);
 }
 
-/* The few points that rounding could carry over an edge. fma has the exact sign of x m - i. */
-static double point_near_edge(double i, double offset, double m) {
-    double x = (i + offset) / m;
-    while (fma(x, m, -i) < 0) {
-        x = nextafter(x, 1);
-    }
-    while (x * m >= i + 1) {
-        x = nextafter(x, 0);
-    }
-    return x;
-}
-
 double ps_stratum_point(double i, double offset, double m) {
-    /* Sum, quotient and the reader's product are each off by at most m 2^-53 in units of a stratum;
-     * 4 m 2^-53 leaves room to spare. */
-    const double margin = 2 * DBL_EPSILON * m;
-    if (offset > margin && offset < 1 - margin) {
-        return (i + offset) / m;
-    }
-    return point_near_edge(i, offset, m);
+    return stratum_point(i, offset, m);
 }
 
 /* cell: an odometer whose last axis moves fastest. */
@@ -132,7 +113,7 @@ pspec_status ps_strata_place(const ps_sampler_request *request,
         double *point = points + j * request->dimension;
         PS_TRY(ps_sampler_go_on(request, "sampler: points in strata", j, error));
         for (unsigned i = 0; i < request->dimension; i++) {
-            point[i] = ps_stratum_point(cell[i], point[i], m[i]);
+            point[i] = stratum_point(cell[i], point[i], m[i]);
         }
         advance(cell, m, request->dimension);
     }

@@ -282,11 +282,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
                           batch->num_patterns, error));
     const size_t at_once = self->launcher->add != NULL ? 1 : self->layout.parts;
     for (size_t row = 0; row < batch->num_patterns; row += at_once) {
-        const size_t rest = batch->num_patterns - row;
-        ps_batch some = *batch;
-        some.num_patterns = rest < at_once ? rest : at_once;
-        some.patterns += row;
-        some.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
+        const ps_batch some = ps_batch_part(batch, row, at_once);
         PS_TRY(ps_batch_go_on(batch, error));
         const ps_nufft_target target = {&self->power, &self->scales, row};
         PS_TRY(run_some(self, &some, &target, error));
@@ -322,6 +318,7 @@ const ps_engine ps_torus_nufft = {
     .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},
+    .takes_sets = true,
     .checks_points = true,
     .survey = survey,
     .error_of_state = error_of_state,

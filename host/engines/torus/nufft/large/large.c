@@ -213,7 +213,8 @@ static size_t cut(const ps_nufft_layout *layout, const pspec_pattern *pattern, s
         const size_t rest = pattern->num_points - first;
         parts[num] = *pattern;
         parts[num].num_points = rest < layout->part_points ? rest : layout->part_points;
-        parts[num].points = pattern->points + first * pattern->dimension;
+        parts[num].points =
+            pattern->points != NULL ? pattern->points + first * pattern->dimension : NULL;
         parts[num].weights = pattern->weights != NULL ? pattern->weights + first : NULL;
         first += parts[num].num_points;
         *num_points += parts[num++].num_points;
@@ -233,6 +234,8 @@ static pspec_status add(ps_nufft_state *self, const ps_batch *batch, ps_error *e
         ps_batch chunk = *batch;
         chunk.patterns = parts;
         chunk.exponents = exponents;
+        chunk.is_one_set = true;
+        chunk.first_point = batch->first_point + first;
         chunk.num_patterns = cut(&self->layout, &batch->patterns[0], first, parts, &num_points);
         PS_TRY(ps_batch_go_on(batch, error));
         PS_TRY(ps_nufft_places_upload(&self->places, &chunk, error));

@@ -1,0 +1,180 @@
+/* Points that a kernel makes beside those of the host, bit by bit: every sampler that has them by
+ * index, in all its dimensions, in whole sets and in the pieces that engines ask for. */
+#include "harness_kernels.h"
+
+#include "engines/torus/torus_points.h"
+#include "harness_plan.h"
+#include "sets/device_sets.h"
+#include "test_samplers.h"
+
+#include <string.h>
+
+enum { MOST_POINTS = 96, REALIZATIONS = 3 };
+
+static ps_device *device;
+
+/* Beyond 32 bits both; the last realization carries into the upper half. */
+static const uint64_t seed = UINT64_C(0x123456789abcdef1);
+static const uint64_t realization = (UINT64_C(5) << 32) - 2;
+
+/* Besides each sampler as it is without parameters. */
+static const char *const others[] = {
+    "sobol:scramble=xor",
+    "sobol:scramble=owen",
+    "larcher-pillichshammer:scramble=owen,centred=yes",
+    "larcher-pillichshammer:scramble=xor",
+    "halton:start=123456789012",
+};
+
+/* By the sampler's own words, then as engines convert them. */
+static void make_on_host(const ps_sampler_request *request, uint64_t number, uint64_t *places) {
+    double *const points = generate_points(request, number);
+    for (size_t i = 0; i < request->num_points * request->dimension; i++) {
+        places[i] = ps_fixed_point(points[i]);
+    }
+    free(points);
+}
+
+static void check_range(const ps_sampler_request *request, ps_device_sets *sets,
+                        const sampler_range *range) {
+    const unsigned d = request->dimension;
+    const size_t num = (size_t)(range->count * range->num_realizations) * d;
+    uint64_t expected[MOST_POINTS * PS_MAX_DIMENSION];
+    test_memory out = test_memory_create(device, NULL, num * sizeof(uint64_t));
+    assert_ok(ps_device_sets_write(sets, range, &out.buffer, error));
+    uint64_t *const found = test_memory_read(&out);
+    for (uint64_t r = 0; r < range->num_realizations && num > 0; r++) {
+        make_on_host(request, range->realization + r, expected);
+        for (uint64_t i = 0; i < range->count; i++) {
+            const uint64_t j = (range->begin + i * range->step) % request->num_points;
+            if (memcmp(found + (r * range->count + i) * d, expected + j * d, d * sizeof *found) !=
+                0) {
+                fail_msg("%s, N = %zu, d = %u: point %llu of realization %llu",
+                         request->sampler->name, request->num_points, d, (unsigned long long)j,
+                         (unsigned long long)(range->realization + r));
+            }
+        }
+    }
+    free(found);
+    test_memory_free(&out);
+}
+
+static void check_request(const ps_sampler_request *request) {
+    const uint64_t n = request->num_points;
+    const sampler_range ranges[] = {
+        {realization, REALIZATIONS, 0, 1, n}, /* whole sets */
+        {0, 2, 2 % n, ps_torus_point_step(n), (n + 1) / 2},
+        {realization, 1, n - 1, 1, 1},
+        {0, 2, 0, 1, 0},
+    };
+    ps_device_sets *sets = NULL;
+    assert_ok(ps_device_sets_create(&sets, request, device, error));
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        check_range(request, sets, &ranges[i]);
+    }
+    ps_device_sets_destroy(sets);
+}
+
+static void check_text(const char *text, unsigned dimension) {
+    static const size_t numbers[] = {1, 2, 7, 12, 64, MOST_POINTS - 1, MOST_POINTS};
+    size_t num_checked = 0;
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        ps_sampler_request request = parse_request(text, numbers[i], dimension);
+        ps_error error = {0};
+        request.seed = seed;
+        const bool is_possible = ps_sampler_check(&request, &error) == PSPEC_OK &&
+                                 ps_device_sets_serve(&request, ps_device_get_limits(device));
+        if (is_possible) {
+            check_request(&request);
+            num_checked++;
+        }
+    }
+    assert_true(num_checked >= 2 || !ps_device_get_limits(device)->has_fp64);
+}
+
+static void points_have_the_bits_of_the_host(void **state) {
+    (void)state;
+    for (size_t s = 0; ps_samplers[s] != NULL; s++) {
+        const ps_sampler *const sampler = ps_samplers[s];
+        for (unsigned d = 1; sampler->by_index.name != NULL && d <= sampler->maximum_dimension;
+             d++) {
+            if (d >= sampler->minimum_dimension) {
+                check_text(sampler->name, d);
+            }
+        }
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        check_text(others[i], 2);
+    }
+    check_text("sobol:scramble=owen", PS_MAX_DIMENSION);
+}
+
+/* Of a part of a set the host makes the points by index, too. */
+static void beginnings_are_those_of_the_host(void **state) {
+    (void)state;
+    enum { D = 3, FEW = 20 };
+    static const char *const texts[] = {"white", "jittered", "halton", "hammersley", "sobol"};
+    for (size_t s = 0; s < sizeof texts / sizeof texts[0]; s++) {
+        ps_sampler_request request = make_request(texts[s], 64, D);
+        request.seed = seed;
+        double *const points = generate_points(&request, realization);
+        double some[D * FEW];
+        ps_device_sets *sets = NULL;
+        if (ps_device_sets_serve(&request, ps_device_get_limits(device))) {
+            assert_ok(ps_device_sets_create(&sets, &request, device, error));
+            assert_ok(ps_device_sets_beginning(sets, realization, FEW, some, error));
+            for (size_t i = 0; i < D * FEW; i++) {
+                assert_true(ps_fixed_point(some[i]) == ps_fixed_point(points[i]));
+            }
+            ps_device_sets_destroy(sets);
+        }
+        free(points);
+    }
+}
+
+static void others_are_made_by_the_host(void **state) {
+    (void)state;
+    const ps_device_limits gpu = test_gpu(true);
+    const ps_device_limits without_doubles = test_gpu(false);
+    const ps_device_limits cpu = test_cpu();
+    ps_sampler_request white = make_request("white", 9, 2);
+    const ps_sampler_request jittered = make_request("jittered", 9, 2);
+    const ps_sampler_request latin = make_request("latin-hypercube", 9, 2);
+    const ps_sampler_request lifted = make_request("white:lift=sphere", 9, 3);
+    assert_true(ps_device_sets_serve(&white, &gpu));
+    assert_true(ps_device_sets_serve(&white, &without_doubles));
+    assert_true(ps_device_sets_serve(&jittered, &gpu));
+    assert_false(ps_device_sets_serve(&jittered, &without_doubles));
+    assert_false(ps_device_sets_serve(&white, &cpu));
+    assert_false(ps_device_sets_serve(&white, NULL));
+    assert_false(ps_device_sets_serve(&latin, &gpu));
+    assert_false(ps_device_sets_serve(&lifted, &gpu));
+    white.num_points = (size_t)UINT32_MAX + 1;
+    assert_false(ps_device_sets_serve(&white, &gpu));
+    white.num_points = 9;
+    white.homogenize = true;
+    assert_false(ps_device_sets_serve(&white, &gpu));
+}
+
+static int open_device(void **state) {
+    (void)state;
+    device = test_open_device();
+    ps_device_set_dedicated_local_memory(device, true);
+    ps_device_set_group_size(device, test_group(64));
+    return 0;
+}
+
+static int close_device(void **state) {
+    (void)state;
+    ps_device_close(device);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_have_the_bits_of_the_host),
+        cmocka_unit_test(beginnings_are_those_of_the_host),
+        cmocka_unit_test(others_are_made_by_the_host),
+    };
+    return cmocka_run_group_tests_name("kernels_points", tests, open_device, close_device);
+}
