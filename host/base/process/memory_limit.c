@@ -195,6 +195,8 @@ const char *ps_size_show(char text[PS_SIZE_TEXT], double bytes) {
         bytes /= PS_SIZE_STEP;
         power++;
     }
-    snprintf(text, PS_SIZE_TEXT, "%.4g%.1s", bytes, power > 0 ? &PS_SIZE_UNITS[power - 1] : "");
+    /* As an argument, a place in a constant is an internal error of gcc 12 with -Og -fsanitize. */
+    const char unit[] = {power > 0 ? PS_SIZE_UNITS[power - 1] : 0, 0};
+    snprintf(text, PS_SIZE_TEXT, "%.4g%s", bytes, unit);
     return text;
 }
