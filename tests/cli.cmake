@@ -16,8 +16,7 @@ function(add_program_test name)
   elseif(name IN_LIST SWEEP_TESTS)
     set_tests_properties(${name} PROPERTIES LABELS "unit;sweep")
   endif()
-  set_tests_properties(${name} PROPERTIES
-    ENVIRONMENT "POCL_CACHE_DIR=${POINTSPEC_TEST_CACHE}")
+  set_kernels(${name})
 endfunction()
 
 # Sanitizers map address space without measure, and take several times as long.
