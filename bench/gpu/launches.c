@@ -21,6 +21,16 @@ cl_int clGetDeviceInfo(cl_device_id id, cl_device_info what, size_t bytes, void 
         *(cl_uint *)value = asked != NULL ? (cl_uint)atoi(asked) : 9;
         return CL_SUCCESS;
     }
+    if (what == CL_DEVICE_VENDOR) {
+        static const char vendor[] = "NVIDIA Corporation";
+        if (size != NULL) {
+            *size = sizeof vendor;
+        }
+        if (value != NULL) {
+            snprintf(value, bytes, "%s", vendor);
+        }
+        return CL_SUCCESS;
+    }
     const cl_int code = REAL(clGetDeviceInfo)(id, what, bytes, value, size);
     if (code != CL_SUCCESS || value == NULL) {
         return code;

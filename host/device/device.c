@@ -127,8 +127,15 @@ static void query_kind(questions *ask, ps_device_limits *limits) {
 }
 
 /* NVIDIA's compute capability that has mma.sync for fp16 and double precision, and the question for
- * it (cl_nv_device_attribute_query), to which others have no answer. */
+ * it (cl_nv_device_attribute_query). */
 enum { LEAST_CAPABILITY_OF_UNITS = 8, ASK_CAPABILITY = 0x4000 };
+
+static bool may_have_units(questions *ask) {
+    char vendor[64];
+    query_text(ask, CL_DEVICE_VENDOR, vendor, sizeof vendor);
+    return strstr(vendor, "NVIDIA") != NULL &&
+           query_uint(ask, ASK_CAPABILITY) >= LEAST_CAPABILITY_OF_UNITS;
+}
 
 static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_error *error) {
     questions ask = {id, PSPEC_OK, error};
@@ -148,8 +155,7 @@ static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_er
         limits->local_bytes -= PS_DRIVERS_LOCAL_BYTES;
     }
     limits->cache_bytes = query_number(&ask, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, sizeof(cl_ulong));
-    limits->units = query_uint(&ask, ASK_CAPABILITY) >= LEAST_CAPABILITY_OF_UNITS ? PS_UNITS_UNKNOWN
-                                                                                  : PS_UNITS_NONE;
+    limits->units = may_have_units(&ask) ? PS_UNITS_UNKNOWN : PS_UNITS_NONE;
     return ask.status;
 }
 
