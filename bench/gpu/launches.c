@@ -52,6 +52,9 @@ cl_int clGetDeviceInfo(cl_device_id id, cl_device_info what, size_t bytes, void 
     case CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE:
         *(cl_uint *)value = 1;
         break;
+    case CL_DEVICE_MAX_CLOCK_FREQUENCY:
+        *(cl_uint *)value = 1980;
+        break;
     case CL_DEVICE_MAX_WORK_GROUP_SIZE:
         *(size_t *)value = 1024;
         break;
@@ -100,8 +103,8 @@ cl_int clSetKernelArg(cl_kernel kernel, cl_uint index, size_t bytes, const void 
     return REAL(clSetKernelArg)(kernel, index, bytes, value);
 }
 
-/* A line "SOURCE KERNEL GROUP LOCAL-BYTES OPTIONS"; the text of a program begins with the name of its source
- * (host/device/kernel_source.c). */
+/* A line "SOURCE KERNEL GROUP LOCAL-BYTES OPTIONS"; the text of a program begins with the name of
+ * its source (host/device/kernel_source.c). */
 static void write_down(cl_command_queue queue, cl_kernel kernel, size_t group) {
     cl_program program = NULL;
     cl_device_id id = NULL;

@@ -36,6 +36,8 @@ table_bench_scenes() {
 # Ten minutes; divided by a yardstick, yet a quiet machine says more. All questions would be a page of their own: those that
 # are off, and the sum.
 table_bench_plan() { bench plan | awk '/^#/ || $1 == "planned" || / !/'; }
+# No GPU is needed.
+table_gpu_plan() { need pointspec && "$docs/../bench/gpu/predict.sh" "$build/pointspec"; }
 table_bench_reading() { bench reading; }
 table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }

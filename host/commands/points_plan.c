@@ -42,7 +42,7 @@ pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *reques
     if (!is_drawn) {
         PS_TRY(ps_sample_check_counts(request, error));
     }
-    ps_phases_start(&phases, NULL);
+    ps_phases_start(&phases, NULL, NULL);
     for (size_t i = 0; i < ps_request_num_questions(request); i++) {
         PS_TRY(add_sampler(&phases, request, i, is_drawn, &bytes, error));
     }
@@ -73,7 +73,7 @@ pspec_status ps_points_plan_convert(ps_planner *planner, const ps_request *reque
     }
     if (status == PSPEC_OK) {
         const unsigned numbers = set.dimension + (set.has_weights ? 1 : 0);
-        ps_phases_start(&phases, NULL);
+        ps_phases_start(&phases, NULL, NULL);
         const double points =
             ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
         if (!ps_request_only_draws(request)) {

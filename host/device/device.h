@@ -37,6 +37,7 @@ typedef struct ps_device_limits {
     bool has_unified_memory;         /* the host writes into buffers without a copy */
     unsigned compute_units, clock_mhz;
     unsigned native_float_lanes, native_double_lanes;
+    unsigned double_cost; /* single operations in the time of one in double; 0: not known */
     size_t max_work_group_size;
     uint64_t global_bytes, max_allocation_bytes, local_bytes, cache_bytes;
     ps_units units;

@@ -16,6 +16,14 @@ double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned 
     return 1;
 }
 
+double ps_figures_launch_seconds(const ps_figures *figures, double built_in) {
+    return figures != NULL && figures->launches > 0 ? 1 / figures->launches : built_in;
+}
+
+double ps_figures_sent_bytes(const ps_figures *figures, double built_in) {
+    return figures != NULL && figures->sent_bytes > 0 ? figures->sent_bytes : built_in;
+}
+
 ps_engine_figure *ps_figures_row(ps_figures *figures, const char *engine) {
     for (size_t i = 0; i < figures->num_engines; i++) {
         if (strcmp(figures->engines[i].engine, engine) == 0) {

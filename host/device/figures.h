@@ -29,6 +29,8 @@ typedef struct ps_figures {
     char date[32];       /* as 2026-11-22T10:00:00Z */
     double flops[2];     /* peak of fused operations per second, single and double; 0: not known */
     double copied_bytes; /* per second, read and written by a copy; 0: not known */
+    double sent_bytes;   /* per second, from the host to the device; 0: not known */
+    double launches;     /* of small kernels per second, one after the other; 0: not known */
     size_t num_engines;
     ps_engine_figure engines[PS_FIGURES_ENGINES];
     size_t num_host; /* of the host; none in the file of a device */
@@ -37,6 +39,10 @@ typedef struct ps_figures {
 
 /* The factor of an engine's seconds: 1 unless it was measured here. figures may be NULL. */
 double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned precision);
+
+/* What was measured, else what is built in. figures may be NULL. */
+double ps_figures_launch_seconds(const ps_figures *figures, double built_in);
+double ps_figures_sent_bytes(const ps_figures *figures, double built_in);
 
 /* That of a kind of the host's work; where it was not measured, the geometric mean of those that
  * were. figures may be NULL. */

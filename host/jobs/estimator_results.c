@@ -1,4 +1,5 @@
 /* What an estimator has found. */
+#include "device/kind.h"
 #include "engines/error_units.h"
 #include "jobs/estimator_private.h"
 
@@ -110,7 +111,13 @@ ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
 }
 
 void ps_estimator_describe(const ps_estimator *estimator, ps_text *text) {
-    if (estimator->engine_state != NULL) {
-        estimator->options.engine->describe(estimator->engine_state, text);
+    const ps_engine *const engine = estimator->options.engine;
+    if (estimator->engine_state == NULL) {
+        return;
+    }
+    engine->describe(estimator->engine_state, text);
+    if (engine->needs_device) {
+        const ps_device_kind kind = ps_device_kind_of(ps_device_get_limits(estimator->device));
+        ps_text_append(text, "%s%s", kind.probed[0] != '\0' ? " on " : "", kind.probed);
     }
 }

@@ -7,7 +7,7 @@
  * are work per second as a share of the nominal peak of ps_cost_nominal_flops, so that they carry
  * over to other devices of the same class; 20 % either way changes no choice between engines that
  * differ by a factor of ten. The machine is shared: the best of several runs was taken. */
-static const struct {
+typedef struct device_rates {
     double phases_per_flop; /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
     double product_share;   /* share of the nominal peak that torus/product.cl reaches */
     double transform_share; /* share of its cycles that nufft/ takes */
@@ -17,9 +17,25 @@ static const struct {
      * bench_pairs, 2026-11 */
     double pair_degrees_per_flop; /* (pair, degree) */
     double pairs_per_flop;        /* pairs into a histogram */
-} device_rates[2] = {
-    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.056, 0.114, 0.005},
-    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.053, 0.113, 0.005},
+    double seconds_per_launch;
+} device_rates;
+
+/* Enqueueing one kernel: 10 microseconds cover PoCL's threads. */
+static const device_rates cpu_rates[2] = {
+    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.056, 0.114, 0.005, 10e-6},
+    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.053, 0.113, 0.005, 10e-6},
+};
+
+/* The same of GPUs, where transforms have cycles of their own (engines/nufft/cycles.c). Measured on
+ * an H200 or H100 (docs/developer/performance.md, "On a GPU"): lists ran at 11.2 TFLOP/s with 37 of
+ * them a phase; a prototype of the product, slowed down by what the kernel does more than it, has
+ * 4.9 us for (1024, 128); 1024 points and L = 128 took sphere_direct 278 us. Sums over pairs were
+ * not measured: the share of their CPU's rate is that of sphere_direct, whose work-groups have one
+ * item, too. A launch is what NVIDIA's driver takes, an estimate until --calibrate has run on one.
+ * A kernel for GPUs with work of its own has a column here. */
+static const device_rates gpu_rates[2] = {
+    [PS_SINGLE] = {0.0045, 0.56, 1.0, 4.7e-4, 9.6e-4, 4.2e-5, 5e-6},
+    [PS_DOUBLE] = {0.0045, 0.50, 1.0, 7.0e-4, 9.6e-4, 4.2e-5, 5e-6},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
@@ -30,9 +46,6 @@ static const double host_seconds_per_phase = 190e-9;
  * only. */
 static const double host_seconds_per_rule_pair = 1.1e-9;
 static const double host_seconds_per_kappa_term = 0.4e-9;
-
-/* Enqueueing one kernel: 10 microseconds cover PoCL and GPU drivers. */
-static const double seconds_per_launch = 10e-6;
 
 /* Typical clock where a device does not tell. */
 enum { DEFAULT_CLOCK_MHZ = 1000, PIPES = 2, FLOPS_PER_FMA = 2 };
@@ -46,7 +59,8 @@ static double peak_of(const ps_device_limits *limits, ps_precision precision, do
     double lanes =
         precision == PS_SINGLE ? limits->native_float_lanes : limits->native_double_lanes;
     if (limits->has_dedicated_local_memory) {
-        lanes = precision == PS_SINGLE ? GPU_UNIT_LANES : GPU_UNIT_LANES / 2;
+        lanes = precision == PS_SINGLE ? GPU_UNIT_LANES
+                                       : GPU_UNIT_LANES / ps_device_double_cost(limits);
     }
     return units * hertz * clock_mhz * (lanes > 1 ? lanes : 1) * PIPES * FLOPS_PER_FMA;
 }
@@ -56,21 +70,28 @@ double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precis
                    limits->clock_mhz > 0 ? limits->clock_mhz : DEFAULT_CLOCK_MHZ);
 }
 
-static double seconds_at(const ps_work *work, double peak, ps_precision precision) {
-    return work->phases / (peak * device_rates[precision].phases_per_flop) +
-           work->product_flops / (peak * device_rates[precision].product_share) +
-           work->transform_flops / (peak * device_rates[precision].transform_share) +
-           work->harmonics / (peak * device_rates[precision].harmonics_per_flop) +
-           work->pair_degrees / (peak * device_rates[precision].pair_degrees_per_flop) +
-           work->binned_pairs / (peak * device_rates[precision].pairs_per_flop) +
-           work->launches * seconds_per_launch;
+static const device_rates *rates_of(const ps_device_limits *limits, ps_precision precision) {
+    return limits->has_dedicated_local_memory ? &gpu_rates[precision] : &cpu_rates[precision];
+}
+
+static double seconds_at(const ps_work *work, double peak, const device_rates *rates) {
+    return work->phases / (peak * rates->phases_per_flop) +
+           work->product_flops / (peak * rates->product_share) +
+           work->transform_flops / (peak * rates->transform_share) +
+           work->harmonics / (peak * rates->harmonics_per_flop) +
+           work->pair_degrees / (peak * rates->pair_degrees_per_flop) +
+           work->binned_pairs / (peak * rates->pairs_per_flop) +
+           work->launches * rates->seconds_per_launch;
 }
 
 double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
                        ps_precision precision) {
-    return limits == NULL || precision == PS_EXTENDED
-               ? work->phases * host_seconds_per_phase
-               : seconds_at(work, ps_cost_nominal_flops(limits, precision), precision);
+    if (limits == NULL || precision == PS_EXTENDED) {
+        return work->phases * host_seconds_per_phase;
+    }
+    device_rates rates = *rates_of(limits, precision);
+    rates.seconds_per_launch = ps_figures_launch_seconds(limits->figures, rates.seconds_per_launch);
+    return seconds_at(work, ps_cost_nominal_flops(limits, precision), &rates);
 }
 
 double ps_cost_typical(const ps_work *work, const ps_device_limits *limits,
@@ -80,7 +101,7 @@ double ps_cost_typical(const ps_work *work, const ps_device_limits *limits,
     }
     const ps_typical_device typical = ps_device_typical(limits);
     return seconds_at(work, peak_of(limits, precision, typical.compute_units, typical.clock_mhz),
-                      precision);
+                      rates_of(limits, precision));
 }
 
 double ps_cost_rule_seconds(double pairs, double terms) {

@@ -8,8 +8,8 @@
  * Used to scale measured rates from the machine where they were taken to another one. */
 double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precision);
 
-/* Estimated seconds of a whole job. A pure function: nothing is timed while planning. limits is
- * NULL for work on the host. */
+/* Estimated seconds of a whole job, by the launches of limits->figures where they were measured. A
+ * pure function: nothing is timed while planning. limits is NULL for work on the host. */
 double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision);
 /* The same on the typical device of that kind (device/kind.h), by which engines are chosen. */
 double ps_cost_typical(const ps_work *work, const ps_device_limits *limits, ps_precision precision);

@@ -13,7 +13,7 @@ const ps_candidate *ps_plan_fitting(const ps_plan *plan) {
     for (size_t i = 0; i < plan->num_candidates; i++) {
         const ps_candidate *candidate = &plan->candidates[i];
         if (candidate->is_feasible && !candidate->is_crowded &&
-            (best == NULL || candidate->seconds < best->seconds)) {
+            (best == NULL || candidate->cost < best->cost)) {
             best = candidate;
         }
     }

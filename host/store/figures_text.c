@@ -15,7 +15,7 @@
 
 /* What devices can be: from a slow simulator to a rack, and nothing that a planner could stumble
  * over. */
-static const double least_rate = 1e3, most_rate = 1e18;
+static const double least_rate = 1e3, least_launches = 1, most_rate = 1e18;
 static const double least_scale = 1e-3, most_scale = 1e3;
 
 /* ---- names --------------------------------------------------------------------------------- */
@@ -60,6 +60,8 @@ pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
     append_number(text, "flops", "single", figures->flops[PS_SINGLE]);
     append_number(text, "flops", "double", figures->flops[PS_DOUBLE]);
     append_number(text, "bytes", "copied", figures->copied_bytes);
+    append_number(text, "bytes", "sent", figures->sent_bytes);
+    append_number(text, "launches", "small", figures->launches);
     for (size_t i = 0; i < figures->num_engines; i++) {
         const ps_engine_figure *row = &figures->engines[i];
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
@@ -141,6 +143,12 @@ static bool take_line(ps_figures *figures, char *line) {
     }
     if ((text = after(line, "bytes copied")) != NULL) {
         return take_number(text, least_rate, most_rate, &figures->copied_bytes);
+    }
+    if ((text = after(line, "bytes sent")) != NULL) {
+        return take_number(text, least_rate, most_rate, &figures->sent_bytes);
+    }
+    if ((text = after(line, "launches small")) != NULL) {
+        return take_number(text, least_launches, most_rate, &figures->launches);
     }
     if ((text = after(line, "host")) != NULL) {
         char *const number = cut_word(text);

@@ -1,5 +1,6 @@
 #include "harness_plan.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* ---- machines that do not exist ------------------------------------------------------------ */
@@ -33,6 +34,19 @@ ps_device_limits test_gpu(bool has_fp64) {
                               .max_allocation_bytes = (uint64_t)2 << 30,
                               .local_bytes = 64 << 10,
                               .cache_bytes = 4 << 20};
+}
+
+/* As NVIDIA's driver has it, which takes some of the 48 KB of local memory. */
+ps_device_limits test_h200(void) {
+    ps_device_limits limits = test_gpu(true);
+    snprintf(limits.name, sizeof limits.name, "NVIDIA H200");
+    limits.compute_units = 132;
+    limits.clock_mhz = 1980;
+    limits.global_bytes = (uint64_t)139 << 30;
+    limits.max_allocation_bytes = limits.global_bytes / 4;
+    limits.local_bytes = (48 << 10) - 16;
+    limits.double_cost = 2;
+    return limits;
 }
 
 /* ---- problems ------------------------------------------------------------------------------ */

@@ -8,6 +8,7 @@
 
 ps_device_limits test_cpu(void);
 ps_device_limits test_gpu(bool has_fp64);
+ps_device_limits test_h200(void);
 
 /* A ball, not enumerated. */
 ps_frequencies test_lattice(unsigned dimension, int32_t max_frequency);

@@ -83,12 +83,14 @@ static void batches(void **state) {
  * make estimates uneven: 2 % here, up to 20 % from one frequency to the next.) */
 static void check_not_cheaper(const ps_problem *small, const ps_problem *large,
                               const ps_device_limits *limits, double slack) {
+    const double rounding = 1e-15; /* a GPU that waits takes as long with one realization more */
     ps_plan plans[2];
     test_make_plan(&plans[0], small, limits, &test_any_plan);
     test_make_plan(&plans[1], large, limits, &test_any_plan);
     for (size_t i = 0; i < plans[0].num_candidates; i++) {
         const ps_candidate *a = &plans[0].candidates[i], *b = &plans[1].candidates[i];
-        if (a->is_applicable && b->is_applicable && !(b->seconds >= (1 - slack) * a->seconds)) {
+        if (a->is_applicable && b->is_applicable &&
+            !(b->seconds >= (1 - slack - rounding) * a->seconds)) {
             fail_msg("%s %s: %.17g s for d = %u K = %d N = %llu, then %.17g s", a->engine->name,
                      ps_precision_name(a->precision), a->seconds, small->frequencies->dimension,
                      (int)small->frequencies->max_frequency, (unsigned long long)small->num_points,

@@ -29,7 +29,9 @@ static ps_figures some_figures(void) {
     ps_figures figures = {.is_measured = true,
                           .date = "2026-11-22T10:00:00Z",
                           .flops = {3.25e11, 1.0 / 3 * 1e12},
-                          .copied_bytes = 5e10};
+                          .copied_bytes = 5e10,
+                          .sent_bytes = 7e9,
+                          .launches = 1e5 / 3};
     ps_figures_row(&figures, "torus_nufft")->scales[PS_SINGLE] = 1.0 / 3;
     ps_figures_row(&figures, "torus_nufft")->scales[PS_DOUBLE] = 2;
     ps_figures_row(&figures, "host_direct")->scales[PS_EXTENDED] = 0.7;
@@ -51,6 +53,7 @@ static void assert_same(const ps_figures *a, const ps_figures *b) {
     assert_string_equal(a->date, b->date);
     assert_memory_equal(a->flops, b->flops, sizeof a->flops);
     assert_true(a->copied_bytes == b->copied_bytes);
+    assert_true(a->sent_bytes == b->sent_bytes && a->launches == b->launches);
     assert_int_equal(a->num_engines, b->num_engines);
     for (size_t i = 0; i < a->num_engines; i++) {
         assert_string_equal(a->engines[i].engine, b->engines[i].engine);
@@ -149,6 +152,9 @@ static void wrong_lines(void **state) {
         "flops extended 1e9\n",
         "bytes copied 0\n",
         "bytes copied 0x1p40\n",
+        "bytes sent 0\n",
+        "launches small 0.5\n",
+        "launches 1e5\n",
         "date a day of so many words that they do not fit\n",
         "speed 3\n",
         "host pair 0\n",
@@ -294,9 +300,12 @@ static void planner_scales_seconds(void **state) {
     ps_figures_row(&figures, "torus_direct")->scales[PS_SINGLE] = 1e-3;
     assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) == direct);
     figures = some_figures();
+    figures.launches = 0;
     assert_true(seconds_of(&limits, "torus_nufft", PS_SINGLE, &now) == nufft * (1.0 / 3));
     assert_true(seconds_of(&limits, "host_direct", PS_EXTENDED, &now) == host * 0.7);
     assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) == direct);
+    figures.launches = 1;
+    assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) > direct + 0.9);
 }
 
 /* What decides is the built-in model, so that results have the same bits on every machine of a

@@ -211,6 +211,7 @@ static void calibration(void **state) {
     assert_ok(ps_device_set_figures(device, &absurd, error));
     assert_ok(ps_bench_calibrate(&options, device, &figures, error));
     assert_true(figures.is_measured && figures.copied_bytes > 0 && figures.flops[PS_SINGLE] > 0);
+    assert_true(figures.sent_bytes > 0 && figures.launches > 0);
     assert_true(has_fp64 == (figures.flops[PS_DOUBLE] > 0));
     const ps_engine_figure *const row = ps_figures_row(&figures, "torus_direct");
     assert_int_equal(figures.num_engines,

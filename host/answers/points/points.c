@@ -91,7 +91,7 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     ps_phases phases = ps_plan_table_begin_phases(planner);
     PS_TRY(check_question(request, error));
     PS_TRY(find_sampler(&sampler, request, error));
-    ps_phases_start(&phases, NULL);
+    ps_phases_start(&phases, NULL, NULL);
     const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
     ps_phases_sample(&phases, &sampler, (double)request->num_realizations, &kept);
     return ps_plan_table_add_host(planner, &phases,

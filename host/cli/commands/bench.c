@@ -84,6 +84,8 @@ static pspec_status add_device(const answer *shown, const ps_device_peaks *peaks
         {"peak_flops_single", rate(peaks->flops[PS_SINGLE])},
         {"peak_flops_double", rate(peaks->flops[PS_DOUBLE])},
         {"copied_bytes_per_second", rate(peaks->copied_bytes)},
+        {"sent_bytes_per_second", rate(peaks->sent_bytes)},
+        {"launches_per_second", rate(peaks->launches)},
     };
     return ps_table_add_metas(shown->table, entries, sizeof entries / sizeof entries[0], error);
 }
@@ -155,7 +157,10 @@ static pspec_status run_cases(answer *shown, const ps_bench_options *options,
 static pspec_status add_figures(answer *shown, const ps_figures *figures, const char *path,
                                 ps_error *error) {
     static const char *const columns[] = {"engine", "precision", "seconds_over_predicted"};
-    const ps_device_peaks peaks = {{figures->flops[0], figures->flops[1]}, figures->copied_bytes};
+    const ps_device_peaks peaks = {{figures->flops[0], figures->flops[1]},
+                                   figures->copied_bytes,
+                                   figures->sent_bytes,
+                                   figures->launches};
     PS_TRY(ps_table_create(&shown->table, "bench", columns, sizeof columns / sizeof columns[0],
                            error));
     PS_TRY(add_device(shown, &peaks, error));

@@ -1,5 +1,6 @@
 /* What the parts of a fast transform of scattered points cost, one table for torus and sphere.
- * Nominal figures of one CPU, whatever the device, so that choices depend on nothing else.
+ * Nominal figures of one CPU and of one GPU, whatever the device, so that choices depend on nothing
+ * else.
  */
 #ifndef PS_ENGINES_NUFFT_CYCLES_H
 #define PS_ENGINES_NUFFT_CYCLES_H
@@ -34,8 +35,9 @@ typedef enum ps_nufft_part {
     PS_NUFFT_NUM_PARTS
 } ps_nufft_part;
 
-/* Cycles of a core for one of each. */
+/* Cycles of a core for one of each: of a CPU, and of a GPU as if it were cores. */
 extern const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS];
+extern const double ps_nufft_gpu_cycles[PS_NUFFT_NUM_PARTS];
 
 /* Lanes of a wide CPU, to choose for where there is no device, and on GPUs. */
 unsigned ps_nufft_nominal_lanes(ps_precision precision);

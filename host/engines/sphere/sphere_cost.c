@@ -18,7 +18,7 @@ static const struct {
 /* How much longer the device takes because work-items are not shared out evenly: one realization of
  * few orders has one, which has one core. */
 static double idle_factor(double items, const ps_device_limits *limits) {
-    const double units = ps_device_typical(limits).compute_units;
+    const double units = ps_device_typical(limits).single_items;
     return ceil(items / units) * units / items;
 }
 

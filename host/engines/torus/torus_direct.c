@@ -57,6 +57,23 @@ static double product_points(double num_points) {
  * prototypes on an H200, 2026-11-28. In double precision nobody measured both. */
 static const double time_by_units[2] = {0.66, 1};
 
+/* Additions and multiplications of products by kernels/torus/product_shared.cl for num_points
+ * points of each of many realizations, of which `share` of the pairs of tiles are needed. Blocks do
+ * all of their pairs, and those on the edge of a ball are done, too; a phase in a block takes as
+ * long as 24 fused operations of a product. Two work-groups on each of 132 units keep an H200 busy;
+ * fewer take as long as these. */
+static double shared_flops(const ps_torus_layout *layout, double num_points, double realizations,
+                           double share) {
+    const double phase_flops = 48;
+    const double busy_groups = 2 * 132;
+    const double side = layout->block_tiles * (double)layout->lanes;
+    const double all = (double)layout->max_blocks;
+    const double blocks = fmin(all, share * all + sqrt(all));
+    const double groups = fmax(1, blocks * (double)layout->group);
+    return realizations * num_points * blocks * (8 * side * side + phase_flops * 2 * side) *
+           fmax(1, busy_groups / groups);
+}
+
 static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem,
                        ps_precision precision) {
     const double realizations =
@@ -70,7 +87,10 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem,
     const double right = (double)layout->num_right;
     const bool has_corners =
         problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
-    const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
+    const double share =
+        has_corners ? fmin(1, (double)problem->frequencies->num / (2 * left * right + left + right))
+                    : 1;
+    const double product = product_points((double)problem->num_points);
     const double of_list = 3; /* sums, their sum, powers */
     const double read_back =
         problem->harmonics == PS_NO_HARMONICS
@@ -79,13 +99,9 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem,
                                          (double)(layout->left_tiles + layout->right_tiles), lanes);
     return (ps_work){
         .kernels = of_list + (layout->is_grid ? 1 : 0),
-        .phases =
-            num_points * lanes *
-            ((double)(layout->left_tiles + layout->right_tiles) +
-             (layout->is_shared ? 2.0 * (double)layout->block_tiles * (double)layout->max_blocks
-                                : 0)),
-        .product_flops = 8 * realizations * product_points((double)problem->num_points) * box *
-                         (has_corners && share < 1 ? share : 1) *
+        .phases = num_points * lanes * (double)(layout->left_tiles + layout->right_tiles),
+        .product_flops = (layout->is_shared ? shared_flops(layout, product, realizations, share)
+                                            : 8 * realizations * product * box * share) *
                          (layout->units != PS_UNITS_NONE ? time_by_units[precision] : 1),
         .launches = ceil(realizations / (double)layout->group) *
                     (double)ps_divide_up((size_t)problem->num_points, layout->slab) *

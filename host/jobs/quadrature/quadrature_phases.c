@@ -117,7 +117,9 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
 double ps_quadrature_phases(const ps_quadrature_setup *setup,
                             const ps_quadrature_question *question, ps_phases *phases) {
     const ps_candidate *const chosen = setup->plan.chosen;
-    ps_phases_start(phases, chosen);
+    const ps_device_limits *const limits =
+        setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
+    ps_phases_start(phases, chosen, limits);
     /* coefficients come by another build of the engine's last kernel */
     ps_phases_load_kernels(phases, chosen != NULL && !setup->by_pairs ? 1 : 0);
     ps_phases_lobe(phases, &setup->representer);
@@ -126,11 +128,11 @@ double ps_quadrature_phases(const ps_quadrature_setup *setup,
     const double repeats = planned > 0 ? 1 : sets;
     add_rules(setup, question, sets, phases);
     if (chosen != NULL) {
-        ps_phases_add_seconds(phases, "powers", chosen->seconds * repeats);
-        ps_phases_touch(phases,
-                        chosen->bytes + (double)ps_distance_bytes(setup->problem.num_points));
-        ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
-                      ps_precision_name(chosen->precision));
+        const double points = (double)setup->problem.num_points;
+        const ps_phases_load load = {.seconds = chosen->seconds * repeats,
+                                     .coordinates = sets * points * PS_SPHERE_DIMENSION,
+                                     .bytes = (double)ps_distance_bytes(setup->problem.num_points)};
+        ps_phases_run(phases, chosen, limits, &load);
     }
     if (setup->by_pairs) {
         ps_phases_sum_zonal(phases, sets * (double)setup->problem.num_points,

@@ -62,7 +62,7 @@ pspec_status ps_truncation_phases(const ps_truncation_question *question, ps_pha
     easy.is_hemispherical = question->is_hemispherical && question->max_degree <= FEW_DEGREES;
     pspec_status status = ps_truncation_job_find_errors(&job, &easy, loose, error);
     if (status == PSPEC_OK) {
-        ps_phases_start(phases, NULL);
+        ps_phases_start(phases, NULL, NULL);
         ps_phases_lobe(phases, &job.representer);
         if (question->is_hemispherical && job.errors[0] > 0) {
             add_conversion(&job, phases);

@@ -30,9 +30,11 @@ void ps_phases_load_kernels(ps_phases *phases, double kernels) {
 }
 
 /* Each once in a process. */
-void ps_phases_start(ps_phases *phases, const ps_candidate *chosen) {
+void ps_phases_start(ps_phases *phases, const ps_candidate *chosen,
+                     const ps_device_limits *limits) {
     const double program_seconds = 2.2e-3;
     const double driver_seconds = 32e-3; /* OpenCL's libraries, and its compiler's */
+    const double gpu_seconds = 0.2;      /* what pairs of 100 small sets took more on an H200 */
     ps_begun first = {false, false, 0};
     ps_begun *const begun = phases->begun != NULL ? phases->begun : &first;
     ps_phases_add(phases, start_name, PS_HOST_START, begun->program ? 0 : program_seconds);
@@ -41,12 +43,44 @@ void ps_phases_start(ps_phases *phases, const ps_candidate *chosen) {
     if (chosen != NULL && chosen->engine->needs_device) {
         const unsigned bit = bit_of(chosen->engine);
         const bool is_there = (begun->engines & bit) != 0;
-        ps_phases_add(phases, start_name, PS_HOST_START, begun->driver ? 0 : driver_seconds);
+        const bool is_gpu = limits->has_dedicated_local_memory;
+        ps_phases_add(phases, start_name, PS_HOST_START,
+                      begun->driver ? 0 : driver_seconds + (is_gpu ? gpu_seconds : 0));
         ps_phases_load_kernels(phases, is_there ? 0 : chosen->kernels);
         ps_phases_say(phases, start_name, "driver and kernels, which the driver's cache has");
         begun->driver = true;
         begun->engines |= bit;
     }
+}
+
+/* Whether a candidate's memory is not that of the host. */
+static bool has_own_memory(const ps_candidate *chosen, const ps_device_limits *limits) {
+    return chosen->engine->needs_device && !limits->is_cpu && !limits->has_unified_memory;
+}
+
+/* On an H200 a coordinate took the host 4 ns
+ * more than kernels, about half of it on its way: cuFINUFFT's, as they are, went at 6 GB/s. */
+void ps_phases_run(ps_phases *phases, const ps_candidate *chosen, const ps_device_limits *limits,
+                   const ps_phases_load *load) {
+    static const char name[] = "transfer";
+    const double coordinate_seconds = 2.5e-9;
+    const double bytes_per_second = 6e9;
+    const double bytes = load->coordinates * sizeof(uint64_t);
+    const bool is_on_device = chosen->engine->needs_device;
+    ps_phases_add_seconds(phases, "powers",
+                          is_on_device
+                              ? load->seconds
+                              : ps_host_seconds(phases->host, PS_HOST_REFEREE, load->seconds));
+    ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
+                  ps_precision_name(chosen->precision));
+    if (has_own_memory(chosen, limits)) {
+        ps_phases_add(phases, name, PS_HOST_BINARY, load->coordinates * coordinate_seconds);
+        ps_phases_add_seconds(phases, name,
+                              bytes / ps_figures_sent_bytes(limits->figures, bytes_per_second));
+        ps_phases_say(phases, name, "%.3g bytes to the device", bytes);
+    }
+    ps_phases_touch(phases, (has_own_memory(chosen, limits) ? chosen->host_bytes : chosen->bytes) +
+                                load->bytes);
 }
 
 /* ---- parts --------------------------------------------------------------------------------- */
@@ -142,10 +176,18 @@ void ps_phases_sum_zonal(ps_phases *phases, double points, double degrees) {
     ps_phases_add(phases, "averages", PS_HOST_SUMS, points * degrees * term_seconds);
 }
 
+/* Powers of realizations, by the host or, on a GPU, by kernels that read them twice: 429 million
+ * took a prototype that reads them once 0.6 ms on an H200. */
 static void add_averages(const ps_power_job *job, const amounts *amount, ps_phases *phases) {
     const double num = (double)job->frequencies.num;
-    const double power_seconds = 0.5e-9; /* a power of a realization */
-    ps_phases_add(phases, "averages", PS_HOST_SUMS, num * amount->sets * power_seconds);
+    const double power_seconds = 0.5e-9, gpu_power_seconds = 4e-12;
+    const ps_candidate *const chosen = job->plan.chosen;
+    if (chosen != NULL && chosen->engine->needs_device && !chosen->engine->rows_on_host &&
+        ps_device_get_limits(job->device)->has_dedicated_local_memory) {
+        ps_phases_add_seconds(phases, "averages", num * amount->sets * gpu_power_seconds);
+    } else {
+        ps_phases_add(phases, "averages", PS_HOST_SUMS, num * amount->sets * power_seconds);
+    }
     if (job->question->wants_pair_sums) {
         ps_phases_sum_zonal(phases, amount->points, job->frequencies.max_frequency);
     }
@@ -194,26 +236,26 @@ static double scatter_seconds(const ps_power_job *job, const amounts *amount) {
     enum { MANY_POINTS = 1 << 18, MANY_DEGREES = 300 };
     const bool is_large = job->question->on_sphere && job->num_points >= MANY_POINTS &&
                           job->frequencies.max_frequency >= MANY_DEGREES;
-    return is_large ? amount->points * point_seconds : 0;
+    return is_large && job->plan.chosen->engine->needs_device &&
+                   !ps_device_get_limits(job->device)->has_dedicated_local_memory
+               ? amount->points * point_seconds
+               : 0;
 }
 
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     const ps_candidate *const chosen = job->plan.chosen;
     const bool is_known = job->problem.num_realizations > 0;
-    ps_phases_start(phases, chosen);
+    const ps_device_limits *const limits =
+        job->device != NULL ? ps_device_get_limits(job->device) : NULL;
+    ps_phases_start(phases, chosen, limits);
     const amounts all = add_points(job, phases);
     const double repeats = is_known ? 1 : all.sets;
     add_frequencies(job, phases);
     if (chosen != NULL) {
-        const bool is_on_device = chosen->engine->needs_device;
-        const double seconds = chosen->seconds * repeats;
-        ps_phases_add_seconds(
-            phases, "powers",
-            is_on_device ? seconds : ps_host_seconds(phases->host, PS_HOST_REFEREE, seconds));
-        ps_phases_touch(phases, chosen->bytes);
+        const ps_phases_load load = {.seconds = chosen->seconds * repeats,
+                                     .coordinates = all.points * job->dimension};
+        ps_phases_run(phases, chosen, limits, &load);
         ps_phases_add(phases, "powers", PS_HOST_MEMORY, scatter_seconds(job, &all));
-        ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
-                      ps_precision_name(chosen->precision));
     }
     add_averages(job, &all, phases);
     add_check(job, phases);

@@ -11,7 +11,17 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases);
 
 /* Adds the beginning of a program: its libraries, and where the chosen engine needs a device, that
  * and its kernels, which the driver's cache has. NULL: no engine is needed. */
-void ps_phases_start(ps_phases *phases, const ps_candidate *chosen);
+void ps_phases_start(ps_phases *phases, const ps_candidate *chosen, const ps_device_limits *limits);
+
+typedef struct ps_phases_load {
+    double seconds, coordinates; /* of all realizations, by the engine */
+    double bytes;                /* besides its own, on the host */
+} ps_phases_load;
+
+/* Adds what the chosen engine takes, the way of points to a device that has memory of its own, and
+ * memory. limits: of the device, if there is one. */
+void ps_phases_run(ps_phases *phases, const ps_candidate *chosen, const ps_device_limits *limits,
+                   const ps_phases_load *load);
 
 /* Adds so many more kernels to that beginning. */
 void ps_phases_load_kernels(ps_phases *phases, double kernels);

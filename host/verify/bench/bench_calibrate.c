@@ -18,7 +18,7 @@ typedef double ratios[MOST_CASES][PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS][PS_
 typedef struct calibration {
     const ps_bench_options *options;
     ps_device *device;
-    ps_device_limits limits; /* without figures: those of the built-in model */
+    ps_device_limits limits; /* figures: launches, none of engines: those of the built-in model */
     ps_figures *figures;
     ratios found;
     size_t round;
@@ -103,6 +103,8 @@ static pspec_status measure_peaks(calibration *self, ps_error *error) {
     self->figures->flops[PS_SINGLE] = peaks.flops[PS_SINGLE];
     self->figures->flops[PS_DOUBLE] = peaks.flops[PS_DOUBLE];
     self->figures->copied_bytes = peaks.copied_bytes;
+    self->figures->sent_bytes = peaks.sent_bytes;
+    self->figures->launches = peaks.launches;
     return PSPEC_OK;
 }
 
@@ -130,7 +132,7 @@ pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *devi
     const size_t num_rounds = ps_bench_num_rounds(options);
     size_t total = 0;
     size_t done = 0;
-    self.limits.figures = NULL;
+    self.limits.figures = figures;
     *figures = (ps_figures){.is_measured = true};
     PS_TRY(measure_peaks(&self, error));
     for (const ps_bench_case *what = ps_bench_cases; what->what.name != NULL; what++) {

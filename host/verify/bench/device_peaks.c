@@ -1,8 +1,10 @@
 #include "verify/bench/device_peaks.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { REPEATS = 5 };
 
@@ -119,19 +121,61 @@ static pspec_status check_copy(const copy *self, ps_error *error) {
                                    self->bytes);
 }
 
-pspec_status ps_bandwidth_measure(ps_device *device, double *bytes_per_second, ps_error *error) {
-    copy self = {.device = device};
+static pspec_status measure_copy(const copy *self, ps_device_peaks *peaks, ps_error *error) {
     double best = HUGE_VAL;
-    pspec_status status = prepare_copy(&self, error);
-    for (int i = 0; i <= 2 * REPEATS && status == PSPEC_OK; i++) { /* the first touches memory */
+    for (int i = 0; i <= 2 * REPEATS; i++) { /* the first touches memory */
         double seconds = 0;
-        status = run_copy(&self, &seconds, error);
+        PS_TRY(run_copy(self, &seconds, error));
         best = fmin(best, seconds);
     }
-    if (status == PSPEC_OK) {
-        status = check_copy(&self, error);
-        *bytes_per_second = 2 * (double)self.bytes / best;
+    peaks->copied_bytes = 2 * (double)self->bytes / best;
+    return check_copy(self, error);
+}
+
+/* One after the other, with something to do for one work-group of each. */
+static pspec_status measure_launches(const copy *self, ps_device_peaks *peaks, ps_error *error) {
+    enum { IN_A_ROW = 256 };
+    const ps_range one = ps_range_light(self->device, 1, 1, 1, 0, 0);
+    double best = HUGE_VAL;
+    for (int i = 0; i < REPEATS; i++) {
+        const double begin = ps_clock_seconds();
+        for (int j = 0; j < IN_A_ROW; j++) {
+            PS_TRY(PS_LAUNCH(self->device, self->kernel, &one, error, PS_BUFFER(self->from),
+                             PS_BUFFER(self->to)));
+        }
+        PS_TRY(ps_device_finish(self->device, error));
+        best = fmin(best, ps_clock_seconds() - begin);
     }
+    peaks->launches = IN_A_ROW / best;
+    return PSPEC_OK;
+}
+
+/* From memory as the host has it, in blocks of the size of a batch. */
+static pspec_status measure_sent(const copy *self, ps_device_peaks *peaks, ps_error *error) {
+    const size_t most = 32 << 20;
+    const size_t bytes = self->bytes < most ? self->bytes : most;
+    void *block = NULL;
+    double best = HUGE_VAL;
+    PS_TRY(ps_allocate(&block, bytes, 1, "a block to send", error));
+    pspec_status status = PSPEC_OK;
+    for (int i = 0; i <= REPEATS && status == PSPEC_OK; i++) { /* the first touches memory */
+        const double begin = ps_clock_seconds();
+        status = ps_buffer_write(self->device, &self->from, 0, block, bytes, error);
+        best = fmin(best, ps_clock_seconds() - begin);
+    }
+    free(block);
+    peaks->sent_bytes = (double)bytes / best;
+    return status;
+}
+
+static pspec_status measure_memory(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
+    copy self = {.device = device};
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, prepare_copy(&self, error));
+    PS_TRY_OUT(status, measure_copy(&self, peaks, error));
+    PS_TRY_OUT(status, measure_launches(&self, peaks, error));
+    PS_TRY_OUT(status, measure_sent(&self, peaks, error));
+out:
     if (self.kernel != NULL) {
         clReleaseKernel(self.kernel);
     }
@@ -157,10 +201,10 @@ static pspec_status measure_flops(ps_device *device, ps_precision precision, dou
 }
 
 pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
-    *peaks = (ps_device_peaks){{0, 0}, 0};
+    *peaks = (ps_device_peaks){0};
     PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
     if (ps_device_get_limits(device)->has_fp64) {
         PS_TRY(measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error));
     }
-    return ps_bandwidth_measure(device, &peaks->copied_bytes, error);
+    return measure_memory(device, peaks, error);
 }

@@ -1,5 +1,6 @@
-/* The peaks of a device, measured by small kernels of ours (kernels/probe): fused operations and
- * copied bytes. Nothing but disturbance makes these slower, so the best of some runs is taken. */
+/* The peaks of a device, measured by small kernels of ours (kernels/probe): fused operations,
+ * copied and sent bytes, launches. Nothing but disturbance makes these slower, so the best of some
+ * runs is taken. */
 #ifndef PS_VERIFY_BENCH_DEVICE_PEAKS_H
 #define PS_VERIFY_BENCH_DEVICE_PEAKS_H
 
@@ -22,17 +23,14 @@ pspec_status ps_peak_run(const ps_peak *peak, double *flops_per_second,
                          ps_error *error) PS_MUST_CHECK;
 void ps_peak_destroy(ps_peak *peak);
 
-/* Bytes per second, read and written, of a copy much larger than any cache. A copy that differs is
- * PSPEC_ERROR_DEVICE. */
-pspec_status ps_bandwidth_measure(ps_device *device, double *bytes_per_second,
-                                  ps_error *error) PS_MUST_CHECK;
-
-/* By precision; 0: the device has no double precision. */
 typedef struct ps_device_peaks {
-    double flops[2];
-    double copied_bytes;
+    double flops[2];     /* by precision; 0: the device has no double precision */
+    double copied_bytes; /* per second, read and written by a copy much larger than any cache */
+    double sent_bytes;   /* per second, from memory of the host */
+    double launches;     /* per second, of kernels of one item, one after the other */
 } ps_device_peaks;
 
+/* A copy that differs is PSPEC_ERROR_DEVICE. */
 pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks,
                                      ps_error *error) PS_MUST_CHECK;
 

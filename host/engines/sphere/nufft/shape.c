@@ -240,6 +240,7 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
         ps_sphere_rings_shape(problem->frequencies->max_frequency, limits, precision);
     shape.axis = axis;
     shape.route = route;
+    shape.is_gpu = limits->has_dedicated_local_memory;
     const bool fits = measures[route](&shape, limits, problem, real_bytes) &&
                       spreading_fits(&shape, limits, real_bytes);
     if (!fits) {

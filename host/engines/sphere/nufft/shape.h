@@ -22,6 +22,7 @@ typedef enum ps_sphere_route {
 
 typedef struct ps_sphere_shape {
     ps_sphere_route route;
+    bool is_gpu;              /* whose figures count */
     int32_t max_degree;       /* L */
     ps_nufft_axis axis;       /* longitude and angle from the pole: n is even */
     uint32_t rings;           /* on a whole great circle through the poles, even and above 2 L */

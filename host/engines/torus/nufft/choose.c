@@ -2,6 +2,7 @@
 
 #include "base/round.h"
 #include "engines/torus/nufft/cost.h"
+#include "device/reals.h"
 #include "engines/torus/nufft/error.h"
 #include "engines/nufft/fft.h"
 #include "engines/torus/nufft/variant.h"
@@ -16,8 +17,9 @@ static const double largest_sigma = 4;
 /* Windows must not meet themselves. */
 enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
 
-/* A row must fit into local memory, a megabyte at most, in one lane of 8 bytes. */
-enum { MOST_CELLS = 1 << 17 };
+/* A row must fit into local memory in one lane: on CPUs a megabyte at most of 8 bytes; on GPUs what
+ * they have beside a chunk of points. */
+enum { MOST_CELLS = 1 << 17, CHUNK_BYTES = 6 << 10 };
 
 /* Lengths between the two sigmas, twice. */
 enum { MAX_CANDIDATES = 128 };
@@ -164,7 +166,7 @@ static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
 static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least) {
     const ps_nufft_variant *variant = whole->variant;
     const uint32_t unit = variant->unit != NULL ? variant->unit(whole, which) : 1;
-    return least > MOST_CELLS ? 0 : ps_fft_good_length(ps_divide_up(least, unit)) * unit;
+    return least > whole->most_cells ? 0 : ps_fft_good_length(ps_divide_up(least, unit)) * unit;
 }
 
 /* The lengths of an axis, one after the other, beginning with n = 0; 0: there are no more. */
@@ -175,7 +177,7 @@ static uint32_t next_length(const axis_search *search, uint32_t n) {
                                   : (uint64_t)n + 1 + n / NEXT_LENGTH;
     const uint32_t next = length_for(whole, search->which, least);
     const bool is_too_long = n > 0 && next > (uint64_t)(largest_sigma * twice_k);
-    return next <= MOST_CELLS && !is_too_long ? next : 0;
+    return next <= search->whole->most_cells && !is_too_long ? next : 0;
 }
 
 /* Where there are two axes, a window may be narrower if the other is wider. */
@@ -195,10 +197,18 @@ static size_t list_candidates(const axis_search *search, ps_nufft_axis candidate
     return num;
 }
 
+/* Launches of every realization on a GPU, 5 microseconds each of an H200 (plan/cost_model.c), where
+ * others share theirs. */
+static double launch_flops(const ps_nufft_choice *choice, ps_precision precision) {
+    const double launch = precision == PS_SINGLE ? 3e8 : 1.5e8;
+    return choice->is_gpu ? choice->variant->launches_of_set * launch : 0;
+}
+
 static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_problem *problem,
                      ps_precision precision) {
     const double error = ps_nufft_error(choice, problem, precision, power_of(problem));
-    const double flops = ps_nufft_flops(choice, precision, ps_planned_points(problem));
+    const double flops = ps_nufft_flops(choice, precision, ps_planned_points(problem)) +
+                         launch_flops(choice, precision);
     const bool is_enough = error <= problem->tolerance;
     const bool was_enough = best->error <= problem->tolerance;
     if (best->choice.num_axes == 0 ||
@@ -263,21 +273,34 @@ static unsigned lanes_of(const ps_device_limits *limits, ps_precision precision)
     return lanes > 1 ? lanes : ps_nufft_nominal_lanes(precision);
 }
 
-ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits *limits,
-                                ps_precision precision) {
+static uint32_t most_cells_of(const ps_device_limits *limits, ps_precision precision) {
+    if (limits == NULL || !limits->has_dedicated_local_memory) {
+        return MOST_CELLS;
+    }
+    const uint64_t cell_bytes = 2 * ps_real_bytes(precision);
+    const uint64_t room = limits->local_bytes > CHUNK_BYTES ? limits->local_bytes - CHUNK_BYTES : 0;
+    return room / cell_bytes < MOST_CELLS ? (uint32_t)(room / cell_bytes) : MOST_CELLS;
+}
+
+ps_nufft_choice ps_nufft_choose_among(const ps_nufft_variant *const *variants,
+                                      const ps_problem *whole, const ps_device_limits *limits,
+                                      ps_precision precision) {
     const bool is_gpu = limits != NULL && limits->has_dedicated_local_memory;
     const unsigned lanes = lanes_of(limits, precision);
     ps_problem problem = *whole; /* the error of a choice, too, is that of the points planned */
     problem.num_points = problem.planned_points > 0 ? problem.planned_points : problem.num_points;
     best_choice best = {0};
-    for (size_t i = 0; ps_nufft_variants[i] != NULL; i++) {
-        const ps_nufft_variant *variant = ps_nufft_variants[i];
+    for (size_t i = 0; variants[i] != NULL; i++) {
+        const ps_nufft_variant *variant = variants[i];
         ps_nufft_choice choice = {0};
         for (unsigned which = 0; (is_gpu ? variant->on_gpus : variant->on_cpus) &&
                                  variant->offer(&problem, lanes, which, &choice);
              which++) {
             choice.variant = variant;
             choice.lanes = lanes;
+            choice.is_gpu = is_gpu;
+            choice.most_cells = most_cells_of(limits, precision);
+            choice.sets = problem.num_realizations == 1 ? 1 : PS_NUFFT_MOST_AT_ONCE;
             consider_grids(&best, &choice, &problem, precision);
         }
     }
@@ -285,4 +308,9 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits 
         best.choice.variant->settle(&best.choice, &problem, limits);
     }
     return best.choice;
+}
+
+ps_nufft_choice ps_nufft_choose(const ps_problem *problem, const ps_device_limits *limits,
+                                ps_precision precision) {
+    return ps_nufft_choose_among(ps_nufft_variants, problem, limits, precision);
 }

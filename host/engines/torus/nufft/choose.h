@@ -11,5 +11,9 @@
  * GPUs; NULL: it is not. */
 ps_nufft_choice ps_nufft_choose(const ps_problem *problem, const ps_device_limits *limits,
                                 ps_precision precision);
+/* The same among these variants, ended by NULL. */
+ps_nufft_choice ps_nufft_choose_among(const ps_nufft_variant *const *variants,
+                                      const ps_problem *problem, const ps_device_limits *limits,
+                                      ps_precision precision);
 
 #endif

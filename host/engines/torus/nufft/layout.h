@@ -56,6 +56,10 @@ typedef struct ps_nufft_layout {
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
 
+/* The same of a choice that was made among some. */
+ps_nufft_layout ps_nufft_layout_of(const ps_nufft_choice *choice, const ps_problem *problem,
+                                   const ps_device_limits *limits, ps_precision precision);
+
 /* Leaves room for places, grids and tiles of so many realizations, where a batch is smaller than
  * was planned. */
 void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch);

@@ -12,7 +12,6 @@
  * last-level cache, on GPUs enough to fill the device. */
 static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
-enum { MOST_AT_ONCE = 1024 };
 
 uint64_t ps_nufft_starts_bytes(const ps_nufft_layout *layout) {
     return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
@@ -56,7 +55,7 @@ size_t ps_nufft_fitting_parts(const ps_problem *problem, const ps_device_limits 
     const double budget = limits->has_dedicated_local_memory
                               ? gpu_work_bytes
                               : work_share * ps_device_typical(limits).cache_bytes;
-    const double fitting = fmin(budget / each, MOST_AT_ONCE);
+    const double fitting = fmin(budget / each, PS_NUFFT_MOST_AT_ONCE);
     const size_t units = fitting > (double)unit ? (size_t)fitting / unit : 1;
     const uint64_t known = problem->num_realizations;
     return known > 0 && known < units * unit ? (size_t)known : units * unit;

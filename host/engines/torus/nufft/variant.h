@@ -31,6 +31,10 @@ struct ps_nufft_variant {
     void (*settle)(ps_nufft_choice *, const ps_problem *, const ps_device_limits *);
     /* Adds what one realization of num_points takes (cost.h). */
     void (*count)(ps_nufft_counts *, const ps_nufft_choice *, ps_precision, double num_points);
+    /* Work-groups side by side, as a share of those that its figures are of; NULL without
+     * on_gpus. With less than 1 the GPU waits. */
+    double (*busy_share)(const ps_nufft_choice *);
+    double launches_of_set; /* there, about; 0 where many sets share them */
 
     /* ---- errors (error.c) */
     double turning_roundings; /* between two transforms of one dimension */
