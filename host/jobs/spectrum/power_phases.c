@@ -252,8 +252,9 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     const double repeats = is_known ? 1 : all.sets;
     add_frequencies(job, phases);
     if (chosen != NULL) {
-        const ps_phases_load load = {.seconds = chosen->seconds * repeats,
-                                     .coordinates = all.points * job->dimension};
+        const ps_phases_load load = {
+            .seconds = chosen->seconds * repeats,
+            .coordinates = ps_power_job_leaves_points(job) ? 0 : all.points * job->dimension};
         ps_phases_run(phases, chosen, limits, &load);
         ps_phases_add(phases, "powers", PS_HOST_MEMORY, scatter_seconds(job, &all));
     }
