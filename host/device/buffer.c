@@ -1,22 +1,246 @@
-/* Device memory. */
+/* Device memory, and what goes between host and device while both go on: pinned memory, mappings,
+ * reads that are waited for later. */
 #include "device/device_private.h"
 
-pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
-                              ps_error *error) {
-    *out = (ps_buffer){0};
+#include <string.h>
+
+/* Whoever waits for what was enqueued last leaves the device without work. */
+static pspec_status wait_for(ps_device *device, cl_event *event, uint64_t begun, ps_error *error) {
+    if (*event == NULL) {
+        return PSPEC_OK;
+    }
+    device->num_waits += device->num_enqueued == begun ? 1 : 0;
+    const cl_int code = clWaitForEvents(1, event);
+    clReleaseEvent(*event);
+    *event = NULL;
+    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clWaitForEvents", error);
+}
+
+pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out, ps_error *error) {
+    cl_int code = CL_SUCCESS;
+    const cl_command_queue_properties properties =
+        device->has_profile ? CL_QUEUE_PROFILING_ENABLE : 0;
+    *out = clCreateCommandQueue(device->context, device->id, properties, &code);
+    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clCreateCommandQueue", error);
+}
+
+pspec_status ps_memory_create(ps_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
+                              const char *what, ps_error *error) {
+    cl_int code = CL_SUCCESS;
+    *out = NULL;
     if (bytes > device->limits.max_allocation_bytes) {
         return ps_fail(error, PSPEC_ERROR_MEMORY,
                        "%s need %zu bytes, but device \"%s\" allows %llu bytes per allocation",
                        what, bytes, device->limits.name,
                        (unsigned long long)device->limits.max_allocation_bytes);
     }
-    cl_int code = CL_SUCCESS;
-    out->memory =
-        clCreateBuffer(device->context, CL_MEM_READ_WRITE, bytes > 0 ? bytes : 1, NULL, &code);
+    cl_mem memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE | flags,
+                                   bytes > 0 ? bytes : 1, NULL, &code);
     if (code != CL_SUCCESS) {
-        out->memory = NULL;
         return ps_device_fail(code, "clCreateBuffer", error);
     }
+    *out = memory;
+    return PSPEC_OK;
+}
+
+/* ---- pinned memory ------------------------------------------------------------------------ */
+
+pspec_status ps_pinned_create(ps_device *device, ps_pinned *out, size_t bytes, const char *what,
+                              ps_error *error) {
+    cl_int code = CL_SUCCESS;
+    *out = (ps_pinned){0};
+    PS_TRY(ps_memory_create(device, &out->memory, CL_MEM_ALLOC_HOST_PTR, bytes, what, error));
+    out->data = clEnqueueMapBuffer(device->queue, out->memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE,
+                                   0, bytes > 0 ? bytes : 1, 0, NULL, NULL, &code);
+    if (code != CL_SUCCESS) {
+        clReleaseMemObject(out->memory);
+        *out = (ps_pinned){0};
+        return ps_device_fail(code, "clEnqueueMapBuffer", error);
+    }
+    return PSPEC_OK;
+}
+
+void ps_pinned_release(ps_device *device, ps_pinned *pinned) {
+    if (pinned->memory != NULL) {
+        clEnqueueUnmapMemObject(device->queue, pinned->memory, pinned->data, 0, NULL, NULL);
+        clReleaseMemObject(pinned->memory);
+    }
+    *pinned = (ps_pinned){0};
+}
+
+/* ---- writes through pinned memory --------------------------------------------------------- */
+
+/* A piece may be filled once what was in it has gone. */
+static pspec_status begin_piece(ps_device *device, cl_event *until, ps_error *error) {
+    if (device->staged.memory == NULL) {
+        PS_TRY(ps_pinned_create(device, &device->staged, PS_STAGED_BYTES, "data for the device",
+                                error));
+    }
+    return wait_for(device, until, UINT64_MAX, error);
+}
+
+static pspec_status write_piece(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
+                                const void *data, size_t bytes, cl_event *until, ps_error *error) {
+    char *const staged = (char *)device->staged.data + device->staged_at;
+    cl_event written = NULL;
+    memcpy(staged, data, bytes);
+    PS_TRY_CL(clEnqueueWriteBuffer(device->queue, buffer->memory, CL_FALSE, offset_bytes, bytes,
+                                   staged, 0, NULL, &written),
+              error);
+    if (*until != NULL) {
+        clReleaseEvent(*until); /* the queue is in order */
+    }
+    *until = written;
+    device->staged_at = (device->staged_at + bytes) % (PS_STAGED_BYTES);
+    return PSPEC_OK;
+}
+
+pspec_status ps_staged_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
+                             const void *data, size_t bytes, ps_error *error) {
+    size_t num = 0;
+    for (size_t done = 0; done < bytes; done += num) {
+        const size_t at = device->staged_at % PS_STAGED_PIECE;
+        const size_t rest = bytes - done;
+        cl_event *const until = &device->staged_until[device->staged_at / PS_STAGED_PIECE];
+        num = rest < PS_STAGED_PIECE - at ? rest : PS_STAGED_PIECE - at;
+        PS_TRY(at == 0 ? begin_piece(device, until, error) : PSPEC_OK);
+        PS_TRY(write_piece(device, buffer, offset_bytes + done, (const char *)data + done, num,
+                           until, error));
+    }
+    return PSPEC_OK;
+}
+
+void ps_staged_release(ps_device *device) {
+    for (size_t i = 0; i < PS_STAGED_PIECES; i++) {
+        if (device->staged_until[i] != NULL) {
+            clReleaseEvent(device->staged_until[i]);
+        }
+    }
+    ps_pinned_release(device, &device->staged);
+}
+
+/* ---- reads that are waited for later ------------------------------------------------------ */
+
+pspec_status ps_readings_create(ps_device *device, ps_readings *out, size_t bytes, const char *what,
+                                ps_error *error) {
+    *out = (ps_readings){.device = device};
+    for (size_t i = 0; i < PS_READINGS; i++) {
+        PS_TRY(ps_pinned_create(device, &out->memory[i], bytes, what, error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_readings_begin(ps_readings *readings, const ps_buffer *buffer, size_t bytes,
+                               ps_error *error) {
+    ps_device *const device = readings->device;
+    const size_t i = readings->num_begun % PS_READINGS;
+    readings->begun[i] = ++device->num_enqueued;
+    if (bytes > 0) {
+        PS_TRY_CL(clEnqueueReadBuffer(device->queue, buffer->memory, CL_FALSE, 0, bytes,
+                                      readings->memory[i].data, 0, NULL, &readings->is_done[i]),
+                  error);
+    }
+    readings->num_begun++;
+    PS_TRY_CL(clFlush(device->queue), error);
+    return PSPEC_OK;
+}
+
+pspec_status ps_readings_take(ps_readings *readings, const void **data, ps_error *error) {
+    const size_t i = readings->num_taken++ % PS_READINGS;
+    *data = readings->memory[i].data;
+    return wait_for(readings->device, &readings->is_done[i], readings->begun[i], error);
+}
+
+void ps_readings_forget(ps_readings *readings) {
+    for (; readings->num_taken < readings->num_begun; readings->num_taken++) {
+        cl_event *const event = &readings->is_done[readings->num_taken % PS_READINGS];
+        if (*event != NULL) {
+            clWaitForEvents(1, event);
+            clReleaseEvent(*event);
+            *event = NULL;
+        }
+    }
+}
+
+void ps_readings_release(ps_readings *readings) {
+    ps_readings_forget(readings);
+    for (size_t i = 0; i < PS_READINGS; i++) {
+        ps_pinned_release(readings->device, &readings->memory[i]);
+    }
+    *readings = (ps_readings){0};
+}
+
+/* ---- mappings ----------------------------------------------------------------------------- */
+
+pspec_status ps_mapping_begin(ps_device *device, ps_mapping *out, const ps_buffer *buffer,
+                              ps_error *error) {
+    cl_int code = CL_SUCCESS;
+    *out = (ps_mapping){.data = buffer->twin.data, .begun = device->num_enqueued};
+    if (out->data != NULL) {
+        PS_TRY_CL(clEnqueueMarkerWithWaitList(device->queue, 0, NULL, &out->is_ready), error);
+    } else {
+        out->data = clEnqueueMapBuffer(device->queue, buffer->memory, CL_FALSE,
+                                       CL_MAP_WRITE_INVALIDATE_REGION, 0, buffer->bytes, 0, NULL,
+                                       &out->is_ready, &code);
+    }
+    if (code != CL_SUCCESS) {
+        *out = (ps_mapping){0};
+        return ps_device_fail(code, "clEnqueueMapBuffer", error);
+    }
+    out->buffer = *buffer;
+    return PSPEC_OK;
+}
+
+pspec_status ps_mapping_wait(ps_mapping *mapping, ps_error *error) {
+    return wait_for(mapping->buffer.device, &mapping->is_ready, mapping->begun, error);
+}
+
+/* Nothing is launched any more before the copy is there; what was launched before goes on. */
+static pspec_status copy_twin(ps_device *device, const ps_buffer *buffer, size_t bytes,
+                              ps_error *error) {
+    const cl_command_queue queue = device->uploads != NULL ? device->uploads : device->queue;
+    cl_event copied = NULL;
+    PS_TRY_CL(clEnqueueWriteBuffer(queue, buffer->memory, CL_FALSE, 0, bytes, buffer->twin.data, 0,
+                                   NULL, &copied),
+              error);
+    cl_int code = clFlush(queue);
+    if (code == CL_SUCCESS && queue != device->queue) {
+        code = clEnqueueBarrierWithWaitList(device->queue, 1, &copied, NULL);
+    }
+    clReleaseEvent(copied);
+    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clEnqueueBarrier", error);
+}
+
+pspec_status ps_mapping_end(ps_device *device, ps_mapping *mapping, size_t bytes, ps_error *error) {
+    const ps_mapping ended = *mapping;
+    *mapping = (ps_mapping){0};
+    if (ended.buffer.twin.data != NULL) {
+        return bytes > 0 ? copy_twin(device, &ended.buffer, bytes, error) : PSPEC_OK;
+    }
+    PS_TRY_CL(
+        clEnqueueUnmapMemObject(device->queue, ended.buffer.memory, ended.data, 0, NULL, NULL),
+        error);
+    return PSPEC_OK;
+}
+
+void ps_mapping_abandon(ps_device *device, ps_mapping *mapping) {
+    if (mapping->is_ready != NULL) {
+        clWaitForEvents(1, &mapping->is_ready);
+        clReleaseEvent(mapping->is_ready);
+    }
+    if (mapping->buffer.twin.data == NULL) {
+        clEnqueueUnmapMemObject(device->queue, mapping->buffer.memory, mapping->data, 0, NULL,
+                                NULL);
+    }
+    *mapping = (ps_mapping){0};
+}
+
+/* ---- buffers ------------------------------------------------------------------------------ */
+
+pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
+                              ps_error *error) {
+    *out = (ps_buffer){0};
+    PS_TRY(ps_memory_create(device, &out->memory, 0, bytes, what, error));
     out->bytes = bytes;
     out->device = device;
     device->buffer_bytes += bytes;
@@ -27,6 +251,12 @@ pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, c
 }
 
 void ps_buffer_release(ps_buffer *buffer) {
+    if (buffer->twin.memory != NULL) {
+        if (buffer->device->uploads != NULL) {
+            clFinish(buffer->device->uploads); /* it may still be copied */
+        }
+        ps_pinned_release(buffer->device, &buffer->twin);
+    }
     if (buffer->memory != NULL) {
         clReleaseMemObject(buffer->memory);
         buffer->device->buffer_bytes -= buffer->bytes;
@@ -39,6 +269,10 @@ pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t 
     if (bytes == 0) {
         return PSPEC_OK;
     }
+    if (!device->limits.has_unified_memory) {
+        return ps_staged_write(device, buffer, offset_bytes, data, bytes, error);
+    }
+    device->num_waits++;
     PS_TRY_CL(clEnqueueWriteBuffer(device->queue, buffer->memory, CL_TRUE, offset_bytes, bytes,
                                    data, 0, NULL, NULL),
               error);
@@ -50,52 +284,11 @@ pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t o
     if (bytes == 0) {
         return PSPEC_OK;
     }
+    device->num_waits++;
     PS_TRY_CL(clEnqueueReadBuffer(device->queue, buffer->memory, CL_TRUE, offset_bytes, bytes, data,
                                   0, NULL, NULL),
               error);
     return PSPEC_OK;
-}
-
-pspec_status ps_mapping_begin(ps_device *device, ps_mapping *out, const ps_buffer *buffer,
-                              ps_error *error) {
-    cl_int code = CL_SUCCESS;
-    *out = (ps_mapping){0};
-    out->data =
-        clEnqueueMapBuffer(device->queue, buffer->memory, CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION,
-                           0, buffer->bytes, 0, NULL, &out->is_ready, &code);
-    if (code != CL_SUCCESS) {
-        *out = (ps_mapping){0};
-        return ps_device_fail(code, "clEnqueueMapBuffer", error);
-    }
-    out->memory = buffer->memory;
-    return PSPEC_OK;
-}
-
-pspec_status ps_mapping_wait(ps_mapping *mapping, ps_error *error) {
-    if (mapping->is_ready == NULL) {
-        return PSPEC_OK;
-    }
-    const cl_int code = clWaitForEvents(1, &mapping->is_ready);
-    clReleaseEvent(mapping->is_ready);
-    mapping->is_ready = NULL;
-    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clWaitForEvents", error);
-}
-
-pspec_status ps_mapping_end(ps_device *device, ps_mapping *mapping, ps_error *error) {
-    const ps_mapping ended = *mapping;
-    *mapping = (ps_mapping){0};
-    PS_TRY_CL(clEnqueueUnmapMemObject(device->queue, ended.memory, ended.data, 0, NULL, NULL),
-              error);
-    return PSPEC_OK;
-}
-
-void ps_mapping_abandon(ps_device *device, ps_mapping *mapping) {
-    if (mapping->is_ready != NULL) {
-        clWaitForEvents(1, &mapping->is_ready);
-        clReleaseEvent(mapping->is_ready);
-    }
-    clEnqueueUnmapMemObject(device->queue, mapping->memory, mapping->data, 0, NULL, NULL);
-    *mapping = (ps_mapping){0};
 }
 
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer, ps_error *error) {
@@ -145,6 +338,10 @@ void ps_device_set_local_bytes(ps_device *device, uint64_t bytes) {
 void ps_device_set_native_lanes(ps_device *device, unsigned lanes) {
     device->limits.native_float_lanes = lanes > 0 ? lanes : device->own_float_lanes;
     device->limits.native_double_lanes = lanes > 0 ? lanes : device->own_double_lanes;
+}
+
+uint64_t ps_device_num_waits(const ps_device *device) {
+    return device->num_waits;
 }
 
 uint64_t ps_device_most_buffer_bytes(const ps_device *device) {

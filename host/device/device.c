@@ -321,13 +321,7 @@ static pspec_status open_queue(ps_device *device, ps_error *error) {
     if (code != CL_SUCCESS) {
         return ps_device_fail(code, "clCreateContext", error);
     }
-    const cl_command_queue_properties properties =
-        device->has_profile ? CL_QUEUE_PROFILING_ENABLE : 0;
-    device->queue = clCreateCommandQueue(device->context, device->id, properties, &code);
-    if (code != CL_SUCCESS) {
-        return ps_device_fail(code, "clCreateCommandQueue", error);
-    }
-    return PSPEC_OK;
+    return ps_queue_create(device, &device->queue, error);
 }
 
 static pspec_status find_and_open(ps_device *device, const char *selector, ps_error *error) {
@@ -370,7 +364,11 @@ void ps_device_close(ps_device *device) {
     free(device->programs);
     globfree(&device->kept);
     free(device->figures);
+    ps_staged_release(device);
     ps_process_lock();
+    if (device->uploads != NULL) {
+        clReleaseCommandQueue(device->uploads);
+    }
     if (device->queue != NULL) {
         clReleaseCommandQueue(device->queue);
     }
@@ -395,6 +393,10 @@ pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures,
 }
 
 pspec_status ps_device_finish(ps_device *device, ps_error *error) {
+    device->num_waits++;
+    if (device->uploads != NULL) {
+        PS_TRY_CL(clFinish(device->uploads), error);
+    }
     PS_TRY_CL(clFinish(device->queue), error);
     return PSPEC_OK;
 }

@@ -1,6 +1,6 @@
 /* An OpenCL device: choice, limits, buffers, programs, launches, profile.
  *
- * A ps_device owns its context, one in-order queue and every program built through it. One thread
+ * A ps_device owns its context, its in-order queues and every program built through it. One thread
  * at a time; different devices, or the same one opened twice, in different threads: looking,
  * opening and closing go under the lock of the process, since PoCL has none there. Nothing here
  * knows what the kernels compute.
@@ -83,35 +83,84 @@ const char *ps_cl_error_name(cl_int code);
 
 /* ---- buffers --------------------------------------------------------------------------------- */
 
+/* Memory of the host that stays where it is, so that the device copies from it and to it by itself;
+ * {0}: none. */
+typedef struct ps_pinned {
+    cl_mem memory;
+    void *data;
+} ps_pinned;
+
 typedef struct ps_buffer {
     cl_mem memory;
     size_t bytes;
     ps_device *device; /* whose memory it is */
+    ps_pinned twin;    /* see ps_buffer_add_twin */
 } ps_buffer;
 
 /* A buffer of which the host has the memory; {0}: none. */
 typedef struct ps_mapping {
-    cl_mem memory;
+    ps_buffer buffer;
     void *data;
     cl_event is_ready; /* NULL: it is */
+    uint64_t begun;    /* what the device had been given by then */
 } ps_mapping;
+
+/* Pinned memory that writes go through where the device has memory of its own, in pieces that are
+ * used in turns: large enough that copying a piece takes longer than asking for it, and as many as
+ * the small writes of two batches fill. */
+enum {
+    PS_STAGED_PIECE = 1 << 20,
+    PS_STAGED_PIECES = 4,
+    PS_STAGED_BYTES = PS_STAGED_PIECES * PS_STAGED_PIECE
+};
+
+/* Reads of one kind, of which two may go on while the host does something else; {0}: none. */
+enum { PS_READINGS = 2 };
+typedef struct ps_readings {
+    ps_device *device;
+    ps_pinned memory[PS_READINGS];
+    cl_event is_done[PS_READINGS];
+    uint64_t begun[PS_READINGS];
+    uint64_t num_begun, num_taken;
+} ps_readings;
 
 /* At least one byte is allocated. Larger than the device allows: PSPEC_ERROR_MEMORY, not tried. */
 pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
                               ps_error *error) PS_MUST_CHECK;
+/* For a buffer that ps_mapping_begin will be asked for: where the device has memory of its own, it
+ * gets pinned memory of the host as its twin. */
+pspec_status ps_buffer_add_twin(ps_device *device, ps_buffer *buffer, const char *what,
+                                ps_error *error) PS_MUST_CHECK;
 void ps_buffer_release(ps_buffer *buffer); /* {0} is allowed */
-/* Both wait until the host memory may be used again. */
+/* The host memory may be used again at once. Where the device has memory of its own, data are
+ * copied to pinned memory first, and nobody waits for the device. */
 pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                              const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
+/* Waits until everything enqueued before is done, and for the data. */
 pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                             void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
+/* Reads that are waited for later. Memory for two of so many bytes at most. */
+pspec_status ps_readings_create(ps_device *device, ps_readings *out, size_t bytes, const char *what,
+                                ps_error *error) PS_MUST_CHECK;
+/* The first bytes of the buffer, as they are once everything enqueued before is done. No more than
+ * two at a time: one takes the place of the last but one, which was taken or is forgotten. */
+pspec_status ps_readings_begin(ps_readings *readings, const ps_buffer *buffer, size_t bytes,
+                               ps_error *error) PS_MUST_CHECK;
+/* Waits for the earliest that was not taken; *data stays until the next but one begins. */
+pspec_status ps_readings_take(ps_readings *readings, const void **data,
+                              ps_error *error) PS_MUST_CHECK;
+void ps_readings_forget(ps_readings *readings);  /* what was not taken */
+void ps_readings_release(ps_readings *readings); /* waits; {0} is allowed */
 /* The buffer's memory for the host to fill; what was in it is lost. Waits until everything enqueued
  * is done that was enqueued before `begin`, so that filling one buffer goes on while the device
- * reads another: begin, launch, wait, fill, end. A copy where has_unified_memory is false. */
+ * reads another: begin, launch, wait, fill, end. Launches after the end find the first `bytes`
+ * bytes. Of a buffer with a twin, that is what the host fills: it is copied by a second queue,
+ * while what was launched before goes on. */
 pspec_status ps_mapping_begin(ps_device *device, ps_mapping *out, const ps_buffer *buffer,
                               ps_error *error) PS_MUST_CHECK;
 pspec_status ps_mapping_wait(ps_mapping *mapping, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_mapping_end(ps_device *device, ps_mapping *mapping, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_mapping_end(ps_device *device, ps_mapping *mapping, size_t bytes,
+                            ps_error *error) PS_MUST_CHECK;
 /* The same before the buffer is released, when nobody asks for what is in it. */
 void ps_mapping_abandon(ps_device *device, ps_mapping *mapping);
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer,
@@ -130,6 +179,9 @@ pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *source
 
 /* The most bytes that buffers of the device have had at a time. */
 uint64_t ps_device_most_buffer_bytes(const ps_device *device);
+
+/* How often the host waited for the device, which had nothing else to do afterwards. */
+uint64_t ps_device_num_waits(const ps_device *device);
 
 /* Whether host and device are taken to have one memory, if they do. For tests: results do not
  * depend on it. */

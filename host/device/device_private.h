@@ -31,6 +31,12 @@ struct ps_device {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
+    cl_command_queue uploads; /* of twins; NULL: there are none, or the kind has one queue */
+    ps_pinned staged;         /* [PS_STAGED_BYTES] from the first write on */
+    cl_event staged_until[PS_STAGED_PIECES]; /* the last write from a piece; NULL: none */
+    size_t staged_at;                        /* where the next write goes */
+    uint64_t num_enqueued; /* launches and reads, by which a wait knows whether there were more */
+    uint64_t num_waits;    /* see ps_device_num_waits */
     ps_built_program *programs;
     size_t num_programs, programs_capacity;
     glob_t kept;         /* kernels that PoCL kept before (drivers.h); none for other drivers */
@@ -42,6 +48,24 @@ struct ps_device {
     ps_profile_row profile[PS_PROFILE_ROWS];
     size_t num_profile_rows;
 };
+
+/* A queue of the device, as ps_device_open makes it. */
+pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out,
+                             ps_error *error) PS_MUST_CHECK;
+
+/* The memory of a buffer. */
+pspec_status ps_memory_create(ps_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
+                              const char *what, ps_error *error) PS_MUST_CHECK;
+
+pspec_status ps_pinned_create(ps_device *device, ps_pinned *out, size_t bytes, const char *what,
+                              ps_error *error) PS_MUST_CHECK;
+/* Once the device is done with it, which is not waited for. */
+void ps_pinned_release(ps_device *device, ps_pinned *pinned);
+
+/* A write through pinned memory. */
+pspec_status ps_staged_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
+                             const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
+void ps_staged_release(ps_device *device);
 
 /* Adds one finished launch to the profile and releases the event. */
 pspec_status ps_profile_add(ps_device *device, cl_kernel kernel, const ps_range *range,

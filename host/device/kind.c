@@ -1,5 +1,7 @@
 #include "device/kind.h"
 
+#include "device/device_private.h"
+
 #include <stdio.h>
 
 static void say_what_was_probed(char *out, size_t bytes, const ps_device_limits *limits) {
@@ -41,7 +43,18 @@ unsigned ps_device_double_cost(const ps_device_limits *limits) {
  * whose time for work-groups of one item is that of 136 of them up to about 600 (`bench_sphere`).
  * */
 ps_typical_device ps_device_typical(const ps_device_limits *limits) {
-    static const ps_typical_device cpu = {2, 2600, 2, 32 << 20, 8};
-    static const ps_typical_device gpu = {132, 1980, 600, 40 << 20, 100};
+    static const ps_typical_device cpu = {2, 2600, 2, 32 << 20, 8, 1};
+    static const ps_typical_device gpu = {132, 1980, 600, 40 << 20, 100, 2};
     return limits->has_dedicated_local_memory ? gpu : cpu;
+}
+
+pspec_status ps_buffer_add_twin(ps_device *device, ps_buffer *buffer, const char *what,
+                                ps_error *error) {
+    if (device->limits.has_unified_memory) {
+        return PSPEC_OK;
+    }
+    if (device->uploads == NULL && ps_device_typical(&device->limits).queues > 1) {
+        PS_TRY(ps_queue_create(device, &device->uploads, error));
+    }
+    return ps_pinned_create(device, &buffer->twin, buffer->bytes, what, error);
 }

@@ -28,6 +28,7 @@ typedef struct ps_typical_device {
     double single_items; /* work-groups of one item that it works on side by side */
     double cache_bytes;  /* of the last level */
     size_t served_units; /* layouts cut work into shares for so many */
+    unsigned queues;     /* 2: one copies what comes next while the other computes */
 } ps_typical_device;
 ps_typical_device ps_device_typical(const ps_device_limits *limits);
 

@@ -138,6 +138,7 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
                                      NULL, device->has_profile ? &event : NULL),
               error);
     device->launched_flops += range->flops;
+    device->num_enqueued++;
     const cl_int code = clFlush(device->queue); /* it works while the host prepares more */
     if (code != CL_SUCCESS) {
         if (event != NULL) {

@@ -25,6 +25,10 @@ pspec_status ps_reals_write(ps_device *device, const ps_buffer *buffer, ps_preci
     return PSPEC_OK;
 }
 
+double ps_real_at(ps_precision precision, const void *reals, size_t i) {
+    return precision == PS_SINGLE ? (double)((const float *)reals)[i] : ((const double *)reals)[i];
+}
+
 pspec_status ps_reals_read(ps_device *device, const ps_buffer *buffer, ps_precision precision,
                            double *numbers, size_t num, ps_error *error) {
     if (precision != PS_SINGLE) {

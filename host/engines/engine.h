@@ -64,18 +64,21 @@ typedef struct ps_work {
     double product_flops; /* additions and multiplications of products of tables */
     /* What a device at its peak would do while spreading and transforming */
     double transform_flops;
-    double harmonics;             /* (point, degree, order) triples, orders from 0 on, and what
+    double harmonics;    /* (point, degree, order) triples, orders from 0 on, and what
                                      begins and ends them in units of the same time */
-    double pair_degrees;          /* (pair of points, degree), each pair once */
-    double binned_pairs;          /* pairs of points put into a histogram */
-    double launches;              /* kernel launches */
-    double kernels;               /* programs that the driver loads for it, once in a process */
-    double fixed_bytes;           /* memory, whatever the batch */
-    double host_bytes;            /* part of that on the host */
+    double pair_degrees; /* (pair of points, degree), each pair once */
+    double binned_pairs; /* pairs of points put into a histogram */
+    double launches;     /* kernel launches */
+    double kernels;      /* programs that the driver loads for it, once in a process */
+    double fixed_bytes;  /* memory, whatever the batch */
+    double host_bytes;   /* part of that on the host */
+    /* On the host besides, unless memory is unified: twins of buffers that it fills */
+    double twin_bytes;
     double bytes_per_realization; /* on the device, for each realization of a batch */
     double row_bytes;             /* part of that for its powers */
     double point_bytes; /* of points of each realization besides, on the device and on the host */
-    double coordinate_bytes; /* part of that, on the device both times where memory is unified */
+    /* part of that, twice on the device, and with twins where memory is not unified */
+    double coordinate_bytes;
     double largest_buffer_per_realization; /* part of that in one allocation */
     /* Realizations of a batch that share work, whatever fits into caches; 0: any */
     double wanted_batch;

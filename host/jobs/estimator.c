@@ -52,6 +52,7 @@ static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
     PS_TRY(ps_bins_create(&self->bins, set, error));
     PS_TRY(PS_NEW(&self->slots, set->num, "slots", error));
     PS_TRY(PS_NEW(&self->scales, self->batch, "scales", error));
+    PS_TRY(PS_NEW(&self->units, self->batch, "units of powers", error));
     PS_TRY(PS_NEW(&self->exponents, self->batch, "exponents", error));
     PS_TRY(PS_NEW(&self->sums, self->batch, "sums of weights", error));
     return self->options.want_c2
@@ -94,6 +95,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     ps_bins_free(&estimator->bins);
     free(estimator->slots);
     free(estimator->scales);
+    free(estimator->units);
     free(estimator->exponents);
     free(estimator->sums);
     free(estimator->beginning);
@@ -193,17 +195,6 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
         *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
     }
     return PSPEC_OK;
-}
-
-/* Effective power of every realization, mean over all frequencies but DC: what the error formula
- * needs. */
-static void measure_powers(ps_estimator *self, const double *mean_powers, size_t num_patterns) {
-    for (size_t r = 0; r < num_patterns; r++) {
-        const double power = mean_powers[r] / (self->scales[r] * self->sums[r].weight_square_sum);
-        if (!(power <= self->accuracy.largest_mean_power)) {
-            self->accuracy.largest_mean_power = power;
-        }
-    }
 }
 
 static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns) {
@@ -320,13 +311,14 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) {
-    const double *mean_powers = NULL;
-    PS_TRY(ps_accumulator_add(self->accumulator, rows, &mean_powers, error));
+    for (size_t r = 0; r < num_patterns; r++) { /* the error formula needs effective powers */
+        self->units[r] = self->scales[r] * self->sums[r].weight_square_sum;
+    }
+    PS_TRY(ps_accumulator_add(self->accumulator, rows, self->units, error));
     if (self->options.want_c2) {
         const ps_batch batch = ps_estimator_make_batch(self, patterns, num_patterns);
         ps_pair_sums_add(&self->c2, &batch, rows, self->slots);
     }
-    measure_powers(self, mean_powers, num_patterns);
     count_patterns(self, patterns, num_patterns);
     return PSPEC_OK;
 }
@@ -365,7 +357,13 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
         PS_TRY(check_itself(estimator, next, NULL, error));
         PS_TRY(run_batch(estimator, next, &taken, &rows, error));
         PS_TRY(check_itself(estimator, next, &rows, error));
-        PS_TRY(ps_estimator_take(estimator, &rows, next, taken, error));
+        const pspec_status status = ps_estimator_take(estimator, &rows, next, taken, error);
+        if (status == PSPEC_ERROR_MEMORY && estimator->batch > 1) { /* they were not added */
+            ps_estimator_halve_batch(estimator);
+            PS_TRY(ps_estimator_make_engine(estimator, error));
+            continue;
+        }
+        PS_TRY(status);
         done += taken;
     }
     return PSPEC_OK;

@@ -15,6 +15,7 @@ struct ps_estimator {
     ps_accumulator *accumulator;
     double reference_points; /* N_ref: 1 but under the normalization of integrals */
     double *scales;          /* [batch] */
+    double *units;           /* [batch] of effective powers */
     int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
     ps_pair_sums c2;         /* with options.want_c2 */

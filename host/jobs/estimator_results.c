@@ -69,6 +69,7 @@ pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means, ps_
 
 pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means, ps_error *error) {
     PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_estimator_settle(estimator, error));
     ps_accumulator_weighted(estimator->accumulator, means);
     bring_to_units(estimator, means, estimator->options.num_weighted);
     return PSPEC_OK;
@@ -81,6 +82,7 @@ const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator)
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
     const ps_estimator_options *options = &estimator->options;
     PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_estimator_settle(estimator, error));
     PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num,
                                    estimator->spares, error));
     out->normalization = options->normalization;
@@ -103,8 +105,13 @@ const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
     return &estimator->bins;
 }
 
+pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) {
+    return ps_accumulator_settle(estimator->accumulator, error);
+}
+
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
     ps_accuracy accuracy = estimator->accuracy;
+    accuracy.largest_mean_power = ps_accumulator_largest(estimator->accumulator);
     accuracy.error = ps_estimator_error_at(estimator, accuracy.largest_mean_power);
     accuracy.largest_points = estimator->totals.largest_points;
     return accuracy;

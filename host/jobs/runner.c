@@ -79,6 +79,7 @@ static pspec_status plan_again(ps_runner *runner, ps_error *error) {
 }
 
 static pspec_status measure(ps_runner *runner, ps_error *error) {
+    PS_TRY(ps_estimator_settle(runner->estimator, error));
     runner->accuracy = ps_estimator_accuracy(runner->estimator);
     return runner->has_no_accuracy || isfinite(runner->accuracy.error)
                ? PSPEC_OK

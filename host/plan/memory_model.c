@@ -20,14 +20,14 @@ static double padded_rows(const ps_device_limits *limits, ps_precision precision
 static const double block = 512;
 
 /* Adds what weighted sums of rows on the device bring: their weights by slots, on the host, too,
- * while they are brought there, and sums of blocks of slots in pairs, also read back. */
+ * while they are brought there, and sums of blocks of slots in pairs, read back in turns. */
 static void add_weighted(ps_memory *sum, const ps_work *work, const ps_problem *problem,
                          double rows, double real_bytes) {
     const double num = (double)problem->num_weighted;
     const double stride = work->row_bytes / real_bytes;
     const double numbers = num * rows * ceil(stride / block) * 2;
     sum->device += num * work->row_bytes + numbers * real_bytes;
-    sum->host += (num > 0 ? stride : 0) * (double)sizeof(double) + numbers * (double)sizeof(double);
+    sum->host += (num > 0 ? stride : 0) * (double)sizeof(double) + 2 * numbers * real_bytes;
 }
 
 /* Numbers that are kept of every sum over realizations (spectra/sums.h): an open block, and
@@ -39,8 +39,9 @@ static double running_states(const ps_problem *problem, size_t batch) {
 
 /* Adds what rows of powers on the device bring: their sums over realizations, also read
  * back; members of bins, and the pieces of bins in the blocks of a row: 3 numbers for each, and its
- * sum in pairs. In one dimension all frequencies of a block are of one ring, which makes pieces of
- * PS_ACCUMULATE_PIECE; else rings cross a block in about 36, some of them in two pieces. */
+ * sum in pairs, two of which are on their way to the host. In one dimension all frequencies of a
+ * block are of one ring, which makes pieces of PS_ACCUMULATE_PIECE; else rings cross a block in
+ * about 36, some of them in two pieces. */
 static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_problem *problem,
                             double rows, double states, double real_bytes) {
     const double pieces_of_block = problem->frequencies->dimension == 1 ? 32 : 44;
@@ -49,7 +50,7 @@ static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_proble
     const double pieces = fmin(num, blocks * pieces_of_block);
     sum->device += states * work->row_bytes + num * (double)sizeof(uint16_t) +
                    pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
-    sum->host += states * work->row_bytes;
+    sum->host += states * work->row_bytes + 2 * pieces * 2 * rows * real_bytes;
 }
 
 double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
@@ -81,18 +82,22 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
                           const ps_device_limits *limits, size_t batch) {
     const unsigned dimension = problem->frequencies->dimension;
     const double num = (double)problem->frequencies->num;
-    const double moved = limits != NULL && limits->has_unified_memory ? work->coordinate_bytes : 0;
+    const bool is_unified = limits == NULL || limits->has_unified_memory;
+    const double coordinates = work->coordinate_bytes;
     /* of every frequency twice its vector and its slot, its place in a bin, mean and standard
      * error; and the weights of weighted sums */
-    ps_memory sum = {
-        .device = work->fixed_bytes - work->host_bytes +
-                  (work->bytes_per_realization + work->point_bytes + moved) * (double)batch,
-        .host = work->host_bytes + coefficient_bytes(problem) +
-                (ps_memory_of_set(problem, work) + work->point_bytes - moved) * (double)batch +
-                num * (2 * dimension * (double)sizeof(int32_t) + 3 * (double)sizeof(uint32_t) +
-                       2 * (double)sizeof(double)) +
-                num * (double)problem->num_weighted * (double)sizeof(double) +
-                problem->making_bytes};
+    ps_memory sum = {.device = work->fixed_bytes - work->host_bytes +
+                               (work->bytes_per_realization + work->point_bytes + coordinates) *
+                                   (double)batch,
+                     .host = work->host_bytes + coefficient_bytes(problem) +
+                             (is_unified ? 0 : work->twin_bytes + (double)PS_STAGED_BYTES) +
+                             (ps_memory_of_set(problem, work) + work->point_bytes +
+                              (is_unified ? -coordinates : coordinates)) *
+                                 (double)batch +
+                             num * (2 * dimension * (double)sizeof(int32_t) +
+                                    3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double)) +
+                             num * (double)problem->num_weighted * (double)sizeof(double) +
+                             problem->making_bytes};
     const double states = running_states(problem, batch);
     if (limits == NULL || engine->rows_on_host) {
         sum.host += num * states * (double)sizeof(double); /* the sums of the accumulator */

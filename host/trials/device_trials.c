@@ -272,7 +272,7 @@ static pspec_status fill(ps_device_trials *self, const ps_buffer *buffer,
         return status;
     }
     put_all(self, mapping.data, patterns, num_patterns);
-    return ps_mapping_end(self->device, &mapping, error);
+    return ps_mapping_end(self->device, &mapping, buffer->bytes, error);
 }
 
 /* Returns how many pieces the sets make. */

@@ -136,9 +136,8 @@ static double announced(const contract_way *way, size_t batch) {
     ps_problem problem = way->problem;
     problem.num_realizations = batch;
     const ps_work work = way->engine->survey(&problem, limits, way->precision).work;
-    const double moved = limits->has_unified_memory ? work.coordinate_bytes : 0;
     return work.fixed_bytes - work.host_bytes +
-           (work.bytes_per_realization + work.point_bytes + moved) * (double)batch;
+           (work.bytes_per_realization + work.point_bytes + work.coordinate_bytes) * (double)batch;
 }
 
 /* No more is taken than announced, up to small tables, and at least half of it; nothing stays. */

@@ -158,6 +158,12 @@ ENQUEUE(clEnqueueCopyBufferRect, CL_OUT_OF_RESOURCES,
          size_t to_row, size_t to_slice, cl_uint num_waits, const cl_event *waits, cl_event *event),
         (queue, from, to, from_origin, to_origin, region, from_row, from_slice, to_row, to_slice,
          num_waits, waits, event))
+ENQUEUE(clEnqueueMarkerWithWaitList, CL_OUT_OF_RESOURCES,
+        (cl_command_queue queue, cl_uint num_waits, const cl_event *waits, cl_event *event),
+        (queue, num_waits, waits, event))
+ENQUEUE(clEnqueueBarrierWithWaitList, CL_OUT_OF_RESOURCES,
+        (cl_command_queue queue, cl_uint num_waits, const cl_event *waits, cl_event *event),
+        (queue, num_waits, waits, event))
 STATUS(clFlush, CL_OUT_OF_RESOURCES, (cl_command_queue queue), (queue))
 STATUS(clFinish, CL_DEVICE_NOT_AVAILABLE, (cl_command_queue queue), (queue))
 STATUS(clWaitForEvents, CL_OUT_OF_RESOURCES, (cl_uint num, const cl_event *events), (num, events))

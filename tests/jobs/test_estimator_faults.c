@@ -151,6 +151,116 @@ static void refused_memory_halves_the_batch(void **state) {
     ps_frequencies_free(&grid);
 }
 
+/* torus_direct on a driver that allocates when a batch is launched, and refuses larger ones from
+ * the second on. */
+static size_t num_runs;
+
+static pspec_status run_small(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    return num_runs++ > 0 && batch->num_patterns > MOST_BATCH
+               ? ps_fail(error, PSPEC_ERROR_MEMORY, "refused")
+               : ps_torus_direct.run(state, batch, rows, error);
+}
+
+static void memory_refused_in_the_middle_halves_the_batch(void **state) {
+    (void)state;
+    ps_engine small = ps_torus_direct;
+    small.run = run_small;
+    ps_frequencies grid = test_make_lattice(2, 6, true);
+    test_sample what = test_make_sample(20, 2, 30, 0, false);
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 30, 8);
+    ps_spectrum expected = test_estimate(&options, &what, 20, device);
+    options.engine = &small;
+    num_runs = 0;
+    ps_spectrum found = test_estimate(&options, &what, 20, device);
+    assert_int_equal(num_runs, 1 + 2 + 6); /* 8; 8 and 4 in vain; 12 by two */
+    assert_true(test_is_same_bits(&expected, &found));
+    ps_spectrum_free(&expected);
+    ps_spectrum_free(&found);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
+/* More realizations than were announced want larger sums, which the device refuses whatever the
+ * batch. What was added before stays, and is gone on with when there is memory. */
+static void refused_sums_lose_nothing(void **state) {
+    (void)state;
+    enum { SETS = 200, BATCH = 50, POINTS = 5 };
+    ps_frequencies grid = test_make_lattice(2, 6, true);
+    test_sample what = test_make_sample(SETS, 2, POINTS, 0, false);
+    const ps_estimator_options options =
+        test_make_options(&grid, &ps_torus_direct, PS_SINGLE, POINTS, BATCH);
+    ps_spectrum expected = test_estimate(&options, &what, SETS, device);
+    ps_spectrum found = {0};
+    ps_estimator *estimator = NULL;
+    ps_error refused = {0};
+    assert_ok(ps_estimator_create(&estimator, &options, device, error));
+    assert_ok(ps_estimator_add(estimator, what.patterns, NULL, BATCH, error));
+    ps_device_set_max_allocation(device, 64);
+    assert_int_equal(
+        ps_estimator_add(estimator, what.patterns + BATCH, NULL, SETS - BATCH, &refused),
+        PSPEC_ERROR_MEMORY);
+    assert_non_null(strstr(refused.message, "bytes per allocation"));
+    ps_device_set_max_allocation(device, 0);
+    const size_t done = (size_t)ps_estimator_num_realizations(estimator);
+    assert_ok(ps_estimator_add(estimator, what.patterns + done, NULL, SETS - done, error));
+    assert_ok(ps_estimator_spectrum(estimator, &found, error));
+    assert_true(test_is_same_bits(&expected, &found));
+    ps_estimator_destroy(estimator);
+    ps_spectrum_free(&expected);
+    ps_spectrum_free(&found);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
+/* ---- queues ------------------------------------------------------------------------------ */
+
+/* How often nothing was left for the device to do while the host waited, and the spectrum. */
+static uint64_t count_waits(const ps_estimator_options *options, const test_sample *what,
+                            size_t num, ps_spectrum *out) {
+    ps_estimator *estimator = NULL;
+    assert_ok(ps_estimator_create(&estimator, options, device, error));
+    const uint64_t before = ps_device_num_waits(device);
+    for (size_t r = 0; r < num; r += options->batch) {
+        assert_ok(ps_estimator_add(estimator, what->patterns + r, NULL, options->batch, error));
+    }
+    assert_ok(ps_estimator_spectrum(estimator, out, error));
+    ps_estimator_destroy(estimator);
+    return ps_device_num_waits(device) - before;
+}
+
+/* On a device with memory of its own the host waits as often for many batches as for few, and bits
+ * are those of one memory. */
+static void check_waits(const ps_engine *engine, bool weighted) {
+    enum { SETS = 24, BATCH = 2, POINTS = 40 };
+    ps_frequencies grid = test_make_lattice(2, 9, false);
+    test_sample what = test_make_sample(SETS, 2, POINTS, 0, weighted);
+    const ps_estimator_options options = test_make_options(&grid, engine, PS_SINGLE, POINTS, BATCH);
+    ps_spectrum expected = {0};
+    ps_spectrum few = {0};
+    ps_spectrum many = {0};
+    ps_device_set_dedicated_local_memory(device, true);
+    (void)count_waits(&options, &what, SETS, &expected);
+    ps_device_set_unified_memory(device, false);
+    const uint64_t waits_of_few = count_waits(&options, &what, 6, &few);
+    const uint64_t waits_of_many = count_waits(&options, &what, SETS, &many);
+    ps_device_set_unified_memory(device, true);
+    ps_device_set_dedicated_local_memory(device, false);
+    assert_int_equal(waits_of_few, waits_of_many);
+    assert_true(test_is_same_bits(&expected, &many));
+    ps_spectrum_free(&expected);
+    ps_spectrum_free(&few);
+    ps_spectrum_free(&many);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
+static void batches_follow_without_waiting(void **state) {
+    (void)state;
+    check_waits(&ps_torus_direct, false);
+    check_waits(&ps_torus_direct, true);
+    check_waits(&ps_torus_nufft, false);
+}
+
 /* A driver whose sums are too large by this share. */
 static double wrong_share;
 
@@ -215,6 +325,9 @@ int main(void) {
         cmocka_unit_test(bad_patterns),
         cmocka_unit_test(first_bad_pattern),
         cmocka_unit_test(refused_memory_halves_the_batch),
+        cmocka_unit_test(memory_refused_in_the_middle_halves_the_batch),
+        cmocka_unit_test(refused_sums_lose_nothing),
+        cmocka_unit_test(batches_follow_without_waiting),
         cmocka_unit_test(the_self_check_finds_a_wrong_device),
         cmocka_unit_test(nothing_added),
     };

@@ -138,6 +138,7 @@ static void find(const fixture *what, const layout *how, ps_mean *means) {
     uint32_t *slots = make_slots(what, how);
     ps_accumulator *accumulator = make_accumulator(what, how, slots, false);
     add_all(accumulator, what, how, slots, M);
+    assert_ok(ps_accumulator_settle(accumulator, error));
     ps_accumulator_weighted(accumulator, means);
     ps_accumulator_destroy(accumulator);
     free(slots);
@@ -418,6 +419,7 @@ static void check_means_and_reset(const fixture *what, const layout *how) {
     ps_accumulator *accumulator = make_accumulator(what, how, slots, true);
     for (size_t round = 0; round < 2; round++) {
         add_all(accumulator, what, how, slots, M);
+        assert_ok(ps_accumulator_settle(accumulator, error));
         ps_accumulator_weighted(accumulator, found);
         for (size_t w = 0; w < WEIGHTED; w++) {
             assert_true(found[w].mean == expected[w].mean && expected[w].standard_error > 0);

@@ -21,9 +21,6 @@ uint64_t ps_fixed_point(double x) {
 static pspec_status create_host(ps_torus_points *out, ps_error *error) {
     void *memory = NULL;
     const size_t count = out->batch * out->slab;
-    if (!out->is_unified) {
-        PS_TRY(PS_NEW(&out->host_points, count * out->dimension, "points", error));
-    }
     PS_TRY(ps_allocate(&memory, count, ps_real_bytes(out->precision), "weights", error));
     out->host_weights = memory;
     PS_TRY(PS_NEW(&out->host_offsets, out->batch + 1, "offsets", error));
@@ -58,12 +55,12 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
                              .batch = batch,
                              .slab = slab,
                              .precision = precision,
-                             .far_apart = far_apart,
-                             .is_unified = ps_device_get_limits(device)->has_unified_memory};
+                             .far_apart = far_apart};
     PS_TRY(create_host(out, error));
-    for (unsigned i = 0; i < (out->is_unified ? 2 : 1); i++) {
+    for (unsigned i = 0; i < 2; i++) {
         PS_TRY(ps_buffer_create(device, &out->buffers[i], count * dimension * sizeof(uint64_t),
                                 "points", error));
+        PS_TRY(ps_buffer_add_twin(device, &out->buffers[i], "points", error));
     }
     PS_TRY(ps_buffer_create(device, &out->weights, count * ps_real_bytes(precision), "weights",
                             error));
@@ -71,15 +68,13 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
         ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets", error));
     PS_TRY(upload_unit_weights(out, device, error));
     /* Before all launches, so that the first points do not wait for one, either. */
-    return out->is_unified ? ps_mapping_begin(device, &out->mapping, &out->buffers[0], error)
-                           : PSPEC_OK;
+    return ps_mapping_begin(device, &out->mapping, &out->buffers[0], error);
 }
 
 void ps_torus_points_free(ps_torus_points *points) {
-    if (points->mapping.memory != NULL) {
+    if (points->mapping.data != NULL) {
         ps_mapping_abandon(points->buffers[0].device, &points->mapping);
     }
-    free(points->host_points);
     free(points->host_weights);
     free(points->host_offsets);
     ps_buffer_release(&points->buffers[0]);
@@ -229,27 +224,20 @@ static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_bat
                              : ps_fail(error, PSPEC_ERROR_INPUT, "a coordinate is outside [0,1)");
 }
 
-/* The host fills one buffer while the device reads the other, and nothing is copied. */
-static pspec_status fill_mapped(ps_torus_points *points, ps_device *device, const ps_batch *batch,
-                                size_t first, size_t *num_points, ps_error *error) {
+/* The host fills one buffer while the device reads the other. */
+static pspec_status fill(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                         size_t first, size_t *num_points, ps_error *error) {
     const ps_buffer *buffer = &points->buffers[points->next];
-    if (points->mapping.memory == NULL) {
+    if (points->mapping.data == NULL) {
         PS_TRY(ps_mapping_begin(device, &points->mapping, buffer, error));
     }
     PS_TRY(ps_mapping_wait(&points->mapping, error));
     PS_TRY(convert(points, points->mapping.data, batch, first, num_points, error));
-    PS_TRY(ps_mapping_end(device, &points->mapping, error));
+    PS_TRY(ps_mapping_end(device, &points->mapping,
+                          *num_points * points->dimension * sizeof(uint64_t), error));
     points->points = *buffer;
     points->next = 1 - points->next;
     return PSPEC_OK;
-}
-
-static pspec_status fill_copied(ps_torus_points *points, ps_device *device, const ps_batch *batch,
-                                size_t first, size_t *num_points, ps_error *error) {
-    PS_TRY(convert(points, points->host_points, batch, first, num_points, error));
-    points->points = points->buffers[0];
-    return ps_buffer_write(device, &points->points, 0, points->host_points,
-                           *num_points * points->dimension * sizeof(uint64_t), error);
 }
 
 /* The device makes the points itself. */
@@ -264,20 +252,14 @@ static pspec_status make(ps_torus_points *points, ps_device *device, const ps_ba
                                  .begin = (uint64_t)((wide)(batch->first_point + first) * step % n),
                                  .step = step,
                                  .count = *num_points / num};
-    if (points->mapping.memory != NULL) { /* nobody fills it now */
-        PS_TRY(ps_mapping_end(device, &points->mapping, error));
+    if (points->mapping.data != NULL) { /* nobody fills it now */
+        ps_mapping_abandon(device, &points->mapping);
     }
     if (!points->has_unit_weights) {
         PS_TRY(upload_unit_weights(points, device, error));
     }
     points->points = points->buffers[0];
     return ps_device_sets_write(batch->sets, &range, &points->points, error);
-}
-
-static pspec_status fill(ps_torus_points *points, ps_device *device, const ps_batch *batch,
-                         size_t first, size_t *num_points, ps_error *error) {
-    return points->is_unified ? fill_mapped(points, device, batch, first, num_points, error)
-                              : fill_copied(points, device, batch, first, num_points, error);
 }
 
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
@@ -293,7 +275,7 @@ pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
     PS_TRY(ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error));
     /* This goes before the launch that reads the buffer, so that it need not be waited for. */
-    return points->is_unified && !is_made
-               ? ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error)
-               : PSPEC_OK;
+    return is_made
+               ? PSPEC_OK
+               : ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error);
 }

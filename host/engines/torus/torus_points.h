@@ -10,17 +10,14 @@ typedef struct ps_torus_points {
     unsigned dimension;
     size_t batch, slab; /* realizations, points of each at a time */
     ps_precision precision;
-    bool far_apart;        /* order of the points, see ps_torus_point_step */
-    bool is_unified;       /* ps_device_limits.has_unified_memory */
-    bool has_unit_weights; /* on the device; so it stays until a pattern has weights */
-    /* [batch * slab][dimension], where host and device have memory of their own */
-    uint64_t *host_points;
+    bool far_apart;         /* order of the points, see ps_torus_point_step */
+    bool has_unit_weights;  /* on the device; so it stays until a pattern has weights */
     void *host_weights;     /* [batch * slab] float or double */
     uint64_t *host_offsets; /* [batch + 1] */
     ps_buffer points;       /* what was uploaded: one of the buffers below */
     ps_buffer weights, offsets;
-    /* Filled in turns: one by the host while the device reads the other. Without unified memory
-     * there is one. */
+    /* [batch * slab][dimension], filled in turns: one by the host while the device reads the other
+     */
     ps_buffer buffers[2];
     ps_mapping mapping; /* of the next one */
     unsigned next;

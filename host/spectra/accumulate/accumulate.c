@@ -4,6 +4,7 @@
 #include "spectra/accumulate/accumulate_device.h"
 #include "spectra/accumulate/accumulate_weighted.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,8 +17,10 @@ struct ps_accumulator {
     ps_bins one;                      /* and that alone */
     /* bins whose powers are formed for each realization: all of them, or that one */
     const ps_bins *formed;
-    double *bin_powers;  /* [batch][formed->num] */
-    double *mean_powers; /* [batch] */
+    double *bin_powers; /* [batch][formed->num] */
+    double *units;      /* [batch], of the batch that is pending */
+    size_t num_pending; /* rows of it; 0: none is */
+    double largest;     /* mean power, in its unit */
     uint64_t num_realizations;
     ps_running_sums bin_sums;       /* none of single members: those of frequencies are theirs */
     ps_running_sums frequency_sums; /* host rows only */
@@ -56,7 +59,7 @@ static pspec_status allocate(ps_accumulator *self, ps_error *error) {
     PS_TRY(allocate_powers(self, &self->weighted_powers, options->num_weighted, "weighted sums",
                            error));
     PS_TRY(PS_NEW(&self->weighted_blocks, options->num_weighted, "weighted sums", error));
-    PS_TRY(PS_NEW(&self->mean_powers, options->batch, "mean powers", error));
+    PS_TRY(PS_NEW(&self->units, options->batch, "units of powers", error));
     PS_TRY(create_sums(self, &self->weighted_sums, options->num_weighted, error));
     PS_TRY(create_sums(self, &self->bin_sums,
                        self->formed == options->bins ? options->bins->num : 0, error));
@@ -128,7 +131,7 @@ void ps_accumulator_destroy(ps_accumulator *accumulator) {
     ps_device_weighted_destroy(accumulator->weighted);
     free(accumulator->slots);
     free(accumulator->bin_powers);
-    free(accumulator->mean_powers);
+    free(accumulator->units);
     ps_running_sums_free(&accumulator->bin_sums);
     ps_running_sums_free(&accumulator->frequency_sums);
     ps_running_sums_free(&accumulator->weighted_sums);
@@ -182,11 +185,14 @@ static double mean_power(const ps_bins *bins, const double *bin_powers) {
     return num_modes > 0 ? sum / num_modes : 0;
 }
 
-static void add_bins(ps_accumulator *self, size_t num_rows) {
+static void add_bins(ps_accumulator *self, size_t num_rows, const double *units) {
     const ps_bins *bins = self->formed;
     for (size_t r = 0; r < num_rows; r++) {
         const double *bin_powers = self->bin_powers + r * bins->num;
-        self->mean_powers[r] = mean_power(bins, bin_powers);
+        const double power = mean_power(bins, bin_powers) / units[r];
+        if (power > self->largest || isnan(power)) {
+            self->largest = power; /* and nan stays: nothing is above it */
+        }
         ps_running_sums_add(&self->bin_sums, bin_powers, NULL);
     }
 }
@@ -207,29 +213,85 @@ static pspec_status reserve(ps_accumulator *self, uint64_t count, ps_error *erro
     return ps_running_sums_reserve(&self->weighted_sums, count, error);
 }
 
-pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
-                                const double **mean_powers, ps_error *error) {
-    PS_TRY(reserve(accumulator, accumulator->num_realizations + rows->num_rows, error));
-    if (accumulator->on_device != NULL) {
-        PS_TRY(ps_device_accumulator_add(accumulator->on_device, rows, accumulator->bin_powers,
-                                         error));
-    } else {
-        add_host_rows(accumulator, rows);
+/* Weighted sums first: those of frequencies change by what comes last. */
+static pspec_status begin(ps_accumulator *self, const ps_rows *rows, ps_error *error) {
+    if (self->weighted != NULL) {
+        PS_TRY(ps_device_weighted_add(self->weighted, rows, error));
     }
-    if (accumulator->weighted != NULL) {
-        PS_TRY(ps_device_weighted_sums(accumulator->weighted, rows, accumulator->weighted_powers,
-                                       error));
+    return ps_device_accumulator_add(self->on_device, rows, error);
+}
+
+static void forget(ps_accumulator *self) {
+    if (self->on_device != NULL) {
+        ps_device_accumulator_forget(self->on_device);
     }
-    add_bins(accumulator, rows->num_rows);
-    add_weighted(accumulator, rows->num_rows);
-    accumulator->num_realizations += rows->num_rows;
-    if (mean_powers != NULL) {
-        *mean_powers = accumulator->mean_powers;
+    if (self->weighted != NULL) {
+        ps_device_weighted_forget(self->weighted);
     }
+    self->num_pending = 0;
+}
+
+/* What the batch that is pending comes to. */
+pspec_status ps_accumulator_settle(ps_accumulator *accumulator, ps_error *error) {
+    ps_accumulator *self = accumulator;
+    const size_t num_rows = self->num_pending;
+    self->num_pending = 0;
+    if (num_rows == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_device_accumulator_take(self->on_device, num_rows, self->bin_powers, error));
+    if (self->weighted != NULL) {
+        PS_TRY(ps_device_weighted_take(self->weighted, num_rows, self->weighted_powers, error));
+    }
+    add_bins(self, num_rows, self->units);
+    add_weighted(self, num_rows);
     return PSPEC_OK;
 }
 
+static void set_units(ps_accumulator *self, const double *units, size_t num) {
+    for (size_t r = 0; r < num; r++) {
+        self->units[r] = units != NULL ? units[r] : 1;
+    }
+}
+
+/* The batch before is settled while the device works on this one. */
+static pspec_status add_device_rows(ps_accumulator *self, const ps_rows *rows, const double *units,
+                                    ps_error *error) {
+    const pspec_status status = begin(self, rows, error);
+    if (status != PSPEC_OK) {
+        ps_error none;
+        const pspec_status settled = ps_accumulator_settle(self, &none);
+        forget(self);
+        return settled == PSPEC_OK ? status : settled;
+    }
+    PS_TRY(ps_accumulator_settle(self, error));
+    set_units(self, units, rows->num_rows);
+    self->num_pending = rows->num_rows;
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
+                                const double *units, ps_error *error) {
+    PS_TRY(reserve(accumulator, accumulator->num_realizations + rows->num_rows, error));
+    if (accumulator->on_device != NULL) {
+        PS_TRY(add_device_rows(accumulator, rows, units, error));
+    } else {
+        set_units(accumulator, units, rows->num_rows);
+        add_host_rows(accumulator, rows);
+        add_bins(accumulator, rows->num_rows, accumulator->units);
+        add_weighted(accumulator, rows->num_rows);
+    }
+    accumulator->num_realizations += rows->num_rows;
+    return PSPEC_OK;
+}
+
+double ps_accumulator_largest(const ps_accumulator *accumulator) {
+    return accumulator->largest;
+}
+
 void ps_accumulator_reset(ps_accumulator *accumulator) {
+    forget(accumulator);
+    accumulator->largest = 0;
     accumulator->num_realizations = 0;
     accumulator->bin_sums.count = 0;
     accumulator->frequency_sums.count = 0;
@@ -282,6 +344,7 @@ static pspec_status get_bins(ps_accumulator *self, const ps_sums *frequencies, p
 
 pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
                                  ps_error *error) {
+    PS_TRY(ps_accumulator_settle(accumulator, error));
     if (frequencies != NULL) {
         PS_TRY(get_frequencies(accumulator, frequencies, error));
     }
@@ -297,6 +360,7 @@ static void finish(const ps_accumulator *self, const ps_sums *sums, size_t num, 
 pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means, ps_error *error) {
     const size_t num = accumulator->options.bins->num;
     ps_sums *sums = NULL;
+    PS_TRY(ps_accumulator_settle(accumulator, error));
     PS_TRY(PS_NEW(&sums, num, "sums of bins", error));
     const pspec_status status = get_bins(accumulator, NULL, sums, error);
     if (status == PSPEC_OK) {
@@ -308,6 +372,7 @@ pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means, ps
 
 pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
                                         ps_error *error) {
+    PS_TRY(ps_accumulator_settle(accumulator, error));
     if (accumulator->on_device != NULL) {
         return ps_device_accumulator_frequencies(accumulator->on_device, means, error);
     }

@@ -53,10 +53,18 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
 void ps_accumulator_destroy(ps_accumulator *accumulator);
 
 /* Adds the rows of one batch; allocates nothing unless there are more realizations than were
- * expected. mean_powers[r], owned by the accumulator until the next call, is the
- * mean over all members of bins of realization r; may be NULL if nobody asks. */
+ * expected. Nobody waits for rows on the device: what they come to on the host is added by the next
+ * call, or by ps_accumulator_settle. units[num_rows], copied, are what powers of each realization
+ * are counted in for ps_accumulator_largest; NULL: 1. After PSPEC_ERROR_MEMORY nothing was added,
+ * and fewer rows may be tried. */
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
-                                const double **mean_powers, ps_error *error) PS_MUST_CHECK;
+                                const double *units, ps_error *error) PS_MUST_CHECK;
+/* Waits until all that was added is in the sums; what follows but ps_accumulator_reset needs that,
+ * and does it where it has a status. */
+pspec_status ps_accumulator_settle(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
+/* The largest mean power, in its unit, over all members of bins of a realization; nan where one
+ * is. */
+double ps_accumulator_largest(const ps_accumulator *accumulator);
 
 /* Forgets every realization; allocates nothing. */
 void ps_accumulator_reset(ps_accumulator *accumulator);

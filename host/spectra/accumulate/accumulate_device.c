@@ -18,13 +18,8 @@ struct ps_device_accumulator {
     cl_kernel blocks, fold;
     ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums;
     ps_device_states states; /* of frequencies, where they are wanted */
-    void *host;              /* staging for bin sums */
+    ps_readings bins_read;
 };
-
-static double get_real(const ps_device_accumulator *self, const void *array, size_t i) {
-    return self->real_bytes == sizeof(float) ? (double)((const float *)array)[i]
-                                             : ((const double *)array)[i];
-}
 
 /* ---- create ------------------------------------------------------------------------------ */
 
@@ -114,7 +109,8 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
         PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
                                 "sums of bins", error));
     }
-    PS_TRY(ps_allocate(&self->host, bin_entries, self->real_bytes, "sums of bins", error));
+    PS_TRY(ps_readings_create(self->device, &self->bins_read, bin_entries * self->real_bytes,
+                              "sums of bins", error));
     return options->want_frequencies
                ? ps_device_states_create(&self->states, options, self->device, error)
                : PSPEC_OK;
@@ -164,7 +160,7 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
         ps_buffer_release(buffers[i]);
     }
     ps_device_states_free(&accumulator->states);
-    free(accumulator->host);
+    ps_readings_release(&accumulator->bins_read);
     free(accumulator);
 }
 
@@ -209,18 +205,6 @@ static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows,
                      BLOCK_ARGUMENTS(self, rows), PS_STATE_ARGUMENTS(&self->states), block);
 }
 
-static pspec_status sum_rows(ps_device_accumulator *self, const ps_rows *rows, ps_error *error) {
-    const size_t all = ps_round_up(rows->num_rows, self->options.lanes);
-    const size_t some = GPU_VECTORS_AT_ONCE * (size_t)self->options.lanes;
-    const blocks_numbers numbers = {.stride = rows->stride,
-                                    .num_pieces = self->num_pieces,
-                                    .done = self->states.count,
-                                    .num_realizations = (uint32_t)rows->num_rows,
-                                    .at_once = (uint32_t)(self->is_gpu ? some : all)};
-    PS_TRY(sum_blocks(self, rows, &numbers, error));
-    return has_strips(self) ? ps_device_states_add(&self->states, rows, &numbers, error) : PSPEC_OK;
-}
-
 static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_error *error) {
     const size_t num_bins = self->options.bins->num;
     const double sums = (double)(num_groups * self->options.lanes * self->num_pieces);
@@ -231,42 +215,70 @@ static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_erro
                      PS_U64(self->num_pieces));
 }
 
-static pspec_status read_bins(ps_device_accumulator *self, const ps_rows *rows, size_t num_groups,
-                              double *bin_powers, ps_error *error) {
+static pspec_status finish_bins(ps_device_accumulator *self, size_t num_rows, ps_error *error) {
+    const size_t num_groups = ps_divide_up(num_rows, self->options.lanes);
+    const size_t row = 2 * self->options.lanes * self->options.bins->num * self->real_bytes;
+    PS_TRY(is_whole(self) ? PSPEC_OK : fold(self, num_groups, error));
+    return ps_readings_begin(&self->bins_read, is_whole(self) ? &self->piece_sums : &self->bin_sums,
+                             num_groups * row, error);
+}
+
+/* On GPUs sums of frequencies change by the last launch; on CPUs by the first, after which nobody
+ * may try again with fewer realizations. */
+static pspec_status sum_rows(ps_device_accumulator *self, const ps_rows *rows,
+                             const blocks_numbers *numbers, ps_error *error) {
+    PS_TRY(sum_blocks(self, rows, numbers, error));
+    const pspec_status status = finish_bins(self, rows->num_rows, error);
+    if (self->options.want_frequencies && !has_strips(self)) {
+        return status == PSPEC_ERROR_MEMORY ? PSPEC_ERROR_DEVICE : status;
+    }
+    return status == PSPEC_OK && has_strips(self)
+               ? ps_device_states_add(&self->states, rows, numbers, error)
+               : status;
+}
+
+pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const ps_rows *rows,
+                                       ps_error *error) {
+    ps_device_accumulator *self = accumulator;
+    const size_t all = ps_round_up(rows->num_rows, self->options.lanes);
+    const size_t some = GPU_VECTORS_AT_ONCE * (size_t)self->options.lanes;
+    const blocks_numbers numbers = {.stride = rows->stride,
+                                    .num_pieces = self->num_pieces,
+                                    .done = self->states.count,
+                                    .num_realizations = (uint32_t)rows->num_rows,
+                                    .at_once = (uint32_t)(self->is_gpu ? some : all)};
+    if (self->options.want_frequencies) {
+        PS_TRY(ps_device_states_reserve(&self->states, self->states.count + rows->num_rows, error));
+    }
+    PS_TRY(sum_rows(self, rows, &numbers, error));
+    self->states.count += rows->num_rows;
+    return PSPEC_OK;
+}
+
+pspec_status ps_device_accumulator_take(ps_device_accumulator *accumulator, size_t num_rows,
+                                        double *bin_powers, ps_error *error) {
+    const ps_device_accumulator *self = accumulator;
     const ps_bins *bins = self->options.bins;
     const size_t lanes = self->options.lanes;
-    const ps_buffer *sums = is_whole(self) ? &self->piece_sums : &self->bin_sums;
-    PS_TRY(ps_buffer_read(self->device, sums, 0, self->host,
-                          num_groups * bins->num * 2 * lanes * self->real_bytes, error));
-    for (size_t r = 0; r < rows->num_rows; r++) {
+    const void *sums = NULL;
+    PS_TRY(ps_readings_take(&accumulator->bins_read, &sums, error));
+    for (size_t r = 0; r < num_rows; r++) {
         for (size_t b = 0; b < bins->num; b++) {
             const size_t high = ((r / lanes * bins->num + b) * 2) * lanes + r % lanes;
-            const double sum =
-                get_real(self, self->host, high) + get_real(self, self->host, high + lanes);
+            const double sum = ps_real_at(self->options.precision, sums, high) +
+                               ps_real_at(self->options.precision, sums, high + lanes);
             bin_powers[r * bins->num + b] = sum / (double)(bins->bins[b].end - bins->bins[b].begin);
         }
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const ps_rows *rows,
-                                       double *bin_powers, ps_error *error) {
-    ps_device_accumulator *self = accumulator;
-    const size_t lanes = self->options.lanes;
-    const size_t num_groups = ps_divide_up(rows->num_rows, lanes);
-    if (self->options.want_frequencies) {
-        PS_TRY(ps_device_states_reserve(&self->states, self->states.count + rows->num_rows, error));
-    }
-    PS_TRY(sum_rows(self, rows, error));
-    self->states.count += rows->num_rows;
-    if (!is_whole(self)) {
-        PS_TRY(fold(self, num_groups, error));
-    }
-    return read_bins(self, rows, num_groups, bin_powers, error);
-}
-
 void ps_device_accumulator_reset(ps_device_accumulator *accumulator) {
     accumulator->states.count = 0;
+}
+
+void ps_device_accumulator_forget(ps_device_accumulator *accumulator) {
+    ps_readings_forget(&accumulator->bins_read);
 }
 
 static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {

@@ -25,7 +25,7 @@ struct ps_device_weighted {
     vector *vectors; /* [num_weighted] */
     /* [num_weighted][groups of lanes realizations][block][high, low][lanes] */
     ps_buffer pieces;
-    double *host; /* the same */
+    ps_readings pieces_read;
 };
 
 /* ---- create ------------------------------------------------------------------------------ */
@@ -82,9 +82,9 @@ static size_t count_pieces(const ps_device_weighted *self, size_t num_rows) {
 
 static pspec_status create_pieces(ps_device_weighted *self, ps_error *error) {
     const size_t num = self->options.num_weighted * count_pieces(self, self->options.batch);
-    PS_TRY(ps_buffer_create(self->device, &self->pieces,
-                            num * ps_real_bytes(self->options.precision), "weighted sums", error));
-    return PS_NEW(&self->host, num, "weighted sums", error);
+    const size_t bytes = num * ps_real_bytes(self->options.precision);
+    PS_TRY(ps_buffer_create(self->device, &self->pieces, bytes, "weighted sums", error));
+    return ps_readings_create(self->device, &self->pieces_read, bytes, "weighted sums", error);
 }
 
 pspec_status ps_device_weighted_create(ps_device_weighted **out,
@@ -121,7 +121,7 @@ void ps_device_weighted_destroy(ps_device_weighted *weighted) {
     }
     ps_buffer_release(&weighted->pieces);
     free(weighted->vectors);
-    free(weighted->host);
+    ps_readings_release(&weighted->pieces_read);
     free(weighted);
 }
 
@@ -146,30 +146,46 @@ static pspec_status launch(ps_device_weighted *self, const ps_rows *rows, size_t
 }
 
 /* Of realization r, in the order of blocks. */
-static double add_pieces(const ps_device_weighted *self, const double *pieces, size_t r) {
+static double add_pieces(const ps_device_weighted *self, const void *pieces, size_t first,
+                         size_t r) {
+    const ps_precision precision = self->options.precision;
     const size_t lanes = self->options.lanes;
-    const double *piece = pieces + r / lanes * self->num_blocks * 2 * lanes + r % lanes;
+    size_t at = first + r / lanes * self->num_blocks * 2 * lanes + r % lanes;
     long double sum = 0;
-    for (size_t b = 0; b < self->num_blocks; b++, piece += 2 * lanes) {
-        sum += (long double)piece[0] + piece[lanes];
+    for (size_t b = 0; b < self->num_blocks; b++, at += 2 * lanes) {
+        sum += (long double)ps_real_at(precision, pieces, at) +
+               ps_real_at(precision, pieces, at + lanes);
     }
     return (double)sum;
 }
 
-pspec_status ps_device_weighted_sums(ps_device_weighted *weighted, const ps_rows *rows,
-                                     double *values, ps_error *error) {
+pspec_status ps_device_weighted_add(ps_device_weighted *weighted, const ps_rows *rows,
+                                    ps_error *error) {
     const size_t num_weighted = weighted->options.num_weighted;
-    const size_t num_pieces = count_pieces(weighted, rows->num_rows);
     for (size_t w = 0; w < num_weighted; w++) {
         PS_TRY(launch(weighted, rows, w, error));
     }
-    PS_TRY(ps_reals_read(weighted->device, &weighted->pieces, weighted->options.precision,
-                         weighted->host, num_weighted * num_pieces, error));
-    for (size_t r = 0; r < rows->num_rows; r++) {
+    return ps_readings_begin(&weighted->pieces_read, &weighted->pieces,
+                             num_weighted * count_pieces(weighted, rows->num_rows) *
+                                 ps_real_bytes(weighted->options.precision),
+                             error);
+}
+
+pspec_status ps_device_weighted_take(ps_device_weighted *weighted, size_t num_rows, double *values,
+                                     ps_error *error) {
+    const size_t num_weighted = weighted->options.num_weighted;
+    const size_t num_pieces = count_pieces(weighted, num_rows);
+    const void *pieces = NULL;
+    PS_TRY(ps_readings_take(&weighted->pieces_read, &pieces, error));
+    for (size_t r = 0; r < num_rows; r++) {
         for (size_t w = 0; w < num_weighted; w++) {
-            const double sum = add_pieces(weighted, weighted->host + w * num_pieces, r);
+            const double sum = add_pieces(weighted, pieces, w * num_pieces, r);
             values[r * num_weighted + w] = ldexp(sum, weighted->vectors[w].exponent);
         }
     }
     return PSPEC_OK;
+}
+
+void ps_device_weighted_forget(ps_device_weighted *weighted) {
+    ps_readings_forget(&weighted->pieces_read);
 }

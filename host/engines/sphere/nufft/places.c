@@ -43,7 +43,7 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
                                     error));
         }
     }
-    return PSPEC_OK;
+    return ps_buffer_add_twin(self->device, &self->vectors, "points", error);
 }
 
 static void set_weight(ps_sphere_places *self, size_t at, double weight) {
@@ -147,7 +147,9 @@ static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch,
         return status;
     }
     copy_points(self, mapping.data, batch);
-    PS_TRY(ps_mapping_end(self->device, &mapping, error));
+    PS_TRY(ps_mapping_end(
+        self->device, &mapping,
+        self->host_offsets[batch->num_patterns] * PS_SPHERE_DIMENSION * sizeof(double), error));
     return ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);
 }

@@ -49,7 +49,7 @@ typedef struct ps_nufft_layout {
     ps_nufft_strip_sizes strips;
     size_t groups; /* of whole realizations, and of those in strips */
     uint64_t fixed_bytes, bytes_per_realization;
-    uint64_t host_bytes; /* part of fixed_bytes: points and weights as they came */
+    uint64_t host_bytes; /* part of fixed_bytes: weights as they came */
     uint64_t largest_buffer, largest_buffer_per_realization;
 } ps_nufft_layout;
 

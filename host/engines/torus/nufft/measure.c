@@ -24,13 +24,6 @@ uint64_t ps_nufft_part_bytes(const ps_nufft_layout *layout, unsigned dimension) 
            ps_nufft_order_bytes(&layout->order) + (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
-uint64_t ps_nufft_host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
-                                   const ps_device_limits *limits) {
-    const uint64_t coordinates =
-        limits->has_unified_memory ? 0 : problem->frequencies->dimension * sizeof(uint64_t);
-    return layout->parts * (coordinates + layout->real_bytes);
-}
-
 uint64_t ps_nufft_table_bytes(const ps_nufft_layout *layout) {
     enum { SMALL = 1536 };
     uint64_t bytes = 0;

@@ -23,11 +23,6 @@ size_t ps_nufft_fitting_parts(const ps_problem *problem, const ps_device_limits 
  * begin, and on GPUs what makes their order. */
 uint64_t ps_nufft_part_bytes(const ps_nufft_layout *layout, unsigned dimension);
 uint64_t ps_nufft_starts_bytes(const ps_nufft_layout *layout);
-/* What one point of every part takes in the copy that the host keeps
- * (engines/torus/torus_points.h): weights, and coordinates where the device cannot read them there,
- * else they are a second copy of its own. */
-uint64_t ps_nufft_host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
-                                   const ps_device_limits *limits);
 /* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions;
  * polynomials and radices are small). */
 uint64_t ps_nufft_table_bytes(const ps_nufft_layout *layout);

@@ -60,6 +60,8 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
                    kernels_of_line(&layout->choice) + (layout->order.tile > 0 ? 1 : 0),
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
+        .twin_bytes = 2.0 * (double)(layout->parts * layout->part_points *
+                                     problem->frequencies->dimension * sizeof(uint64_t)),
         .bytes_per_realization = (double)layout->bytes_per_realization,
         .row_bytes = (double)(layout->stride * layout->real_bytes),
         .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization,

@@ -217,8 +217,7 @@ static void measure(ps_nufft_layout *layout, const ps_problem *problem,
         ps_nufft_set_part_points(layout, problem->num_points < most ? problem->num_points : most,
                                  limits);
         measure_grid(layout, problem, limits->max_allocation_bytes);
-        layout->host_bytes =
-            ps_nufft_host_point_bytes(layout, problem, limits) * layout->part_places;
+        layout->host_bytes = layout->parts * layout->real_bytes * layout->part_places;
     }
 }
 

@@ -112,7 +112,7 @@ static void measure(ps_nufft_layout *layout, const ps_problem *problem,
     layout->largest_buffer_per_realization = layout->bytes_per_realization;
     ps_nufft_set_part_points(layout, problem->num_points, limits);
     count_memory(layout, problem, limits);
-    layout->host_bytes = ps_nufft_host_point_bytes(layout, problem, limits) * layout->part_places;
+    layout->host_bytes = layout->parts * layout->real_bytes * layout->part_places;
 }
 
 /* Sorting and all the rest. */

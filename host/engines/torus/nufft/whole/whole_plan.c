@@ -148,7 +148,7 @@ static void count_memory(ps_nufft_layout *layout, const ps_problem *problem,
                          : PS_NUFFT_GROUPS_PER_CORE * cores;
     const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
     const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
-    layout->host_bytes = ps_nufft_host_point_bytes(layout, problem, limits) * layout->part_points;
+    layout->host_bytes = layout->parts * layout->real_bytes * layout->part_points;
     layout->fixed_bytes = 2 * layout->parts * layout->part_points * point + grids + rows +
                           whole_table_bytes(layout) +
                           layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
