@@ -3,6 +3,7 @@
 #include "math/pi.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 /* sum (x^2/4)^j / j!^2: all terms are positive, and beta stays below 16 pi. */
@@ -57,60 +58,97 @@ double ps_nufft_window_transform(const ps_nufft_window *window, long double f) {
     return (double)(window->width * ratio / window->peak);
 }
 
-typedef struct alias_sums {
-    double squares; /* what aliases make of one frequency, squared: of white sets; */
-    double in_step; /* of sets as regular as the grid */
-} alias_sums;
-
-static alias_sums aliases_at(const ps_nufft_window *window, double f) {
-    enum { ALIASES = 3 }; /* more aliases add 2 % of the error */
+ps_nufft_aliases ps_nufft_window_aliases(const ps_nufft_window *window, double f, int num) {
     const double wanted = relative_transform(window, f);
     double squares = 0;
     double sum = 0;
-    for (int m = 1; m <= ALIASES; m++) {
+    for (int m = 1; m <= num; m++) {
         const double above = fabs(relative_transform(window, f + m) / wanted);
         const double below = fabs(relative_transform(window, f - m) / wanted);
         squares += above * above + below * below;
         sum += above + below;
     }
-    return (alias_sums){squares, sum * sum};
+    return (ps_nufft_aliases){squares, sum * sum};
 }
 
-static void add_frequency(const ps_nufft_window *window, double f, double share,
-                          ps_nufft_loss *sums) {
-    const double wanted = relative_transform(window, f);
-    sums->aliasing += share * aliases_at(window, f).squares;
-    sums->amplification += share / (wanted * wanted);
-}
+enum { ALIASES = 3 }; /* more aliases add 2 % of the error */
 
 double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n) {
-    return aliases_at(window, (double)max_frequency / n).in_step;
+    return ps_nufft_window_aliases(window, (double)max_frequency / n, ALIASES).in_step;
+}
+
+/* Beyond the main lobe, where all aliases are, no transform is larger. */
+static double transform_bound(const ps_nufft_window *window, double f) {
+    const double z = PS_PI * window->width * f;
+    return 1 / sqrt(z * z - window->beta * window->beta);
+}
+
+/* Says whether aliases of a frequency may be worse in step than that, without their sines. Few
+ * frequencies but the largest may. */
+static bool may_be_worse(const ps_nufft_window *window, double f, double worst) {
+    const double roundings = 1 + 1e-12;
+    const double rest = 2 * ALIASES - 1; /* are farther than the two nearest */
+    const double sum = transform_bound(window, f - 1) + rest * transform_bound(window, f + 1);
+    const double most = sum / relative_transform(window, f);
+    return most * most * roundings > worst;
+}
+
+/* The frequencies that means are taken over: every one, if so few; else dense near the largest. */
+enum { ALL = 24, SAMPLES = 24 };
+
+typedef struct sample {
+    double f, share;
+} sample;
+
+static int num_samples(int32_t max_frequency) {
+    return max_frequency <= ALL ? max_frequency + 1 : SAMPLES;
+}
+
+static sample sample_of(int i, int32_t max_frequency, uint32_t n) {
+    if (max_frequency <= ALL) {
+        return (sample){(double)i / n, (i == 0 ? 1.0 : 2.0) / (2 * max_frequency + 1)};
+    }
+    const double at = (i + 0.5) / SAMPLES;
+    const double largest = max_frequency + 0.5;
+    return (sample){(1 - at * at) * largest / n, 2 * at / SAMPLES};
+}
+
+double ps_nufft_window_amplification(const ps_nufft_window *window, int32_t max_frequency,
+                                     uint32_t n) {
+    double inverse = 0;
+    double grid = 0;
+    for (int i = 0; i < num_samples(max_frequency); i++) {
+        const sample one = sample_of(i, max_frequency, n);
+        const double wanted = relative_transform(window, one.f);
+        inverse += one.share / (wanted * wanted);
+    }
+    for (int i = 0; i < SAMPLES; i++) {
+        const double any = relative_transform(window, (i + 0.5) / SAMPLES / 2);
+        grid += any * any / SAMPLES;
+    }
+    return sqrt(grid * inverse);
 }
 
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n) {
-    enum { ALL = 24, SAMPLES = 24 }; /* every frequency, if so few; else dense near the largest */
-    ps_nufft_loss loss = {.worst = ps_nufft_window_least_worst(window, max_frequency, n)};
-    double grid = 0;
-    for (int k = 0; k <= max_frequency && max_frequency <= ALL; k++) {
-        const double share = (k == 0 ? 1.0 : 2.0) / (2 * max_frequency + 1);
-        add_frequency(window, (double)k / n, share, &loss);
+    ps_nufft_loss loss = {
+        .worst = ps_nufft_window_least_worst(window, max_frequency, n),
+        .amplification = ps_nufft_window_amplification(window, max_frequency, n),
+        .edge =
+            relative_transform(window, 0) / relative_transform(window, (double)max_frequency / n),
+    };
+    for (int i = 0; i < num_samples(max_frequency); i++) {
+        const sample one = sample_of(i, max_frequency, n);
+        loss.aliasing += one.share * ps_nufft_window_aliases(window, one.f, ALIASES).squares;
     }
     for (int i = 0; i < SAMPLES; i++) {
         const double at = (i + 0.5) / SAMPLES;
-        const double any = relative_transform(window, at / 2);
-        grid += any * any / SAMPLES;
-        if (max_frequency > ALL) {
-            const double largest = max_frequency + 0.5;
-            add_frequency(window, (1 - at * at) * largest / n, 2 * at / SAMPLES, &loss);
+        const double f = (1 - at * at) * max_frequency / n;
+        if (may_be_worse(window, f, loss.worst)) {
+            loss.worst = fmax(loss.worst, ps_nufft_window_aliases(window, f, ALIASES).in_step);
         }
-        loss.worst =
-            fmax(loss.worst, aliases_at(window, (1 - at * at) * max_frequency / n).in_step);
     }
-    loss.amplification = sqrt(grid * loss.amplification);
-    loss.edge =
-        relative_transform(window, 0) / relative_transform(window, (double)max_frequency / n);
     return loss;
 }
 

@@ -23,6 +23,13 @@ double ps_nufft_window_value(const ps_nufft_window *window, double t);
 /* Fourier transform at f cycles per cell. */
 double ps_nufft_window_transform(const ps_nufft_window *window, long double f);
 
+/* What aliases f + m of frequency f, |m| <= num, make of it. */
+typedef struct ps_nufft_aliases {
+    double squares; /* of white sets: the sum of their squares; */
+    double in_step; /* of sets as regular as the grid: the square of their sum */
+} ps_nufft_aliases;
+ps_nufft_aliases ps_nufft_window_aliases(const ps_nufft_window *window, double f, int num);
+
 /* What the window does to a set with unit power at every frequency, by its transform. */
 typedef struct ps_nufft_loss {
     double aliasing;      /* mean over |k| <= K of |error / S|^2 from frequencies k + m n, m != 0 */
@@ -30,9 +37,12 @@ typedef struct ps_nufft_loss {
     double amplification; /* of white errors of the grid: root mean square, grid and frequencies */
     double edge;          /* what K is amplified by when the window is undone, beside frequency 0 */
 } ps_nufft_loss;
-/* No more than `worst` can be, at a hundredth of the cost. */
+/* No more than `worst` can be, at a fiftieth of the cost. */
 double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n);
+/* `amplification` alone. */
+double ps_nufft_window_amplification(const ps_nufft_window *window, int32_t max_frequency,
+                                     uint32_t n);
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n);
 

@@ -179,10 +179,29 @@ static void frequencies_of_both_signs(void **state) {
     assert_true(ps_nufft_modes(&(ps_problem){.frequencies = &plane}) == modes);
 }
 
+/* The worst of 24 frequencies and K, though few of them are looked at closely. */
+static void worst_frequency(void **state) {
+    (void)state;
+    const int32_t largest = 100;
+    for (unsigned width = PS_NUFFT_MIN_WIDTH; width <= PS_NUFFT_MAX_WIDTH; width++) {
+        for (uint32_t n = 240; n <= 800; n += 56) {
+            const ps_nufft_window window = ps_nufft_window_make(width, largest, n);
+            double worst = ps_nufft_window_aliases(&window, (double)largest / n, 3).in_step;
+            for (int i = 0; i < 24; i++) {
+                const double at = (i + 0.5) / 24;
+                const double f = (1 - at * at) * largest / n;
+                worst = fmax(worst, ps_nufft_window_aliases(&window, f, 3).in_step);
+            }
+            assert_true(ps_nufft_window_loss(&window, largest, n).worst == worst);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(terms),
         cmocka_unit_test(frequencies_of_both_signs),
+        cmocka_unit_test(worst_frequency),
     };
     return cmocka_run_group_tests_name("nufft_formula", tests, NULL, NULL);
 }

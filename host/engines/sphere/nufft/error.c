@@ -38,30 +38,13 @@ static const double angle_roundings = 1.5;
 
 /* ---- aliases ----------------------------------------------------------------------------- */
 
-/* What aliases k + i n make of frequency k, |k| <= n / 2: the sum of their squares, and the square
- * of the sum of their sizes. */
-static void aliases_of(const ps_nufft_axis *axis, double k, double *squares, double *square) {
-    enum {
-        ALIASES = 8
-    }; /* of each sign. With 1 / i in the end, but these are enough for points on cells */
-    const double own = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
-    double sum = 0;
-    *squares = 0;
-    for (int i = -ALIASES; i <= ALIASES; i++) {
-        const double other =
-            ps_nufft_window_transform(&axis->window, (long double)k / axis->n + i) / own;
-        *squares += i != 0 ? other * other : 0;
-        sum += i != 0 ? fabs(other) : 0;
-    }
-    *square = sum * sum;
-}
-
 /* Frequencies count by their share in Y_lm, mean over all l <= L and m: order x L by how many
  * degrees it has, 2 (1 - x); frequency x L of theta by 4 / pi sqrt(1 - x^2), since the mean of
  * |Lambda_lm|^2 over m is that of P_l. Both are small at the edge, where aliases are largest. x =
  * sin(t) for a smooth integrand. */
 void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst) {
-    enum { STEPS = 24 };
+    enum { STEPS = 24, ALIASES = 8 }; /* with 1 / i in the end, but enough for points on cells */
+    const double L = axis->max_frequency;
     double worst_around = 0;
     double worst_along = 0;
     *aliasing = 0;
@@ -69,13 +52,11 @@ void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *w
         const double t = PS_PI / 2 * (i + 0.5) / STEPS;
         const double around = 2 * (1 - sin(t));
         const double along = 4 / PS_PI * cos(t);
-        double squares = 0;
-        double square = 0;
-        aliases_of(axis, fmin(axis->max_frequency, (axis->max_frequency + 1) * sin(t)), &squares,
-                   &square);
-        *aliasing += squares * (around + along) * cos(t) * PS_PI / 2 / STEPS;
-        worst_around = fmax(worst_around, around * square);
-        worst_along = fmax(worst_along, along * square);
+        const ps_nufft_aliases aliases =
+            ps_nufft_window_aliases(&axis->window, fmin(L, (L + 1) * sin(t)) / axis->n, ALIASES);
+        *aliasing += aliases.squares * (around + along) * cos(t) * PS_PI / 2 / STEPS;
+        worst_around = fmax(worst_around, around * aliases.in_step);
+        worst_along = fmax(worst_along, along * aliases.in_step);
     }
     *worst = worst_around + worst_along;
 }

@@ -143,19 +143,30 @@ static bool find_narrowest(const axis_search *search, uint32_t n, ps_nufft_axis 
     return false;
 }
 
-/* The most exact window of a length. */
+/* Finds the most exact window of a length, of several the narrowest. Losses are computed only for
+ * the window with the least bound and for those whose bound is below what was found. */
 static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
-    ps_nufft_axis best = {0};
-    double least_error = HUGE_VAL;
-    for (unsigned width = PS_NUFFT_MAX_WIDTH; width >= PS_NUFFT_MIN_WIDTH; width--) {
-        const ps_nufft_axis *what = &search->whole->axes[search->which];
-        ps_nufft_axis axis = begin_axis(what, n, width);
-        if (error_alone(search, &axis) > least_error) {
+    enum { WIDTHS = PS_NUFFT_MAX_WIDTH - PS_NUFFT_MIN_WIDTH + 1 };
+    const ps_nufft_axis *what = &search->whole->axes[search->which];
+    double bounds[WIDTHS];
+    unsigned hopeful = 0;
+    for (unsigned i = 0; i < WIDTHS; i++) {
+        ps_nufft_axis axis = begin_axis(what, n, PS_NUFFT_MIN_WIDTH + i);
+        axis.loss.amplification =
+            ps_nufft_window_amplification(&axis.window, axis.max_frequency, n);
+        bounds[i] = error_alone(search, &axis);
+        hopeful = bounds[i] < bounds[hopeful] ? i : hopeful;
+    }
+    ps_nufft_axis best = make_axis(what, n, PS_NUFFT_MIN_WIDTH + hopeful);
+    double least_error = error_alone(search, &best);
+    for (unsigned i = 0; i < WIDTHS; i++) {
+        if (i == hopeful || bounds[i] > least_error) {
             continue;
         }
-        axis = make_axis(what, n, width);
+        const ps_nufft_axis axis = make_axis(what, n, PS_NUFFT_MIN_WIDTH + i);
         const double error = error_alone(search, &axis);
-        if (error <= least_error) {
+        if (error < least_error ||
+            (error == least_error && axis.window.width < best.window.width)) {
             best = axis;
             least_error = error;
         }
