@@ -88,7 +88,7 @@ enum {
     NUM_SHAPES = sizeof shapes / sizeof shapes[0],
     NUM_EXACTNESS = sizeof exactness / sizeof exactness[0],
     MOST_PROBLEMS = NUM_SHAPES * NUM_EXACTNESS,
-    NUM = PS_NUFFT_NUM_PARTS
+    NUM = PS_NUFFT_PARTS_OF_CPUS
 };
 
 /* ---- problems ---------------------------------------------------------------------------- */

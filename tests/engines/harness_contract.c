@@ -105,9 +105,8 @@ static ps_problem make_problem(const contract_way *way) {
     return ps_engine_problem(way->engine, &asked);
 }
 
-/* Is it the variant that the case is there for? (GPUs may be given another, but have no grids in
- * one piece and no strips: those cases would ask tiles once more. PoCL is slow with their layouts:
- * high degrees are for CPUs.) */
+/* Is it the variant that the case is there for? (GPUs have one for all, which is asked without and
+ * with pairs of numbers. PoCL is slow with their layouts: high degrees are for CPUs.) */
 static bool is_meant(const contract_way *way) {
     const bool is_gpu = ps_device_get_limits(way->device)->has_dedicated_local_memory;
     const int32_t most_degree_of_gpus = 64;

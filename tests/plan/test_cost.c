@@ -191,10 +191,27 @@ static void choice_at_few_degrees(void **state) {
 
 /* ---- parts of fast transforms -------------------------------------------------------------- */
 
+/* Adds what the choice for a device counts, which is its flops. */
+static void add_counts(ps_nufft_counts *most, unsigned dimension, int32_t max_frequency,
+                       uint64_t num_points, const ps_device_limits *limits) {
+    const ps_frequencies set = test_lattice(dimension, max_frequency);
+    const ps_problem problem = test_problem(&set, num_points, 1e-3);
+    const ps_nufft_choice choice = ps_nufft_choose(&problem, limits, PS_SINGLE);
+    const ps_nufft_counts counts = ps_nufft_count(&choice, PS_SINGLE, (double)num_points);
+    double cycles = 0;
+    for (size_t part = 0; part < PS_NUFFT_NUM_PARTS; part++) {
+        most->num[part] += counts.num[part];
+        cycles += counts.num[part] * ps_nufft_cycles[part];
+    }
+    /* two fused operations in a cycle */
+    const double flops = ps_nufft_flops(&choice, PS_SINGLE, (double)num_points);
+    assert_true(fabs(flops - 4 * choice.lanes * cycles) <= 1e-9 * flops);
+}
+
 /* Every part that has cycles is counted somewhere: tiles in two and three dimensions, large grids
  * without and with pairs of numbers, a whole realization on a small grid and on one beyond the
- * nearest cache, strips whose tiles are beyond caches. What is not counted is never measured either
- * (bench/cycles.c). */
+ * nearest cache, strips whose tiles are beyond caches, the grid of GPUs. What is not counted is
+ * never measured either (bench/cycles.c). */
 static void every_part_is_counted(void **state) {
     (void)state;
     static const struct {
@@ -203,22 +220,12 @@ static void every_part_is_counted(void **state) {
         uint64_t num_points;
     } cases[] = {{2, 300, 64}, {3, 10, 100},   {2, 500, 20000000}, {2, 500, 2000000000},
                  {2, 8, 1024}, {2, 64, 16384}, {2, 500, 16384}};
+    const ps_device_limits gpu = test_gpu(true);
     ps_nufft_counts most = {{0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const ps_frequencies set = test_lattice(cases[i].dimension, cases[i].max_frequency);
-        const ps_problem problem = test_problem(&set, cases[i].num_points, 1e-3);
-        const ps_nufft_choice choice = ps_nufft_choose(&problem, NULL, PS_SINGLE);
-        const double num_points = (double)problem.num_points;
-        const ps_nufft_counts counts = ps_nufft_count(&choice, PS_SINGLE, num_points);
-        double cycles = 0;
-        for (size_t part = 0; part < PS_NUFFT_NUM_PARTS; part++) {
-            most.num[part] += counts.num[part];
-            cycles += counts.num[part] * ps_nufft_cycles[part];
-        }
-        /* two fused operations in a cycle */
-        const double flops = ps_nufft_flops(&choice, PS_SINGLE, num_points);
-        assert_true(fabs(flops - 4 * choice.lanes * cycles) <= 1e-9 * flops);
+        add_counts(&most, cases[i].dimension, cases[i].max_frequency, cases[i].num_points, NULL);
     }
+    add_counts(&most, 2, 500, 16384, &gpu);
     for (size_t part = 0; part < PS_NUFFT_NUM_PARTS; part++) {
         if (!(most.num[part] > 0 && ps_nufft_cycles[part] > 0)) {
             fail_msg("part %zu: %g of %g cycles", part, most.num[part], ps_nufft_cycles[part]);

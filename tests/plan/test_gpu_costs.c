@@ -37,10 +37,9 @@ static const struct {
     const char *engine;
     double seconds;
 } jobs[] = {
-    {2, 256, 32, 200000, "torus_nufft", 0.82e-6},  {2, 1024, 128, 20000, "torus_nufft", 12e-6},
-    {2, 4096, 256, 4000, "torus_nufft", 82e-6},    {2, 16384, 512, 1000, "torus_nufft", 1030e-6},
-    {2, 65536, 1024, 64, "torus_nufft", 1.1e-3},   {2, 10000000, 1024, 1, "torus_nufft", 26.5e-3},
-    {3, 1000000, 64, 4, "torus_nufft", 15.2e-3},   {3, 4096, 32, 256, "torus_nufft", 230e-6},
+    {2, 4096, 256, 4000, "torus_nufft", 6e-6},     {2, 16384, 512, 1000, "torus_nufft", 25e-6},
+    {2, 65536, 1024, 64, "torus_nufft", 100e-6},   {2, 10000000, 1024, 1, "torus_nufft", 1.8e-3},
+    {3, 1000000, 64, 4, "torus_nufft", 800e-6},    {1, 65536, 32768, 256, "torus_nufft", 10e-6},
     {2, 256, 32, 200000, "torus_direct", 0.09e-6}, {2, 1024, 128, 20000, "torus_direct", 4.9e-6},
     {2, 4096, 256, 4000, "torus_direct", 77e-6},   {1, 65536, 32768, 256, "torus_direct", 310e-6},
     {0, 1024, 128, 100, "sphere_direct", 278e-6},  {0, 4096, 256, 8, "sphere_direct", 19228e-6},

@@ -99,7 +99,7 @@ static void devices_are_used_for_what_they_can(void **state) {
     } cases[] = {{false, true, 1e-4, "torus_nufft", PS_SINGLE},
                  {false, true, 1e-10, "torus_nufft", PS_DOUBLE},
                  {true, true, 1e-4, "torus_nufft", PS_SINGLE},
-                 {true, true, 1e-10, "torus_direct", PS_DOUBLE},
+                 {true, true, 1e-10, "torus_nufft", PS_DOUBLE},
                  {true, false, 1e-4, "torus_nufft", PS_SINGLE},
                  {true, false, 1e-10, "host_direct", PS_EXTENDED}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

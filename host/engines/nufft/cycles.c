@@ -44,33 +44,17 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     /* strips, which are made of the parts of whole realizations (Zen 4): four bytes of tiles that
      * are too many for a cache */
     [PS_NUFFT_STRIP_FAR] = 1.5,
-};
-
-/* The parts of the variants that serve GPUs, in the same unit: a nominal core does 64 operations in
- * a cycle in single precision and 32 in double, so that an H200 (60 TFLOP/s) is at its peak with a
- * cycle in 0.96 ps. Parts of 0 are in others, or in variants that GPUs do not have. A variant for
- * GPUs counts parts of its own and has its figures here. */
-const double ps_nufft_gpu_cycles[PS_NUFFT_NUM_PARTS] = {
-    /* tiles, measured on an H200 at (N, K) = (256, 32) to (16384, 512) in the plane: 240 to 360 ps
-     * for a point in a tile of four frequencies or two, of which a nominal one has four, whatever
-     * else is done: items wait for each other while a chunk of points is spread. Half of it is laid
-     * on the cells that are touched, so that wide windows are not free. Transforms: 1.4 TFLOP/s, an
-     * estimate between spreading's 0.3 and what transforms of prototypes reached. */
-    [PS_NUFFT_VALUE] = 500,
-    [PS_NUFFT_TOUCHED] = 60,
-    [PS_NUFFT_OPERATION] = 12,
-    /* sorts: 10^7 points in 1.5 ms, by a prototype of the same passes (1.05 ms) and one pass more
-     * over the points */
-    [PS_NUFFT_SORTED] = 157,
-    /* large sets: kernels of an H200 without the sort took 25 ms for (1e7, 1024) in the plane and
-     * 15 for (1e6, 64) in space, on grids of 4608 x 5120 and 320 x 256 x 320 cells; (65536, 1024)
-     * took 1.05 ms on 2560^2 in double precision, a third of which is laid on the cells. Clearing,
-     * halos and pairs of numbers by their bytes at 2.9 TB/s, which sums over realizations of a
-     * prototype reached. */
-    [PS_NUFFT_BOX_ROW] = 200,
-    [PS_NUFFT_BOX_CELL] = 3,
-    [PS_NUFFT_GRID_CELL] = 30,
-    [PS_NUFFT_GRID_PAIR] = 6,
+    /* the grid of GPUs, as if it were cores: a nominal one does 64 operations in a cycle, so
+     * that an H200 (62 TFLOP/s in single precision) is at its peak with a cycle in a picosecond.
+     * Prototypes on an H200 (single, 2026-11). A point sorted (10^7 in 1.05 ms), spread with a
+     * part for its windows and one for each 64 cells (16.5 G points/s at windows of 6); four
+     * bytes written or read (3.3 TB/s); an operation of transforms, a third of which hide behind
+     * memory (2304 x 2304 in 84 microseconds) */
+    [PS_NUFFT_GPU_SORTED] = 105,
+    [PS_NUFFT_GPU_POINT] = 20,
+    [PS_NUFFT_GPU_STEP] = 40,
+    [PS_NUFFT_GPU_WORD] = 1.2,
+    [PS_NUFFT_GPU_OPERATION] = 0.04,
 };
 
 unsigned ps_nufft_nominal_lanes(ps_precision precision) {

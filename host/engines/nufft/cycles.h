@@ -32,12 +32,17 @@ typedef enum ps_nufft_part {
     PS_NUFFT_WHOLE_POWER,
     PS_NUFFT_WHOLE_CLEARED,
     PS_NUFFT_STRIP_FAR,
+    PS_NUFFT_PARTS_OF_CPUS, /* how many they are; those of GPUs follow */
+    PS_NUFFT_GPU_SORTED = PS_NUFFT_PARTS_OF_CPUS,
+    PS_NUFFT_GPU_POINT,
+    PS_NUFFT_GPU_STEP,
+    PS_NUFFT_GPU_WORD,
+    PS_NUFFT_GPU_OPERATION,
     PS_NUFFT_NUM_PARTS
 } ps_nufft_part;
 
 /* Cycles of a core for one of each: of a CPU, and of a GPU as if it were cores. */
 extern const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS];
-extern const double ps_nufft_gpu_cycles[PS_NUFFT_NUM_PARTS];
 
 /* Lanes of a wide CPU, to choose for where there is no device, and on GPUs. */
 unsigned ps_nufft_nominal_lanes(ps_precision precision);

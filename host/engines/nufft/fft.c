@@ -156,6 +156,15 @@ static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *si
     *sine = -sines[quarter % 4];
 }
 
+void ps_fft_roots(uint32_t length, double *roots) {
+    for (uint32_t i = 0; i < length; i++) {
+        long double value[2];
+        twiddle(i, length, &value[0], &value[1]);
+        roots[2 * (size_t)i] = (double)value[0];
+        roots[2 * (size_t)i + 1] = (double)value[1];
+    }
+}
+
 /* [pass][t][j - 1]: as the passes read them. */
 static void fill_twiddles(uint32_t length, const uint32_t *radices, double *out) {
     uint32_t step = 1; /* of twiddles of the whole length */

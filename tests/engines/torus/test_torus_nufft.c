@@ -95,7 +95,6 @@ enum { LINE_SETS = MOST_SETS, LINE_POINTS = 60 };
 /* Multiples of the lanes of any device, by dimension: frequency 0 of axis 0 has a line. */
 static const int32_t line_reach[4] = {0, 0, 48, 16};
 
-/* Not on GPUs, which have none. */
 static void assert_has_line(const ps_frequencies *grid, ps_precision precision) {
     const ps_problem problem = {.frequencies = grid,
                                 .num_points = LINE_POINTS,
@@ -104,7 +103,7 @@ static void assert_has_line(const ps_frequencies *grid, ps_precision precision) 
     const ps_device_limits *limits = ps_device_get_limits(device);
     const ps_nufft_layout layout = ps_nufft_layout_make(&problem, limits, precision);
     assert_ptr_equal(layout.choice.variant, &ps_nufft_tiles);
-    assert_int_equal(layout.choice.has_line, !limits->has_dedicated_local_memory);
+    assert_true(layout.choice.has_line);
 }
 
 /* One frequency may be off by several times the root mean square that tolerances are about. */

@@ -21,9 +21,6 @@
 
 enum { PS_NUFFT_MAX_AXES = 3 };
 
-/* Realizations between points and powers. */
-enum { PS_NUFFT_MOST_AT_ONCE = 1024 };
-
 /* Points of a large set that are sorted and spread at a time. */
 enum { PS_NUFFT_MOST_CHUNK_POINTS = 1 << 21 };
 
@@ -33,8 +30,6 @@ typedef struct ps_nufft_choice {
     const ps_nufft_variant *variant;
     unsigned lanes; /* whose cost counts: those of the device, nominal ones where it has none */
     uint32_t most_cells; /* of an axis */
-    bool is_gpu;         /* whose figures count, and */
-    double sets;         /* realizations side by side, which a GPU needs to be busy: one, or many */
     unsigned num_axes;
     uint32_t span;       /* number of frequencies on axis 0 that are summed directly; */
     bool has_line;       /* frequency 0 is stored apart, as real numbers: kernels/nufft/line.h */

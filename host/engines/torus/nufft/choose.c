@@ -2,7 +2,6 @@
 
 #include "base/round.h"
 #include "engines/torus/nufft/cost.h"
-#include "device/reals.h"
 #include "engines/torus/nufft/error.h"
 #include "engines/nufft/fft.h"
 #include "engines/torus/nufft/variant.h"
@@ -17,9 +16,8 @@ static const double largest_sigma = 4;
 /* Windows must not meet themselves. */
 enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
 
-/* A row must fit into local memory in one lane: on CPUs a megabyte at most of 8 bytes; on GPUs what
- * they have beside a chunk of points. */
-enum { MOST_CELLS = 1 << 17, CHUNK_BYTES = 6 << 10 };
+/* A row must fit into local memory, a megabyte at most, in one lane of 8 bytes. */
+enum { MOST_CELLS = 1 << 17 };
 
 /* Lengths between the two sigmas, twice. */
 enum { MAX_CANDIDATES = 128 };
@@ -208,18 +206,10 @@ static size_t list_candidates(const axis_search *search, ps_nufft_axis candidate
     return num;
 }
 
-/* Launches of every realization on a GPU, 5 microseconds each of an H200 (plan/cost_model.c), where
- * others share theirs. */
-static double launch_flops(const ps_nufft_choice *choice, ps_precision precision) {
-    const double launch = precision == PS_SINGLE ? 3e8 : 1.5e8;
-    return choice->is_gpu ? choice->variant->launches_of_set * launch : 0;
-}
-
 static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_problem *problem,
                      ps_precision precision) {
     const double error = ps_nufft_error(choice, problem, precision, power_of(problem));
-    const double flops = ps_nufft_flops(choice, precision, ps_planned_points(problem)) +
-                         launch_flops(choice, precision);
+    const double flops = ps_nufft_flops(choice, precision, ps_planned_points(problem));
     const bool is_enough = error <= problem->tolerance;
     const bool was_enough = best->error <= problem->tolerance;
     if (best->choice.num_axes == 0 ||
@@ -284,15 +274,6 @@ static unsigned lanes_of(const ps_device_limits *limits, ps_precision precision)
     return lanes > 1 ? lanes : ps_nufft_nominal_lanes(precision);
 }
 
-static uint32_t most_cells_of(const ps_device_limits *limits, ps_precision precision) {
-    if (limits == NULL || !limits->has_dedicated_local_memory) {
-        return MOST_CELLS;
-    }
-    const uint64_t cell_bytes = 2 * ps_real_bytes(precision);
-    const uint64_t room = limits->local_bytes > CHUNK_BYTES ? limits->local_bytes - CHUNK_BYTES : 0;
-    return room / cell_bytes < MOST_CELLS ? (uint32_t)(room / cell_bytes) : MOST_CELLS;
-}
-
 ps_nufft_choice ps_nufft_choose_among(const ps_nufft_variant *const *variants,
                                       const ps_problem *whole, const ps_device_limits *limits,
                                       ps_precision precision) {
@@ -309,14 +290,12 @@ ps_nufft_choice ps_nufft_choose_among(const ps_nufft_variant *const *variants,
              which++) {
             choice.variant = variant;
             choice.lanes = lanes;
-            choice.is_gpu = is_gpu;
-            choice.most_cells = most_cells_of(limits, precision);
-            choice.sets = problem.num_realizations == 1 ? 1 : PS_NUFFT_MOST_AT_ONCE;
+            choice.most_cells = variant->most_cells > 0 ? variant->most_cells : MOST_CELLS;
             consider_grids(&best, &choice, &problem, precision);
         }
     }
     if (best.choice.num_axes > 0 && best.choice.variant->settle != NULL) {
-        best.choice.variant->settle(&best.choice, &problem, limits);
+        best.choice.variant->settle(&best.choice, &problem);
     }
     return best.choice;
 }

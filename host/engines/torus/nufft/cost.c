@@ -22,20 +22,14 @@ void ps_nufft_add_transforms(ps_nufft_counts *counts, double num, uint32_t lengt
     ps_nufft_add(counts, PS_NUFFT_PASSED, num * ps_fft_passed(length));
 }
 
-double ps_nufft_gpu_tiles(const ps_nufft_choice *choice) {
-    return choice->lanes / 4.0;
-}
-
-double ps_nufft_rows_at_once(const ps_nufft_choice *choice, const ps_nufft_axis *axis) {
+double ps_nufft_rows_at_once(const ps_nufft_axis *axis) {
     const double vector_bytes = 64;
-    return choice->is_gpu ? PS_NUFFT_GPU_LOCAL_BYTES * ps_nufft_gpu_tiles(choice) /
-                                (2 * vector_bytes * axis->n)
-                          : nominal_local_bytes / (2 * vector_bytes * axis->n);
+    return nominal_local_bytes / (2 * vector_bytes * axis->n);
 }
 
 double ps_nufft_num_tiles(const ps_nufft_choice *choice) {
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
-    const double narrower = ceil(1 / fmin(1, ps_nufft_rows_at_once(choice, last)));
+    const double narrower = ceil(1 / fmin(1, ps_nufft_rows_at_once(last)));
     return (double)ps_divide_up(ps_nufft_tiled(choice), choice->lanes) * narrower;
 }
 
@@ -81,22 +75,15 @@ ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision preci
     return counts;
 }
 
-double ps_nufft_cycles_of(const ps_nufft_counts *counts, bool is_gpu) {
-    const double *const each = is_gpu ? ps_nufft_gpu_cycles : ps_nufft_cycles;
+double ps_nufft_cycles_of(const ps_nufft_counts *counts) {
     double cycles = 0;
     for (size_t i = 0; i < PS_NUFFT_NUM_PARTS; i++) {
-        cycles += each[i] * counts->num[i];
+        cycles += ps_nufft_cycles[i] * counts->num[i];
     }
     return cycles;
 }
 
-/* How much longer a GPU takes than when it is busy. */
-static double idle_factor(const ps_nufft_choice *choice) {
-    return choice->is_gpu ? fmax(1, 1 / choice->variant->busy_share(choice)) : 1;
-}
-
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
     const ps_nufft_counts counts = ps_nufft_count(choice, precision, num_points);
-    return ps_nufft_cycles_of(&counts, choice->is_gpu) * idle_factor(choice) * choice->lanes *
-           flops_per_lane;
+    return ps_nufft_cycles_of(&counts) * choice->lanes * flops_per_lane;
 }

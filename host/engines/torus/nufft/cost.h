@@ -14,18 +14,13 @@ typedef struct ps_nufft_counts {
 /* How many there are in one realization of num_points points. */
 ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision precision,
                                double num_points);
-double ps_nufft_cycles_of(const ps_nufft_counts *counts, bool is_gpu);
+double ps_nufft_cycles_of(const ps_nufft_counts *counts);
 
 /* What a device of its lanes would do at its peak while it works on one realization of num_points
  * points. */
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points);
 
 /* ---- parts of several variants ----------------------------------------------------------- */
-
-/* Local memory for rows or boxes to choose for on GPUs, of 48 KB. */
-enum { PS_NUFFT_GPU_LOCAL_BYTES = 40 << 10 };
-/* Tiles of four frequencies there, in one of the nominal lanes. */
-double ps_nufft_gpu_tiles(const ps_nufft_choice *choice);
 
 /* Bytes of cells and rows of grids are counted in these. */
 enum { PS_NUFFT_WORD_BYTES = 4 };
@@ -34,9 +29,8 @@ void ps_nufft_add(ps_nufft_counts *counts, ps_nufft_part part, double num);
 /* num transforms of a length. */
 void ps_nufft_add_transforms(ps_nufft_counts *counts, double num, uint32_t length);
 
-/* Rows of an axis, of nominal lanes, that fit into local memory; less than 1 where tiles must be
- * narrower. */
-double ps_nufft_rows_at_once(const ps_nufft_choice *choice, const ps_nufft_axis *axis);
+/* Rows of an axis that fit into local memory; less than 1 where tiles must be narrower. */
+double ps_nufft_rows_at_once(const ps_nufft_axis *axis);
 /* Tiles, as narrow as they must be. */
 double ps_nufft_num_tiles(const ps_nufft_choice *choice);
 /* Sorting, and transforms of the rows of the tiles, all the way to powers. */

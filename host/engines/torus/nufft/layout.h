@@ -4,6 +4,7 @@
 
 #include "engines/nufft/order.h"
 #include "engines/torus/nufft/sizes/boxes.h"
+#include "engines/torus/nufft/sizes/grid.h"
 #include "engines/torus/nufft/sizes/lines.h"
 #include "engines/torus/nufft/sizes/strips.h"
 #include "engines/torus/nufft/sizes/whole.h"
@@ -47,6 +48,7 @@ typedef struct ps_nufft_layout {
     ps_nufft_order_sizes order; /* of the points of parts, on GPUs */
     ps_nufft_whole_sizes whole;
     ps_nufft_strip_sizes strips;
+    ps_nufft_grid_sizes grid;
     size_t groups; /* of whole realizations, and of those in strips */
     uint64_t fixed_bytes, bytes_per_realization;
     uint64_t host_bytes; /* part of fixed_bytes: weights as they came */

@@ -12,6 +12,7 @@
  * last-level cache, on GPUs enough to fill the device. */
 static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
+enum { MOST_AT_ONCE = 1024 };
 
 uint64_t ps_nufft_starts_bytes(const ps_nufft_layout *layout) {
     return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
@@ -48,7 +49,7 @@ size_t ps_nufft_fitting_parts(const ps_problem *problem, const ps_device_limits 
     const double budget = limits->has_dedicated_local_memory
                               ? gpu_work_bytes
                               : work_share * ps_device_typical(limits).cache_bytes;
-    const double fitting = fmin(budget / each, PS_NUFFT_MOST_AT_ONCE);
+    const double fitting = fmin(budget / each, MOST_AT_ONCE);
     const size_t units = fitting > (double)unit ? (size_t)fitting / unit : 1;
     const uint64_t known = problem->num_realizations;
     return known > 0 && known < units * unit ? (size_t)known : units * unit;
@@ -83,13 +84,10 @@ void ps_nufft_measure_axes(ps_nufft_layout *layout) {
     }
 }
 
-/* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory;
- * on CPUs what it holds, in groups of equal size, but work for all cores. */
+/* Tiles of a work-group share windows and phases: what local memory holds, in groups of equal size,
+ * but work for all cores. */
 static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *problem,
                              const ps_device_limits *limits) {
-    if (limits->has_dedicated_local_memory) {
-        return 1;
-    }
     uint64_t groups =
         ps_divide_up(layout->num_tiles, ps_nufft_fitting_tiles(layout, limits->local_bytes));
     const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;

@@ -50,11 +50,9 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
     const ps_nufft_variant *const variant = layout->choice.variant;
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    ps_nufft_choice choice = layout->choice; /* for as many as there are */
-    choice.sets = problem->num_realizations > 0 ? fmin(realizations, choice.sets) : choice.sets;
     return (ps_work){
         .transform_flops =
-            realizations * ps_nufft_flops(&choice, precision, (double)problem->num_points),
+            realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
         .launches = variant->count_launches(layout, (double)problem->num_points, realizations),
         .kernels = variant->kernels[layout->choice.num_axes > 1] +
                    kernels_of_line(&layout->choice) + (layout->order.tile > 0 ? 1 : 0),

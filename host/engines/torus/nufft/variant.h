@@ -17,6 +17,7 @@ struct ps_nufft_variant {
     bool on_cpus, on_gpus; /* kinds of devices that it serves */
     bool is_gridded;       /* spreads points on all axes, axis 0 included, as real numbers */
     bool are_alike;        /* its axes have the same cells and windows */
+    uint32_t most_cells;   /* of an axis; 0: as many as a row in local memory may have */
 
     /* ---- what a choice is made of (choose.c) */
     /* Makes offer number `which` to a problem, with frequencies and without grids; false: there are
@@ -28,13 +29,9 @@ struct ps_nufft_variant {
      * no more, or it cannot be done. NULL: nothing is left to choose. */
     bool (*complete)(ps_nufft_choice *, const ps_problem *, ps_precision, unsigned which);
     /* What is left to decide, whatever it costs, once this choice is the best; NULL: nothing. */
-    void (*settle)(ps_nufft_choice *, const ps_problem *, const ps_device_limits *);
+    void (*settle)(ps_nufft_choice *, const ps_problem *);
     /* Adds what one realization of num_points takes (cost.h). */
     void (*count)(ps_nufft_counts *, const ps_nufft_choice *, ps_precision, double num_points);
-    /* Work-groups side by side, as a share of those that its figures are of; NULL without
-     * on_gpus. With less than 1 the GPU waits. */
-    double (*busy_share)(const ps_nufft_choice *);
-    double launches_of_set; /* there, about; 0 where many sets share them */
 
     /* ---- errors (error.c) */
     double turning_roundings; /* between two transforms of one dimension */
@@ -102,8 +99,10 @@ extern const ps_nufft_variant ps_nufft_large;
 extern const ps_nufft_variant ps_nufft_whole;
 /* The same, on strips of a grid. */
 extern const ps_nufft_variant ps_nufft_strips;
+/* Many sets at a time, spread box by box and transformed axis by axis. */
+extern const ps_nufft_variant ps_nufft_grid;
 
 extern const ps_nufft_launcher ps_nufft_tiles_launcher, ps_nufft_large_launcher,
-    ps_nufft_whole_launcher, ps_nufft_strips_launcher;
+    ps_nufft_whole_launcher, ps_nufft_strips_launcher, ps_nufft_grid_launcher;
 
 #endif

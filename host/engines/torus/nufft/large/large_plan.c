@@ -9,9 +9,6 @@
 
 #include <math.h>
 
-/* Of the edges of boxes, where local memory is short. */
-enum { MOST_HALVINGS = 4 };
-
 /* Grids take one set at a time: never worth while for fewer points. */
 static const double least_points = 30000;
 
@@ -104,20 +101,6 @@ static void count(ps_nufft_counts *counts, const ps_nufft_choice *choice, ps_pre
     }
 }
 
-/* Boxes of one colour are there side by side; the figures are of 576 of them, (1e7, 1024) in the
- * plane. */
-static double busy_share(const ps_nufft_choice *choice) {
-    const double busy = 576;
-    const double real_bytes = 4 * 16.0 / choice->lanes;
-    unsigned halvings = 0;
-    ps_nufft_boxes boxes = ps_nufft_boxes_measure(choice, halvings);
-    while ((double)ps_nufft_boxes_reals(&boxes) * real_bytes > PS_NUFFT_GPU_LOCAL_BYTES &&
-           halvings < MOST_HALVINGS) {
-        boxes = ps_nufft_boxes_measure(choice, ++halvings);
-    }
-    return (double)ps_nufft_boxes_of_colour(&boxes) / busy;
-}
-
 /* ---- sizes ------------------------------------------------------------------------------- */
 
 /* Transforms have a row. */
@@ -192,6 +175,7 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uin
 /* Boxes as large as local memory has room for; false: it has no room for the smallest. Where edges
  * are halved, sums round in another order. */
 static bool choose_boxes(ps_nufft_layout *layout, const ps_device_limits *limits) {
+    enum { MOST_HALVINGS = 4 };
     unsigned halvings = 0;
     do {
         layout->boxes = ps_nufft_boxes_measure(&layout->choice, halvings++);
@@ -240,14 +224,11 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
 
 /* Kernels: all that makes tiles of a grid. */
 const ps_nufft_variant ps_nufft_large = {.on_cpus = true,
-                                         .on_gpus = true,
                                          .is_gridded = true,
                                          .offer = offer,
                                          .unit = unit,
                                          .complete = complete,
                                          .count = count,
-                                         .busy_share = busy_share,
-                                         .launches_of_set = 20, /* sort, colours, transforms */
                                          .has_lattices = true,
                                          .measure = measure,
                                          .local_bytes = local_bytes,

@@ -29,10 +29,8 @@ ps_nufft_line_sizes ps_nufft_lines_measure(const ps_nufft_choice *choice, unsign
                                  .spread_reals = spread_reals_of(along)};
 }
 
-bool ps_nufft_lines_pay(const ps_nufft_choice *choice, const ps_problem *problem,
-                        const ps_device_limits *limits) {
-    const bool is_gpu = limits != NULL && limits->has_dedicated_local_memory;
+bool ps_nufft_lines_pay(const ps_nufft_choice *choice, const ps_problem *problem) {
     const bool is_alone =
         choice->stride == 0 && choice->span > 1 && choice->span % choice->lanes == 1;
-    return is_alone && problem->num_realizations != 1 && !is_gpu;
+    return is_alone && problem->num_realizations != 1;
 }

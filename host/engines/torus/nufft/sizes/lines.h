@@ -15,10 +15,8 @@ typedef struct ps_nufft_line_sizes {
 ps_nufft_line_sizes ps_nufft_lines_measure(const ps_nufft_choice *choice, unsigned lanes);
 
 /* Frequency 0 of axis 0 is a line of real numbers where it would be alone in a tile: for several
- * realizations, which share the transform of lines, on CPUs, where tiles have many lanes. Measured
- * (Zen 4): 0.70 to 0.94 of the time in three dimensions, 0.83 to 1.0 in two
- * (docs/engines/torus_nufft.md). */
-bool ps_nufft_lines_pay(const ps_nufft_choice *choice, const ps_problem *problem,
-                        const ps_device_limits *limits);
+ * realizations, which share the transform of lines. Measured (Zen 4): 0.70 to 0.94 of the time
+ * in three dimensions, 0.83 to 1.0 in two (docs/engines/torus_nufft.md). */
+bool ps_nufft_lines_pay(const ps_nufft_choice *choice, const ps_problem *problem);
 
 #endif

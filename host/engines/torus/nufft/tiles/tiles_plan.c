@@ -41,9 +41,8 @@ static bool offer(const ps_problem *problem, unsigned lanes, unsigned which,
     return which == 0 && ps_planned_points(problem) <= most_sorted_points;
 }
 
-static void settle(ps_nufft_choice *choice, const ps_problem *problem,
-                   const ps_device_limits *limits) {
-    choice->has_line = ps_nufft_lines_pay(choice, problem, limits);
+static void settle(ps_nufft_choice *choice, const ps_problem *problem) {
+    choice->has_line = ps_nufft_lines_pay(choice, problem);
 }
 
 /* ---- cost -------------------------------------------------------------------------------- */
@@ -93,7 +92,7 @@ static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choi
     const double points_of_list = has_rows ? num_points / first->n : num_points;
     const double visits = lists * filled_places(points_of_list);
     const double touched = touched_cells(last, points_of_list);
-    const double groups = ceil(num_tiles / fmax(1, floor(ps_nufft_rows_at_once(choice, last))));
+    const double groups = ceil(num_tiles / fmax(1, floor(ps_nufft_rows_at_once(last))));
     const double degree = last->window.width + 2;
     ps_nufft_add(counts, PS_NUFFT_PHASE, visits * groups);
     ps_nufft_add(counts, PS_NUFFT_COEFFICIENT,
@@ -110,17 +109,6 @@ static void count(ps_nufft_counts *counts, const ps_nufft_choice *choice, ps_pre
     (void)precision;
     ps_nufft_add_tiles(counts, choice, num_points);
     count_spreading(counts, choice, num_points);
-}
-
-/* A work-group of 64 items has a row of a tile; an H200 has 132 units, each of which needs eight of
- * them: two for each of its four parts. */
-static double busy_share(const ps_nufft_choice *choice) {
-    const double busy = 132 * 8;
-    unsigned num = 0;
-    const ps_nufft_axis *const axes = ps_nufft_last_axes(choice, &num);
-    const double rows =
-        ps_nufft_num_tiles(choice) * ps_nufft_gpu_tiles(choice) * (num > 1 ? (double)axes[0].n : 1);
-    return choice->sets * rows / busy;
 }
 
 /* ---- sizes ------------------------------------------------------------------------------- */
@@ -180,11 +168,9 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
 
 /* Kernels: the sort, and rows and columns of tiles. */
 const ps_nufft_variant ps_nufft_tiles = {.on_cpus = true,
-                                         .on_gpus = true,
                                          .offer = offer,
                                          .settle = settle,
                                          .count = count,
-                                         .busy_share = busy_share,
                                          .measure = measure,
                                          .local_bytes = ps_nufft_tiles_local_bytes,
                                          .slot = ps_nufft_tile_slot,

@@ -42,7 +42,7 @@ static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choic
 static double transform_cycles(const ps_nufft_choice *choice) {
     ps_nufft_counts counts = {{0}};
     count_whole_transforms(&counts, choice);
-    return ps_nufft_cycles_of(&counts, choice->is_gpu);
+    return ps_nufft_cycles_of(&counts);
 }
 
 static void count(ps_nufft_counts *counts, const ps_nufft_choice *choice, ps_precision precision,

@@ -1,0 +1,41 @@
+/* The grid of GPUs: boxes in which points are spread (kernels/nufft/grid/spread.cl), and passes
+ * of its transform. */
+#ifndef PS_ENGINES_TORUS_NUFFT_SIZES_GRID_H
+#define PS_ENGINES_TORUS_NUFFT_SIZES_GRID_H
+
+#include "engines/torus/nufft/sizes/passes.h"
+
+/* By the axes of the kernels: those that a problem does not have come first, one cell long. */
+typedef struct ps_nufft_grid_sizes {
+    uint32_t cells[PS_NUFFT_MAX_AXES];
+    uint32_t edges[PS_NUFFT_MAX_AXES]; /* of a box: powers of 2 that divide the cells */
+    uint32_t sides[PS_NUFFT_MAX_AXES]; /* with the cells behind it */
+    uint32_t boxes[PS_NUFFT_MAX_AXES];
+    uint32_t pitch, copies; /* of a box, in local memory */
+    uint32_t flush;         /* points after which a box puts sums into pairs */
+    size_t tile_reals;      /* of all boxes of a set */
+    size_t local_bytes;     /* the most that a launch takes */
+    size_t numbers[2];      /* complex numbers of a set behind every other pass */
+    unsigned num_passes;    /* 0: this cannot be done */
+    ps_nufft_pass passes[PS_NUFFT_MOST_PASSES];
+} ps_nufft_grid_sizes;
+
+ps_nufft_grid_sizes ps_nufft_grid_measure(const ps_nufft_choice *choice, double num_points,
+                                          const ps_device_limits *limits, size_t real_bytes);
+
+/* tile_reals where local memory has 48 KiB, as drivers of GPUs offer; what costs are counted by. */
+double ps_nufft_grid_nominal_tile(const ps_nufft_choice *choice, double num_points,
+                                  size_t real_bytes);
+
+size_t ps_nufft_grid_boxes(const ps_nufft_grid_sizes *sizes);
+/* Local memory of the launch that spreads: numbers of copies, of windows, and cells. */
+typedef struct ps_nufft_grid_local {
+    size_t copies, windows, cells;
+} ps_nufft_grid_local;
+ps_nufft_grid_local ps_nufft_grid_spread_local(const ps_nufft_grid_sizes *sizes,
+                                               const ps_nufft_choice *choice, size_t real_bytes);
+
+/* Points for each cell of the grid after which boxes put sums into pairs. */
+#define PS_NUFFT_GRID_FLUSH 0.5
+
+#endif
