@@ -347,8 +347,9 @@ const ps_command ps_command_bench = {
         "run takes about three minutes.",
     .takes = PS_VERB_BIT(bench),
     .formats = "csv|json|jsonl",
-    .examples =
-        {"pointspec bench --case plane-many --quick -o bench.csv --plot bench.svg",
-         "pointspec bench --case sphere --engine sphere_nufft --precision single --format json"},
+    .examples = {"pointspec bench --case plane-many --precision single --quick -o bench.csv --plot "
+                 "bench.svg",
+                 "pointspec bench --case pairs --engine pairs_direct --precision single --quick "
+                 "--format json"},
     .run = run,
 };

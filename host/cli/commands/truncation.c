@@ -15,6 +15,6 @@ const ps_command ps_command_truncation = {
     .result = &ps_kind_truncation,
     .takes = PS_VERB_BIT(truncation),
     .examples =
-        {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5",
+        {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5 -l 12",
          "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},
 };
