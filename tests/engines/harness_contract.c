@@ -31,7 +31,7 @@ static const contract_case cases[] = {
     {"strips of 135", 2, 135, false, false, PS_OF_AMPLITUDES, {0, 1e-9, 0}, 20000, "strips="},
     {"strips of 159", 2, 159, false, false, PS_OF_AMPLITUDES, {1e-6, 0, 0}, 20000, "strips="},
     {"strips of 160", 2, 160, false, false, PS_OF_AMPLITUDES, {1e-6, 0, 0}, 20000, "strips="},
-    {"grid of the plane", 2, 9, false, false, PS_OF_AMPLITUDES, {1e-6, 0, 0}, 5000000, "gridded"},
+    {"grid of the plane", 2, 9, false, false, PS_OF_AMPLITUDES, {1e-6, 0, 0}, 20000000, "gridded"},
     {"grid of space", 3, 5, false, false, PS_OF_AMPLITUDES, {2e-6, 0, 0}, 5000000, "gridded"},
     {"degree 1", 0, 1, false, false, PS_OF_AMPLITUDES, {1e-4, 1e-12, 1}, 0, NULL},
     {"even degree 2", 0, 2, true, false, PS_OF_AMPLITUDES, {1e-5, 1e-9, 1}, 0, NULL},

@@ -12,8 +12,8 @@
 
 typedef struct grid_spread_numbers {
     window_numbers windows[GRID_AXES];
-    ps_u32 boxes[GRID_AXES];
-    ps_u32 flush; /* points of a box after which sums go into pairs: whole chunks */
+    ps_u32 flush;    /* points of a box after which sums go into pairs: whole chunks */
+    ps_u32 has_sums; /* boxes have something before */
 } grid_spread_numbers;
 
 typedef struct grid_lines_numbers {
@@ -27,7 +27,7 @@ typedef struct grid_lines_numbers {
     ps_u32 neighbours; /* of a line that is turned: those of the axis that it is part of */
 } grid_lines_numbers;
 
-SAME_SIZE(grid_spread_numbers, 64);
+SAME_SIZE(grid_spread_numbers, 56);
 SAME_SIZE(grid_lines_numbers, 64);
 
 #endif

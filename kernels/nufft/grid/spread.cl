@@ -9,7 +9,7 @@
  *   places, sorted, heights  of nufft/sort.cl
  *   starts    [set][box + 2]: places in the order of boxes
  *   windows_0, windows_1, windows_2  coefficients of nufft/window.h
- *   high, low [set][box][SIDE_0][SIDE_1][SIDE_2]: numbers, with PAIRS pairs of them; without, low is not touched
+ *   high, low [set][box][SIDE_0][SIDE_1][SIDE_2]: numbers, with PAIRS pairs of them, to which it may be added; without, low is not touched
  *   copies    local, [COPIES][SIDE_0][SIDE_1][PITCH]
  *   values    local, [COPIES * GRID_RUN][WINDOW_REALS]: windows of a chunk of points
  *   cells     local, [COPIES * GRID_RUN]: where they begin
@@ -187,7 +187,7 @@ nufft_grid_spread(const grid_spread_numbers numbers, __global const ulong *restr
         at += num;
 #if PAIRS
         if (at == end || (at - begin) % numbers.flush == 0) {
-            put_away(copies, to, to_low, at - begin > numbers.flush);
+            put_away(copies, to, to_low, numbers.has_sums || at - begin > numbers.flush);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
 #else

@@ -1,6 +1,6 @@
 /* The grid of GPUs (host/engines/torus/nufft/grid/), on a device that is taken for one: against
  * torus_direct in double precision, on the first grid of every kind: axes, precisions, boxes,
- * radices, lines in one piece and in two halves, sums in pairs. */
+ * radices, lines in one piece and in two halves, sums in pairs, sets in chunks. */
 #include "harness_shapes.h"
 
 #include "engines/torus/nufft/layout.h"
@@ -19,8 +19,8 @@ typedef struct grid_case {
     int32_t K;
     ps_precision precision;
     double tolerance;
-    size_t num_points, planned_points;
-    uint64_t local_kib, items, other_items; /* of a work-group, together and alone */
+    size_t num_points, planned_points, chunk; /* chunk 0: all points of a set */
+    uint64_t local_kib, items, other_items;   /* of a work-group, together and alone */
     const char *says;
 } grid_case;
 
@@ -29,21 +29,23 @@ enum { SETS = 3 };
 /* Lines of 4096 and more numbers go in two halves through 16 KiB; a plan of millions of points
  * has pairs. */
 static const grid_case cases[] = {
-    {1, 37, PS_SINGLE, 1e-6, 60, 0, 48, 0, 64, "passes=1"},
-    {1, 5000, PS_SINGLE, 1e-6, 200, 0, 16, 64, 64, "passes=2"},
-    {1, 1000, PS_DOUBLE, 1e-9, 200, 1000000, 48, 256, 256, "passes=1"},
-    {2, 9, PS_SINGLE, 1e-6, 60, 0, 48, 64, 64, "boxes=1x16x16 copies=1"},
-    {2, 130, PS_SINGLE, 1e-6, 2000, 300000, 48, 128, 128, "boxes=1x32x32 copies=4"},
-    {2, 33, PS_SINGLE, 1e-5, 2000, 5000000, 32, 256, 512, "copies=4"},
-    {2, 21, PS_DOUBLE, 1e-12, 300, 0, 48, 32, 32, "boxes=1x32x32"},
-    {3, 4, PS_SINGLE, 1e-5, 100, 0, 48, 64, 64, "boxes=8x16x16"},
-    {3, 7, PS_DOUBLE, 1e-9, 500, 0, 32, 64, 64, "boxes=4x4x4"},
-    {3, 6, PS_SINGLE, 3e-6, 900, 5000000, 48, 512, 96, "copies=1"},
+    {1, 37, PS_SINGLE, 1e-6, 60, 0, 0, 48, 0, 64, "passes=1"},
+    {1, 5000, PS_SINGLE, 1e-6, 200, 0, 0, 16, 64, 64, "passes=2"},
+    {1, 1000, PS_DOUBLE, 1e-9, 200, 1000000, 0, 48, 256, 256, "passes=1"},
+    {2, 9, PS_SINGLE, 1e-6, 60, 0, 0, 48, 64, 64, "boxes=1x16x16 copies=1"},
+    {2, 130, PS_SINGLE, 1e-6, 2000, 300000, 0, 48, 128, 128, "boxes=1x32x32 copies=4"},
+    {2, 33, PS_SINGLE, 1e-5, 2000, 5000000, 0, 32, 256, 512, "copies=4"},
+    {2, 21, PS_DOUBLE, 1e-12, 300, 0, 0, 48, 32, 32, "boxes=1x32x32"},
+    {3, 4, PS_SINGLE, 1e-5, 100, 0, 0, 48, 64, 64, "boxes=8x16x16"},
+    {3, 7, PS_DOUBLE, 1e-9, 500, 0, 0, 32, 64, 64, "boxes=4x4x4"},
+    {3, 6, PS_SINGLE, 3e-6, 900, 5000000, 0, 48, 512, 96, "copies=1"},
+    {2, 12, PS_SINGLE, 1e-5, 200, 20000000, 32, 48, 64, 64, "passes=2"},
+    {1, 90, PS_DOUBLE, 1e-9, 100, 20000000, 16, 48, 64, 64, "passes=1"},
 };
 
 static ps_problem make_problem(const grid_case *what, const ps_frequencies *grid) {
     return (ps_problem){.frequencies = grid,
-                        .num_points = what->num_points,
+                        .num_points = what->chunk > 0 ? what->chunk : what->num_points,
                         .planned_points = what->planned_points,
                         .num_realizations = SETS,
                         .has_weights = true,
@@ -66,7 +68,8 @@ static void check_choice(const grid_case *what, const ps_problem *problem) {
     const ps_nufft_layout layout =
         ps_nufft_layout_make(problem, ps_device_get_limits(device), what->precision);
     ps_text text = {0};
-    assert_ptr_equal(layout.choice.variant, &ps_nufft_grid);
+    assert_ptr_equal(layout.choice.variant,
+                     what->chunk > 0 ? &ps_nufft_grid_chunks : &ps_nufft_grid);
     assert_true(layout.lanes > 0);
     layout.choice.variant->describe(&layout, &text);
     print_message("d=%u K=%d n=%u:%s\n", what->dimension, (int)what->K, layout.choice.axes[0].n,

@@ -101,8 +101,11 @@ extern const ps_nufft_variant ps_nufft_whole;
 extern const ps_nufft_variant ps_nufft_strips;
 /* Many sets at a time, spread box by box and transformed axis by axis. */
 extern const ps_nufft_variant ps_nufft_grid;
+/* The same of one very large set at a time, chunk by chunk. */
+extern const ps_nufft_variant ps_nufft_grid_chunks;
 
 extern const ps_nufft_launcher ps_nufft_tiles_launcher, ps_nufft_large_launcher,
-    ps_nufft_whole_launcher, ps_nufft_strips_launcher, ps_nufft_grid_launcher;
+    ps_nufft_whole_launcher, ps_nufft_strips_launcher, ps_nufft_grid_launcher,
+    ps_nufft_grid_chunks_launcher;
 
 #endif

@@ -21,6 +21,7 @@ typedef struct pass {
 
 typedef struct grid {
     cl_kernel spread;
+    bool has_sums;       /* boxes, of the chunks before */
     ps_buffer high, low; /* tiles */
     ps_buffer numbers[2];
     pass passes[PS_NUFFT_MOST_PASSES];
@@ -176,13 +177,12 @@ static pspec_status spread(ps_nufft_state *self, size_t num_sets, ps_error *erro
     const ps_nufft_grid_local local =
         ps_nufft_grid_spread_local(sizes, &layout->choice, layout->real_bytes);
     const ps_buffer *coefficients[GRID_AXES];
-    grid_spread_numbers numbers = {.flush = sizes->flush};
+    grid_spread_numbers numbers = {.flush = sizes->flush, .has_sums = of(self)->has_sums};
     double flops = 2 * (double)self->places.num_points;
     for (unsigned i = 0; i < GRID_AXES; i++) {
         const ps_nufft_plan *plan = &self->plans[i < first ? 0 : i - first];
         coefficients[i] = &plan->coefficients; /* not looked at where there is no axis */
         numbers.windows[i] = ps_nufft_window_numbers(plan);
-        numbers.boxes[i] = sizes->boxes[i];
         flops *= i < first ? 1 : plan->axis.window.width;
     }
     const ps_range range = ps_range_shared(self->device, sizes->copies * slots[num - 1],
@@ -228,14 +228,66 @@ static pspec_status run_pass(ps_nufft_state *self, unsigned i, size_t num_sets,
                               self->layout.real_bytes));
 }
 
-static pspec_status run(ps_nufft_state *self, size_t num_realizations,
-                        const ps_nufft_target *target, ps_error *error) {
-    PS_TRY(spread(self, num_realizations, error));
+static pspec_status transform(ps_nufft_state *self, size_t num_sets, const ps_nufft_target *target,
+                              ps_error *error) {
     for (unsigned i = 0; i < self->layout.grid.num_passes; i++) {
-        PS_TRY(run_pass(self, i, num_realizations, target, error));
+        PS_TRY(run_pass(self, i, num_sets, target, error));
     }
     return PSPEC_OK;
 }
 
+static pspec_status run(ps_nufft_state *self, size_t num_realizations,
+                        const ps_nufft_target *target, ps_error *error) {
+    PS_TRY(spread(self, num_realizations, error));
+    return transform(self, num_realizations, target, error);
+}
+
 const ps_nufft_launcher ps_nufft_grid_launcher = {
     .sorts = true, .own_bytes = sizeof(grid), .create = create, .free = free_own, .run = run};
+
+/* ---- chunks ------------------------------------------------------------------------------ */
+
+static void begin(ps_nufft_state *self) {
+    of(self)->has_sums = false;
+}
+
+static pspec_status add(ps_nufft_state *self, const ps_batch *block, ps_error *error) {
+    const pspec_pattern *const whole = &block->patterns[0];
+    const size_t most = self->layout.part_points;
+    for (size_t first = 0; first < whole->num_points; first += most) {
+        const size_t rest = whole->num_points - first;
+        const pspec_pattern part = {
+            .dimension = whole->dimension,
+            .num_points = rest < most ? rest : most,
+            .points = whole->points != NULL ? whole->points + first * whole->dimension : NULL,
+            .weights = whole->weights != NULL ? whole->weights + first : NULL};
+        ps_batch chunk = *block;
+        chunk.patterns = &part;
+        chunk.is_one_set = true;
+        chunk.first_point = block->first_point + first;
+        PS_TRY(ps_batch_go_on(block, error));
+        PS_TRY(ps_nufft_places_upload(&self->places, &chunk, error));
+        PS_TRY(ps_nufft_places_sort(&self->places, 1, error));
+        PS_TRY(spread(self, 1, error));
+        of(self)->has_sums = true;
+    }
+    return PSPEC_OK;
+}
+
+/* Of a set without points boxes are empty. */
+static pspec_status finish_chunks(ps_nufft_state *self, size_t num_realizations,
+                                  const ps_nufft_target *target, ps_error *error) {
+    if (!of(self)->has_sums) {
+        PS_TRY(ps_buffer_clear(self->device, &of(self)->high, error));
+        PS_TRY(ps_buffer_clear(self->device, &of(self)->low, error));
+    }
+    return transform(self, num_realizations, target, error);
+}
+
+const ps_nufft_launcher ps_nufft_grid_chunks_launcher = {.sorts = true,
+                                                         .own_bytes = sizeof(grid),
+                                                         .create = create,
+                                                         .free = free_own,
+                                                         .run = finish_chunks,
+                                                         .begin = begin,
+                                                         .add = add};

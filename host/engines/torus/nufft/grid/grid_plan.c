@@ -9,11 +9,23 @@
 
 /* ---- choice ------------------------------------------------------------------------------ */
 
+/* Sets of up to so many points are there whole, many at a time (60 bytes a point of the plane);
+ * others come in chunks, each of which reads and writes all boxes once more. */
+static const double most_whole_points = 1 << 24;
+enum { CHUNK_POINTS = 1 << 23 };
+
 static bool offer(const ps_problem *problem, unsigned lanes, unsigned which,
                   ps_nufft_choice *choice) {
     (void)lanes;
     *choice = ps_nufft_choice_of_axes(problem, 0);
-    return which == 0;
+    return which == 0 && ps_planned_points(problem) <= most_whole_points;
+}
+
+static bool offer_chunks(const ps_problem *problem, unsigned lanes, unsigned which,
+                         ps_nufft_choice *choice) {
+    (void)lanes;
+    *choice = ps_nufft_choice_of_axes(problem, 0);
+    return which == 0 && ps_planned_points(problem) > most_whole_points;
 }
 
 /* Boxes have edges that divide the cells: long axes have long ones. */
@@ -42,12 +54,27 @@ static bool can_be_plain(const ps_nufft_choice *choice, double num_points) {
     return windows <= windows_on_a_cell;
 }
 
+static void put_into_pairs(ps_nufft_choice *choice) {
+    choice->chunk = (uint64_t)(cells_of(choice) * PS_NUFFT_GRID_FLUSH);
+}
+
+static bool complete_chunks(ps_nufft_choice *choice, const ps_problem *problem,
+                            ps_precision precision, unsigned which) {
+    (void)problem;
+    (void)precision;
+    put_into_pairs(choice);
+    return which == 0;
+}
+
 static bool complete(ps_nufft_choice *choice, const ps_problem *problem, ps_precision precision,
                      unsigned which) {
     const bool has_plain = can_be_plain(choice, ps_planned_points(problem));
     (void)precision;
-    choice->chunk =
-        has_plain && which == 0 ? 0 : (uint64_t)(cells_of(choice) * PS_NUFFT_GRID_FLUSH);
+    if (has_plain && which == 0) {
+        choice->chunk = 0;
+    } else {
+        put_into_pairs(choice);
+    }
     return which == 0 || (has_plain && which == 1);
 }
 
@@ -116,6 +143,10 @@ static uint64_t table_bytes(const ps_nufft_layout *layout) {
     return bytes;
 }
 
+static bool is_in_chunks(const ps_nufft_layout *layout) {
+    return layout->choice.variant == &ps_nufft_grid_chunks;
+}
+
 static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
                            const ps_device_limits *limits) {
     const ps_nufft_grid_sizes *grid = &layout->grid;
@@ -125,7 +156,8 @@ static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
                                  2 * grid->numbers[1] * layout->real_bytes};
     const uint64_t each = ps_nufft_part_bytes(layout, dimension) +
                           (layout->has_pairs ? 2 : 1) * tiles + numbers[0] + numbers[1];
-    layout->parts = ps_nufft_fitting_parts(problem, limits, (double)each, 1);
+    layout->parts =
+        is_in_chunks(layout) ? 1 : ps_nufft_fitting_parts(problem, limits, (double)each, 1);
     layout->fixed_bytes = layout->parts * each + table_bytes(layout);
     const uint64_t buffers[] = {tiles,
                                 numbers[0],
@@ -163,7 +195,8 @@ static void measure(ps_nufft_layout *layout, const ps_problem *problem,
     set_boxes(layout);
     layout->bytes_per_realization = layout->stride * layout->real_bytes;
     layout->largest_buffer_per_realization = layout->bytes_per_realization;
-    ps_nufft_set_part_points(layout, problem->num_points, limits);
+    const bool is_cut = is_in_chunks(layout) && problem->num_points > CHUNK_POINTS;
+    ps_nufft_set_part_points(layout, is_cut ? CHUNK_POINTS : problem->num_points, limits);
     choose_at_once(layout, problem, limits);
     layout->host_bytes = layout->parts * layout->real_bytes * layout->part_places;
 }
@@ -180,12 +213,13 @@ static uint32_t slot(const ps_nufft_layout *layout, const int32_t *k, unsigned d
     return place * last + (uint32_t)(sign * k[dimension - 1]);
 }
 
-/* Sorting, spreading and passes, for some realizations at a time. */
+/* Sorting and spreading, of some realizations at a time or a chunk of one, and passes. */
 static double count_launches(const ps_nufft_layout *layout, double num_points,
                              double realizations) {
-    (void)num_points;
+    const double chunks =
+        is_in_chunks(layout) ? fmax(1, ceil(num_points / (double)layout->part_points)) : 1;
     return ceil(realizations / (double)layout->parts) *
-           (ps_nufft_order_launches(&layout->order) + 1 + layout->grid.num_passes);
+           (chunks * (ps_nufft_order_launches(&layout->order) + 1) + layout->grid.num_passes);
 }
 
 static void describe(const ps_nufft_layout *layout, ps_text *text) {
@@ -197,19 +231,15 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
 
 /* Long axes are transformed in two halves, each of which fits into a work-group. Kernels: sort,
  * spread, and lines of each axis. */
-const ps_nufft_variant ps_nufft_grid = {.on_gpus = true,
-                                        .is_gridded = true,
-                                        .are_alike = true,
-                                        .most_cells = 1 << 24,
-                                        .offer = offer,
-                                        .unit = unit,
-                                        .complete = complete,
-                                        .count = count,
-                                        .has_lattices = true,
-                                        .measure = measure,
-                                        .local_bytes = local_bytes,
-                                        .slot = slot,
-                                        .count_launches = count_launches,
-                                        .kernels = {3, 5},
-                                        .describe = describe,
-                                        .launcher = &ps_nufft_grid_launcher};
+#define GRID_ROW(OFFER, COMPLETE, LAUNCHER)                                                        \
+    {                                                                                              \
+        .on_gpus = true, .is_gridded = true, .are_alike = true, .most_cells = 1 << 24,             \
+        .offer = (OFFER), .unit = unit, .complete = (COMPLETE), .count = count,                    \
+        .has_lattices = true, .measure = measure, .local_bytes = local_bytes, .slot = slot,        \
+        .count_launches = count_launches, .kernels = {3, 5}, .describe = describe,                 \
+        .launcher = (LAUNCHER)                                                                     \
+    }
+
+const ps_nufft_variant ps_nufft_grid = GRID_ROW(offer, complete, &ps_nufft_grid_launcher);
+const ps_nufft_variant ps_nufft_grid_chunks =
+    GRID_ROW(offer_chunks, complete_chunks, &ps_nufft_grid_chunks_launcher);
