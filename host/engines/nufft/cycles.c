@@ -48,8 +48,8 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
      * that an H200 (62 TFLOP/s in single precision) is at its peak with a cycle in a picosecond.
      * Prototypes on an H200 (single, 2026-11). A point sorted (10^7 in 1.05 ms), spread with a
      * part for its windows and one for each 64 cells (16.5 G points/s at windows of 6); four
-     * bytes written or read (3.3 TB/s); an operation of transforms, a third of which hide behind
-     * memory (2304 x 2304 in 84 microseconds) */
+     * bytes written or read (3.3 TB/s); an operation of transforms, an estimate of what memory
+     * does not hide (2304 x 2304 took 84 microseconds in all) */
     [PS_NUFFT_GPU_SORTED] = 105,
     [PS_NUFFT_GPU_POINT] = 20,
     [PS_NUFFT_GPU_STEP] = 40,
