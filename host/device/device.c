@@ -357,11 +357,7 @@ void ps_device_close(ps_device *device) {
     if (device == NULL) {
         return;
     }
-    for (size_t i = 0; i < device->num_programs; i++) {
-        clReleaseProgram(device->programs[i].program);
-        free(device->programs[i].key);
-    }
-    free(device->programs);
+    ps_programs_release(device);
     globfree(&device->kept);
     free(device->figures);
     ps_staged_release(device);

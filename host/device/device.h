@@ -1,9 +1,9 @@
 /* An OpenCL device: choice, limits, buffers, programs, launches, profile.
  *
- * A ps_device owns its context, its in-order queues and every program built through it. One thread
- * at a time; different devices, or the same one opened twice, in different threads: looking,
- * opening and closing go under the lock of the process, since PoCL has none there. Nothing here
- * knows what the kernels compute.
+ * A ps_device owns its context, its in-order queues and every program and kernel built through it.
+ * One thread at a time; different devices, or the same one opened twice, in different threads:
+ * looking, opening and closing go under the lock of the process, since PoCL has none there. Nothing
+ * here knows what the kernels compute.
  */
 #ifndef PS_DEVICE_DEVICE_H
 #define PS_DEVICE_DEVICE_H
@@ -210,11 +210,15 @@ bool ps_units_are_right(ps_device *device, ps_units units);
 
 /* ---- programs and kernels -------------------------------------------------------------------- */
 
+/* A kernel, which belongs to the device as its program does: both stay until it is closed. */
+typedef struct ps_kernel ps_kernel;
+
 /* The kernel `name` of source file `source` (below kernels/), built with the -D options given, for
- * example "-DPRECISION=32 -DLANES=16". A program is built once per (source, options). The kernel
- * belongs to the caller: clReleaseKernel. A failed build puts the log into the message. */
-pspec_status ps_kernel_create(ps_device *device, cl_kernel *out, const char *source,
-                              const char *name, const char *options, ps_error *error) PS_MUST_CHECK;
+ * example "-DPRECISION=32 -DLANES=16". A program is built once per (source, options), and asking
+ * again gives the same kernel: arguments are those of a launch. A failed build puts the log into
+ * the message. */
+pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *source, const char *name,
+                           const char *options, ps_error *error) PS_MUST_CHECK;
 
 /* ---- launches -------------------------------------------------------------------------------- */
 
@@ -261,7 +265,7 @@ void ps_device_set_group_size(ps_device *device, size_t group_size);
 
 /* Checks the number of arguments, the work-group size and local memory against kernel and device,
  * then launches. A range with a zero extent does nothing. */
-pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_range *range,
+pspec_status ps_launch_arguments(ps_device *device, ps_kernel *kernel, const ps_range *range,
                                  const ps_argument *arguments, size_t num_arguments,
                                  ps_error *error) PS_MUST_CHECK;
 #define PS_LAUNCH(device, kernel, range, error, ...)                                               \

@@ -2,6 +2,7 @@
 #ifndef PS_DEVICE_DEVICE_PRIVATE_H
 #define PS_DEVICE_DEVICE_PRIVATE_H
 
+#include "base/text.h"
 #include "device/device.h"
 
 #include <glob.h>
@@ -9,10 +10,18 @@
 /* cl_ext.h: the loader's answer when no driver is installed. */
 enum { PS_CL_PLATFORM_NOT_FOUND = -1001 };
 
-typedef struct ps_built_program {
-    char *key; /* source name and options */
-    cl_program program;
-} ps_built_program;
+typedef struct ps_program {
+    struct ps_program *next;
+    ps_text source, options; /* options: all that it is built with */
+    cl_program object;
+} ps_program;
+
+struct ps_kernel {
+    ps_kernel *next;
+    ps_program *program;
+    ps_text name;
+    cl_kernel object;
+};
 
 /* Local memory of its own that a driver may count beside what kernels ask for: 4 bytes by NVIDIA's
  * 580 (H100). Limits leave it out. */
@@ -37,8 +46,8 @@ struct ps_device {
     size_t staged_at;                        /* where the next write goes */
     uint64_t num_enqueued; /* launches and reads, by which a wait knows whether there were more */
     uint64_t num_waits;    /* see ps_device_num_waits */
-    ps_built_program *programs;
-    size_t num_programs, programs_capacity;
+    ps_program *programs;  /* in the order in which they were asked for */
+    ps_kernel *kernels;
     glob_t kept;         /* kernels that PoCL kept before (drivers.h); none for other drivers */
     size_t group_size;   /* see ps_device_set_group_size; 0: default */
     ps_figures *figures; /* that limits.figures points to, or NULL */
@@ -48,6 +57,8 @@ struct ps_device {
     ps_profile_row profile[PS_PROFILE_ROWS];
     size_t num_profile_rows;
 };
+
+void ps_programs_release(ps_device *device);
 
 /* A queue of the device, as ps_device_open makes it. */
 pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out,
@@ -68,7 +79,7 @@ pspec_status ps_staged_write(ps_device *device, const ps_buffer *buffer, size_t 
 void ps_staged_release(ps_device *device);
 
 /* Adds one finished launch to the profile and releases the event. */
-pspec_status ps_profile_add(ps_device *device, cl_kernel kernel, const ps_range *range,
+pspec_status ps_profile_add(ps_device *device, const char *kernel, const ps_range *range,
                             cl_event event, ps_error *error) PS_MUST_CHECK;
 
 #define PS_TRY_CL(call, error)                                                                     \

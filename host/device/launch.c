@@ -121,7 +121,7 @@ static pspec_status check_limits(const ps_device *device, cl_kernel kernel, cons
     return PSPEC_OK;
 }
 
-pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_range *range,
+pspec_status ps_launch_arguments(ps_device *device, ps_kernel *kernel, const ps_range *range,
                                  const ps_argument *arguments, size_t num_arguments,
                                  ps_error *error) {
     size_t local_bytes = 0;
@@ -131,9 +131,9 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
             return PSPEC_OK;
         }
     }
-    PS_TRY(set_arguments(kernel, arguments, num_arguments, &local_bytes, error));
-    PS_TRY(check_limits(device, kernel, range, local_bytes, error));
-    PS_TRY_CL(clEnqueueNDRangeKernel(device->queue, kernel, range->rank, range->offset,
+    PS_TRY(set_arguments(kernel->object, arguments, num_arguments, &local_bytes, error));
+    PS_TRY(check_limits(device, kernel->object, range, local_bytes, error));
+    PS_TRY_CL(clEnqueueNDRangeKernel(device->queue, kernel->object, range->rank, range->offset,
                                      range->global, range->local[0] > 0 ? range->local : NULL, 0,
                                      NULL, device->has_profile ? &event : NULL),
               error);
@@ -146,7 +146,9 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
         }
         return ps_device_fail(code, "clFlush", error);
     }
-    return device->has_profile ? ps_profile_add(device, kernel, range, event, error) : PSPEC_OK;
+    return device->has_profile
+               ? ps_profile_add(device, ps_text_string(&kernel->name), range, event, error)
+               : PSPEC_OK;
 }
 
 double ps_device_launched_flops(const ps_device *device) {

@@ -33,15 +33,13 @@ static pspec_status measure(cl_event event, double *seconds, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_profile_add(ps_device *device, cl_kernel kernel, const ps_range *range,
+pspec_status ps_profile_add(ps_device *device, const char *kernel, const ps_range *range,
                             cl_event event, ps_error *error) {
-    char name[sizeof device->profile[0].kernel] = "";
     double seconds = 0;
     const pspec_status status = measure(event, &seconds, error);
     clReleaseEvent(event);
     PS_TRY(status);
-    PS_TRY_CL(clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL), error);
-    ps_profile_row *row = find_row(device, name);
+    ps_profile_row *row = find_row(device, kernel);
     if (row != NULL) {
         row->launches++;
         row->seconds += seconds;

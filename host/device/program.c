@@ -33,86 +33,126 @@ static pspec_status fail_build(const ps_device *device, cl_program program, cl_i
     return PSPEC_ERROR_BUILD;
 }
 
-static pspec_status build(ps_device *device, cl_program *out, const char *source,
+static void release_program(ps_program *program) {
+    if (program->object != NULL) {
+        clReleaseProgram(program->object);
+    }
+    ps_text_free(&program->source);
+    ps_text_free(&program->options);
+    free(program);
+}
+
+static pspec_status build(const ps_device *device, ps_program *program, const char *source,
                           const char *options, ps_error *error) {
+    const char *string = NULL;
     ps_text text = {0};
-    ps_text all_options = {0};
     cl_int code = CL_SUCCESS;
     pspec_status status = PSPEC_OK;
-    *out = NULL;
+    ps_text_append(&program->source, "%s", source);
+    ps_text_append(&program->options, "%s %s", common_options, options);
+    PS_TRY(ps_text_check(&program->source, error));
+    PS_TRY(ps_text_check(&program->options, error));
     PS_TRY_OUT(status, ps_kernel_source_expand(source, &text, error));
-    ps_text_append(&all_options, "%s %s", common_options, options);
-    PS_TRY_OUT(status, ps_text_check(&all_options, error));
-    const char *string = ps_text_string(&text);
-    *out = clCreateProgramWithSource(device->context, 1, &string, NULL, &code);
+    string = ps_text_string(&text);
+    program->object = clCreateProgramWithSource(device->context, 1, &string, NULL, &code);
     if (code != CL_SUCCESS) {
-        *out = NULL;
+        program->object = NULL;
         PS_TRY_OUT(status, ps_device_fail(code, "clCreateProgramWithSource", error));
     }
-    code = clBuildProgram(*out, 1, &device->id, ps_text_string(&all_options), NULL, NULL);
+    code = clBuildProgram(program->object, 1, &device->id, ps_text_string(&program->options), NULL,
+                          NULL);
     if (code != CL_SUCCESS) {
-        status = fail_build(device, *out, code, source, ps_text_string(&all_options), error);
-        clReleaseProgram(*out);
-        *out = NULL;
+        status = fail_build(device, program->object, code, source,
+                            ps_text_string(&program->options), error);
     }
 out:
     ps_text_free(&text);
-    ps_text_free(&all_options);
     return status;
 }
 
-static cl_program find_program(const ps_device *device, const char *key) {
-    for (size_t i = 0; i < device->num_programs; i++) {
-        if (strcmp(device->programs[i].key, key) == 0) {
-            return device->programs[i].program;
-        }
-    }
-    return NULL;
+static bool is_built_of(const ps_program *program, const char *source, const char *options) {
+    return strcmp(ps_text_string(&program->source), source) == 0 &&
+           strcmp(ps_text_string(&program->options) + sizeof common_options, options) == 0;
 }
 
-/* Takes key over. */
-static pspec_status remember_program(ps_device *device, ps_text *key, cl_program program,
-                                     ps_error *error) {
-    void *programs = device->programs;
-    PS_TRY(ps_grow(&programs, &device->programs_capacity, device->num_programs + 1,
-                   sizeof *device->programs, "the programs of a device", error));
-    device->programs = programs;
-    device->programs[device->num_programs++] = (ps_built_program){key->data, program};
-    *key = (ps_text){0};
+static pspec_status get_program(ps_device *device, ps_program **out, const char *source,
+                                const char *options, ps_error *error) {
+    ps_program **end = &device->programs;
+    while (*end != NULL && !is_built_of(*end, source, options)) {
+        end = &(*end)->next;
+    }
+    if (*end == NULL) {
+        ps_program *program = NULL;
+        PS_TRY(PS_NEW(&program, 1, "a program of kernels", error));
+        const pspec_status status = build(device, program, source, options, error);
+        if (status != PSPEC_OK) {
+            release_program(program);
+            return status;
+        }
+        *end = program;
+    }
+    *out = *end;
     return PSPEC_OK;
 }
 
-static pspec_status get_program(ps_device *device, cl_program *out, const char *source,
-                                const char *options, ps_error *error) {
-    ps_text key = {0};
-    pspec_status status = PSPEC_OK;
-    ps_text_append(&key, "%s %s", source, options);
-    if (key.failed) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for kernel \"%s\"", source);
+static void release_kernel(ps_kernel *kernel) {
+    if (kernel->object != NULL) {
+        clReleaseKernel(kernel->object);
     }
-    *out = find_program(device, key.data);
-    if (*out == NULL) {
-        PS_TRY_OUT(status, build(device, out, source, options, error));
-        status = remember_program(device, &key, *out, error);
-        if (status != PSPEC_OK) {
-            clReleaseProgram(*out);
-        }
-    }
-out:
-    ps_text_free(&key);
-    return status;
+    ps_text_free(&kernel->name);
+    free(kernel);
 }
 
-pspec_status ps_kernel_create(ps_device *device, cl_kernel *out, const char *source,
-                              const char *name, const char *options, ps_error *error) {
-    cl_program program = NULL;
+static pspec_status create_kernel(ps_kernel *kernel, ps_program *program, const char *name,
+                                  ps_error *error) {
     cl_int code = CL_SUCCESS;
-    PS_TRY(ps_kept_check(&device->kept, name, error));
-    PS_TRY(get_program(device, &program, source, options, error));
-    *out = clCreateKernel(program, name, &code);
+    kernel->program = program;
+    ps_text_append(&kernel->name, "%s", name);
+    PS_TRY(ps_text_check(&kernel->name, error));
+    kernel->object = clCreateKernel(program->object, name, &code);
     if (code != CL_SUCCESS) {
-        *out = NULL;
+        kernel->object = NULL;
         return ps_device_fail(code, "clCreateKernel", error);
     }
     return PSPEC_OK;
+}
+
+static bool is_of(const ps_kernel *kernel, const ps_program *program, const char *name) {
+    return kernel->program == program && strcmp(ps_text_string(&kernel->name), name) == 0;
+}
+
+pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *source, const char *name,
+                           const char *options, ps_error *error) {
+    ps_program *program = NULL;
+    ps_kernel **end = &device->kernels;
+    PS_TRY(ps_kept_check(&device->kept, name, error));
+    PS_TRY(get_program(device, &program, source, options, error));
+    while (*end != NULL && !is_of(*end, program, name)) {
+        end = &(*end)->next;
+    }
+    if (*end == NULL) {
+        ps_kernel *kernel = NULL;
+        PS_TRY(PS_NEW(&kernel, 1, "a kernel", error));
+        const pspec_status status = create_kernel(kernel, program, name, error);
+        if (status != PSPEC_OK) {
+            release_kernel(kernel);
+            return status;
+        }
+        *end = kernel;
+    }
+    *out = *end;
+    return PSPEC_OK;
+}
+
+void ps_programs_release(ps_device *device) {
+    while (device->kernels != NULL) {
+        ps_kernel *const kernel = device->kernels;
+        device->kernels = kernel->next;
+        release_kernel(kernel);
+    }
+    while (device->programs != NULL) {
+        ps_program *const program = device->programs;
+        device->programs = program->next;
+        release_program(program);
+    }
 }

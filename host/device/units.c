@@ -13,23 +13,20 @@ static pspec_status probe(ps_device *device, ps_units units, unsigned precision,
     enum { WARP = 32 }; /* of kernels/torus/units.h */
     const ps_range range = {.rank = 1, .global = {WARP}, .local = {WARP}};
     char options[64];
-    cl_kernel kernel = NULL;
+    ps_kernel *kernel = NULL;
     ps_buffer buffer = {0};
     pspec_status status = PSPEC_OK;
     *wrong = UINT32_MAX;
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=4 %s", precision,
              ps_units_option(units));
     PS_TRY_OUT(status,
-               ps_kernel_create(device, &kernel, "probe/units.cl", "probe_units", options, NULL));
+               ps_kernel_get(device, &kernel, "probe/units.cl", "probe_units", options, NULL));
     PS_TRY_OUT(status, ps_buffer_create(device, &buffer, sizeof *wrong, "a probe", NULL));
     PS_TRY_OUT(status, ps_buffer_write(device, &buffer, 0, wrong, sizeof *wrong, NULL));
     PS_TRY_OUT(status, PS_LAUNCH(device, kernel, &range, NULL, PS_BUFFER(buffer)));
     PS_TRY_OUT(status, ps_buffer_read(device, &buffer, 0, wrong, sizeof *wrong, NULL));
 out:
     ps_buffer_release(&buffer);
-    if (kernel != NULL) {
-        clReleaseKernel(kernel);
-    }
     return status;
 }
 

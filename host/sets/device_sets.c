@@ -10,7 +10,7 @@ struct ps_device_sets {
     ps_sampler_request request;
     ps_sampler_places places;
     ps_device *device;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer table;
 };
 
@@ -29,8 +29,8 @@ static pspec_status create(ps_device_sets *self, ps_error *error) {
     PS_TRY(ps_sampler_fill_places(&self->request, &self->places, error));
     snprintf(options, sizeof options, "-DPOINTS=%s -DDIMENSION=%u -DDOUBLES=%d", by_index->name,
              self->request.dimension, by_index->needs_doubles);
-    PS_TRY(ps_kernel_create(self->device, &self->kernel, "samplers/points.cl", "sampler_points",
-                            options, error));
+    PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/points.cl", "sampler_points",
+                         options, error));
     PS_TRY(ps_buffer_create(self->device, &self->table, sizeof self->places.table,
                             "a table of a sampler", error));
     return ps_buffer_write(self->device, &self->table, 0, self->places.table,
@@ -56,9 +56,6 @@ pspec_status ps_device_sets_create(ps_device_sets **out, const ps_sampler_reques
 void ps_device_sets_destroy(ps_device_sets *sets) {
     if (sets == NULL) {
         return;
-    }
-    if (sets->kernel != NULL) {
-        clReleaseKernel(sets->kernel);
     }
     ps_buffer_release(&sets->table);
     free(sets);

@@ -20,7 +20,7 @@ struct ps_device_trials {
     ps_device *device;
     unsigned lanes;
     size_t axis_numbers, most_pieces, most_moves; /* of a batch */
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer points, weights, pieces, moves, sums;
     ps_buffer table; /* of the integrand; empty where it has none */
     values_piece *host_pieces;
@@ -42,8 +42,8 @@ static pspec_status create_kernel(ps_device_trials *self, ps_error *error) {
                    place.where == PS_SAMPLES_HEMISPHERE);
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(self->device, &self->kernel, "integrands/values.cl",
-                                  "integrand_values", ps_text_string(&options), error);
+        status = ps_kernel_get(self->device, &self->kernel, "integrands/values.cl",
+                               "integrand_values", ps_text_string(&options), error);
     }
     ps_text_free(&options);
     return status;
@@ -152,9 +152,6 @@ void ps_device_trials_destroy(ps_device_trials *trials) {
                                   &trials->moves,  &trials->sums,    &trials->table};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
-    }
-    if (trials->kernel != NULL) {
-        clReleaseKernel(trials->kernel);
     }
     free(trials->host_pieces);
     free(trials->host_moves);

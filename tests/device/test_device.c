@@ -107,10 +107,10 @@ static void build_logs_name_file_and_line(void **state) {
     } cases[] = {{"broken.cl", "broken", "broken.cl:3", "undeclared_here"},
                  {"outer.cl", "outer", "inner.h:4", "another_unknown"}};
     for (size_t i = 0; i < 2; i++) {
-        cl_kernel kernel = NULL;
+        ps_kernel *kernel = NULL;
         ps_error said = {0};
-        assert_int_equal(ps_kernel_create(device, &kernel, cases[i].source, cases[i].kernel,
-                                          "-DPRECISION=32", &said),
+        assert_int_equal(ps_kernel_get(device, &kernel, cases[i].source, cases[i].kernel,
+                                       "-DPRECISION=32", &said),
                          PSPEC_ERROR_BUILD);
         assert_null(kernel);
         if (strstr(said.message, cases[i].where) == NULL ||
@@ -123,23 +123,31 @@ static void build_logs_name_file_and_line(void **state) {
 
 static void missing_sources(void **state) {
     (void)state;
-    cl_kernel kernel = NULL;
+    ps_kernel *kernel = NULL;
     ps_error said = {0};
-    assert_int_equal(ps_kernel_create(device, &kernel, "absent.cl", "x", "", &said),
-                     PSPEC_ERROR_IO);
+    assert_int_equal(ps_kernel_get(device, &kernel, "absent.cl", "x", "", &said), PSPEC_ERROR_IO);
     assert_non_null(strstr(said.message, "absent.cl"));
     assert_non_null(strstr(said.message, folder));
-    assert_int_equal(ps_kernel_create(device, &kernel, "lost.cl", "x", "", &said), PSPEC_ERROR_IO);
+    assert_int_equal(ps_kernel_get(device, &kernel, "lost.cl", "x", "", &said), PSPEC_ERROR_IO);
     assert_non_null(strstr(said.message, "nowhere.h"));
-    assert_int_equal(ps_kernel_create(device, &kernel, "fill.cl", "no_such_kernel", "", &said),
+    assert_int_equal(ps_kernel_get(device, &kernel, "fill.cl", "no_such_kernel", "", &said),
                      PSPEC_ERROR_DEVICE);
     assert_non_null(strstr(said.message, "CL_INVALID_KERNEL_NAME"));
     unsetenv("POINTSPEC_KERNEL_DIR"); /* now the table in the program */
-    assert_int_equal(ps_kernel_create(device, &kernel, "absent.cl", "x", "", &said),
+    assert_int_equal(ps_kernel_get(device, &kernel, "absent.cl", "x", "", &said),
                      PSPEC_ERROR_BUILD);
     assert_non_null(strstr(said.message, "absent.cl"));
     setenv("POINTSPEC_KERNEL_DIR", folder, 1);
     assert_null(kernel);
+}
+
+/* One for as long as the device is open, which releases it. */
+static void a_kernel_is_there_once(void **state) {
+    (void)state;
+    ps_kernel *const fill = test_kernel(device, "fill.cl", "fill", "-DTEST");
+    assert_ptr_equal(test_kernel(device, "fill.cl", "fill", "-DTEST"), fill);
+    assert_ptr_not_equal(test_kernel(device, "fill.cl", "other", "-DTEST"), fill);
+    assert_ptr_not_equal(test_kernel(device, "fill.cl", "fill", "-DTEST2"), fill);
 }
 
 /* ---- launches ------------------------------------------------------------------------------ */
@@ -191,7 +199,7 @@ static void matrix_units_are_in_the_kind(void **state) {
 static void launches_reach_the_device(void **state) {
     (void)state;
     enum { NUM = 100 };
-    cl_kernel kernel = test_kernel(device, "fill.cl", "fill", "-DTEST");
+    ps_kernel *kernel = test_kernel(device, "fill.cl", "fill", "-DTEST");
     test_memory out = test_memory_create(device, NULL, NUM * sizeof(uint32_t));
     ps_range range = {.rank = 1, .global = {0}, .local = {5}};
     assert_ok(PS_LAUNCH(device, kernel, &range, error, PS_BUFFER(out.buffer), PS_U32(3)));
@@ -199,7 +207,6 @@ static void launches_reach_the_device(void **state) {
     range.global[0] = 20;
     assert_ok(PS_LAUNCH(device, kernel, &range, error, PS_BUFFER(out.buffer), PS_U32(3)));
     check_filled(&out, 20, 5003);
-    clReleaseKernel(kernel);
     test_memory_free(&out);
 }
 
@@ -224,7 +231,7 @@ static void ranges_are_rounded_up(void **state) {
 
 static void wrong_arguments_are_refused(void **state) {
     (void)state;
-    cl_kernel kernel = test_kernel(device, "fill.cl", "fill", "-DTEST");
+    ps_kernel *kernel = test_kernel(device, "fill.cl", "fill", "-DTEST");
     test_memory out = test_memory_create(device, NULL, 64);
     const ps_range range = {.rank = 1, .global = {4}, .local = {1}};
     ps_error said = {0};
@@ -238,13 +245,12 @@ static void wrong_arguments_are_refused(void **state) {
                      PSPEC_ERROR_DEVICE);
     assert_non_null(strstr(said.message, "CL_INVALID_ARG_SIZE"));
     check_filled(&out, 0, 0);
-    clReleaseKernel(kernel);
     test_memory_free(&out);
 }
 
 static void large_work_groups_are_refused(void **state) {
     (void)state;
-    cl_kernel kernel = test_kernel(device, "fill.cl", "fill", "-DTEST");
+    ps_kernel *kernel = test_kernel(device, "fill.cl", "fill", "-DTEST");
     test_memory out = test_memory_create(device, NULL, 64);
     const size_t most = ps_device_get_limits(device)->max_work_group_size;
     const ps_range ranges[] = {{.rank = 1, .global = {2 * most}, .local = {2 * most}},
@@ -257,14 +263,13 @@ static void large_work_groups_are_refused(void **state) {
         assert_non_null(strstr(said.message, "work-group of"));
         assert_non_null(strstr(said.message, ps_device_get_limits(device)->name));
     }
-    clReleaseKernel(kernel);
     test_memory_free(&out);
 }
 
 /* PoCL would end the process. */
 static void too_much_local_memory_is_refused(void **state) {
     (void)state;
-    cl_kernel kernel = test_kernel(device, "local.cl", "share", "-DTEST");
+    ps_kernel *kernel = test_kernel(device, "local.cl", "share", "-DTEST");
     const uint64_t most = ps_device_get_limits(device)->local_bytes;
     test_memory out = test_memory_create(device, NULL, 64);
     const ps_range range = {.rank = 1, .global = {16}, .local = {4}};
@@ -283,7 +288,6 @@ static void too_much_local_memory_is_refused(void **state) {
         assert_int_equal(found[i], i);
     }
     free(found);
-    clReleaseKernel(kernel);
     test_memory_free(&out);
 }
 
@@ -345,8 +349,8 @@ static void profile_counts_launches(void **state) {
     assert_ok(ps_device_open(&watched, getenv("POINTSPEC_DEVICE"), true, error));
     ps_device_profile(watched, &num_rows);
     assert_int_equal(num_rows, 0);
-    cl_kernel fill = test_kernel(watched, "fill.cl", "fill", "-DTEST");
-    cl_kernel other = test_kernel(watched, "fill.cl", "other", "-DTEST");
+    ps_kernel *fill = test_kernel(watched, "fill.cl", "fill", "-DTEST");
+    ps_kernel *other = test_kernel(watched, "fill.cl", "other", "-DTEST");
     test_memory out = test_memory_create(watched, NULL, 64);
     const ps_range range = {.rank = 1, .global = {4}, .local = {1}, .flops = 10, .bytes = 16};
     const ps_range empty = {.rank = 1, .global = {0}, .local = {1}, .flops = 10, .bytes = 16};
@@ -363,8 +367,6 @@ static void profile_counts_launches(void **state) {
     assert_int_equal(rows[1].launches, 1);
     assert_true(rows[0].flops == 50 && rows[0].bytes == 80 && rows[1].flops == 10);
     assert_true(rows[0].seconds >= 0 && rows[0].seconds < 60);
-    clReleaseKernel(fill);
-    clReleaseKernel(other);
     test_memory_free(&out);
     ps_device_close(watched);
     assert_ok(ps_device_finish(device, error));
@@ -377,6 +379,7 @@ int main(void) {
         cmocka_unit_test(includes_are_expanded),
         cmocka_unit_test(build_logs_name_file_and_line),
         cmocka_unit_test(missing_sources),
+        cmocka_unit_test(a_kernel_is_there_once),
         cmocka_unit_test(matrix_units_are_tried),
         cmocka_unit_test(matrix_units_are_in_the_kind),
         cmocka_unit_test(launches_reach_the_device),

@@ -101,15 +101,15 @@ double *test_reals_read(const test_memory *memory, unsigned precision) {
     return values;
 }
 
-cl_kernel test_kernel(ps_device *device, const char *source, const char *name, const char *options,
-                      ...) {
+ps_kernel *test_kernel(ps_device *device, const char *source, const char *name, const char *options,
+                       ...) {
     char text[256];
-    cl_kernel kernel = NULL;
+    ps_kernel *kernel = NULL;
     va_list arguments;
     va_start(arguments, options);
     vsnprintf(text, sizeof text, options, arguments);
     va_end(arguments);
-    assert_ok(ps_kernel_create(device, &kernel, source, name, text, error));
+    assert_ok(ps_kernel_get(device, &kernel, source, name, text, error));
     return kernel;
 }
 

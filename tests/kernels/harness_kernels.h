@@ -29,8 +29,8 @@ test_memory test_reals_create(ps_device *device, unsigned precision, const doubl
 double *test_reals_read(const test_memory *memory, unsigned precision);
 
 /* A kernel; options as for printf. */
-cl_kernel test_kernel(ps_device *device, const char *source, const char *name, const char *options,
-                      ...) PS_PRINTF(4, 5);
+ps_kernel *test_kernel(ps_device *device, const char *source, const char *name, const char *options,
+                       ...) PS_PRINTF(4, 5);
 
 /* Launches over `first` work-items (rounded up) x second x third in groups of `group`. */
 #define TEST_LAUNCH(device, kernel, group, first, second, third, ...)                              \

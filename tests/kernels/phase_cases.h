@@ -100,7 +100,7 @@ static void check_device_phases(unsigned lanes, size_t num) {
             points[i * (size_t)dimension + (size_t)axis] = cases[i].x[axis];
         }
     }
-    cl_kernel kernel =
+    ps_kernel *kernel =
         test_kernel(device, "probe/phase.cl", "probe_phase",
                     "-DPRECISION=%d -DLANES=%u -DDIMENSION=%d", PRECISION, lanes, dimension);
     test_memory x = test_memory_create(device, points, num * (size_t)dimension * sizeof *points);
@@ -122,7 +122,6 @@ static void check_device_phases(unsigned lanes, size_t num) {
     test_memory_free_unchanged(&x);
     test_memory_free_unchanged(&frequencies);
     test_memory_free(&phases);
-    clReleaseKernel(kernel);
 }
 
 static void device_phases_equal_host_phases(void **state) {

@@ -207,8 +207,8 @@ static void device_turns_equal_host_turns(void **state) {
     for (size_t i = 0; i < DEVICE_WORDS; i++) {
         words[i] = i < 24 ? (word)i / 3 * (TURN_QUARTER / 2) + (word)(i % 3) - 1 : random_word();
     }
-    cl_kernel kernel = test_kernel(device, "probe/turn.cl", "probe_turn",
-                                   "-DPRECISION=%d -DLANES=%u", PRECISION, lanes);
+    ps_kernel *kernel = test_kernel(device, "probe/turn.cl", "probe_turn",
+                                    "-DPRECISION=%d -DLANES=%u", PRECISION, lanes);
     for (size_t g = 0; g < 3; g++) {
         test_memory in = test_memory_create(device, words, num * sizeof(word));
         test_memory cosine = test_reals_create(device, PRECISION, NULL, num);
@@ -227,7 +227,6 @@ static void device_turns_equal_host_turns(void **state) {
         test_memory_free(&cosine);
         test_memory_free(&sine);
     }
-    clReleaseKernel(kernel);
 }
 
 #include "phase_cases.h"

@@ -109,7 +109,7 @@ static void launch_strips(const launch *with, const blocks_numbers *numbers,
     const size_t vectors = with->stride / one->lanes;
     const size_t end = numbers->done + numbers->num_realizations;
     const size_t num_strips = (end + SUM_BLOCK - 1) / SUM_BLOCK - numbers->done / SUM_BLOCK;
-    cl_kernel kernels[2];
+    ps_kernel *kernels[2];
     for (size_t i = 0; i < 2; i++) {
         kernels[i] = test_kernel(device, "accumulate/strips.cl",
                                  i == 0 ? "accumulate_strips" : "accumulate_merge",
@@ -121,8 +121,6 @@ static void launch_strips(const launch *with, const blocks_numbers *numbers,
                 PS_BUFFER(rows->buffer), STATES(with), PS_U32(1 + LEVELS));
     TEST_LAUNCH(device, kernels[1], with->group, vectors, 1, 1, PS_STRUCT(*numbers), STATES(with),
                 PS_U32(1 + LEVELS));
-    clReleaseKernel(kernels[0]);
-    clReleaseKernel(kernels[1]);
 }
 
 static void launch_blocks(const launch *with, const double *power, size_t num_rows) {
@@ -131,10 +129,10 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
     const bool in_one = with->states != NULL && !with->by_strips;
     const size_t at_once = one->lanes * (in_one ? num_rows + 1 : 2); /* all, or some */
     const size_t num_groups = num_rows / at_once + 1;
-    cl_kernel kernel = test_kernel(device, "accumulate/blocks.cl",
-                                   in_one ? "accumulate_bins_and_frequencies" : "accumulate_bins",
-                                   "-DPRECISION=%u -DLANES=%u -DSQUARES=%d", one->precision,
-                                   one->lanes, with->mean_only ? 0 : 1);
+    ps_kernel *kernel = test_kernel(device, "accumulate/blocks.cl",
+                                    in_one ? "accumulate_bins_and_frequencies" : "accumulate_bins",
+                                    "-DPRECISION=%u -DLANES=%u -DSQUARES=%d", one->precision,
+                                    one->lanes, with->mean_only ? 0 : 1);
     test_memory rows = test_reals_create(device, one->precision, power, num_rows * with->stride);
     test_memory first_rings = test_memory_create(
         device, table->first_rings, (table->num_blocks + 1) * sizeof *table->first_rings);
@@ -165,7 +163,6 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
     test_memory_free_unchanged(&first_rings);
     test_memory_free_unchanged(&rings);
     test_memory_free_unchanged(&members);
-    clReleaseKernel(kernel);
 }
 
 static size_t count_groups(const build *one, size_t num_rows) {
@@ -344,8 +341,8 @@ static void check_folded(const build *one, const double *pieces, const test_memo
 
 static void check_fold(const build *one) {
     const size_t pair = 2 * one->lanes;
-    cl_kernel kernel = test_kernel(device, "accumulate/fold.cl", "accumulate_fold",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "accumulate/fold.cl", "accumulate_fold",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     double *pieces =
         test_whole_numbers(&seed, GROUPS * PIECES * pair, one->precision == 64 ? 0x1p50 : 0x1p21);
     for (size_t g = 0; g < one->num_groups; g++) {
@@ -362,7 +359,6 @@ static void check_fold(const build *one) {
         test_memory_free(&result);
     }
     free(pieces);
-    clReleaseKernel(kernel);
 }
 
 static void pieces_of_bins(void **state) {

@@ -45,27 +45,16 @@ static bool fits(const build *one, uint32_t length) {
     return local_bytes_of(one, length) <= ps_device_get_limits(device)->local_bytes;
 }
 
-/* As launches of engines do, where the kernel or the device allows fewer. (Oclgrind wants the
- * device to be named, although the program has one only.) */
-static size_t group_of(cl_kernel kernel, size_t wanted) {
-    size_t most = 0;
-    cl_program program = NULL;
-    cl_device_id id = NULL;
-    assert_int_equal(
-        clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof program, (void *)&program, NULL),
-        CL_SUCCESS);
-    assert_int_equal(clGetProgramInfo(program, CL_PROGRAM_DEVICES, sizeof id, (void *)&id, NULL),
-                     CL_SUCCESS);
-    assert_int_equal(
-        clGetKernelWorkGroupInfo(kernel, id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL),
-        CL_SUCCESS);
+/* As launches of engines do, where the device allows fewer. */
+static size_t group_of(size_t wanted) {
+    const size_t most = ps_device_get_limits(device)->max_work_group_size;
     return wanted < most ? wanted : most;
 }
 
 /* ---- transforms -------------------------------------------------------------------------- */
 
 /* data, result: [NUM_GROUPS][length][re, im][lanes] */
-static double *transform(const build *one, cl_kernel kernel, uint32_t length, const double *data,
+static double *transform(const build *one, ps_kernel *kernel, uint32_t length, const double *data,
                          size_t group) {
     const size_t num = (size_t)NUM_GROUPS * length * 2 * one->lanes;
     ps_fft_plan plan = {0};
@@ -84,7 +73,7 @@ static double *transform(const build *one, cl_kernel kernel, uint32_t length, co
     return found;
 }
 
-static cl_kernel make_kernel(const build *one) {
+static ps_kernel *make_kernel(const build *one) {
     return test_kernel(device, "probe/fft.cl", "probe_fft", "-DPRECISION=%u -DLANES=%u",
                        one->precision, one->lanes);
 }
@@ -145,12 +134,12 @@ static double error_of(const build *one, uint32_t length, const double *data, co
 }
 
 /* The bound divided by the error; the same bits from a group of several. */
-static double check_length(const build *one, cl_kernel kernel, uint32_t length) {
+static double check_length(const build *one, ps_kernel *kernel, uint32_t length) {
     const double unit = one->precision == 64 ? 0x1p-53 : 0x1p-24;
     const size_t num = (size_t)NUM_GROUPS * length * 2 * one->lanes;
     double *data = test_whole_numbers(&seed, num, 1000);
     double *found = transform(one, kernel, length, data, 1);
-    double *shared = transform(one, kernel, length, data, group_of(kernel, one->group));
+    double *shared = transform(one, kernel, length, data, group_of(one->group));
     const double bound = unit * (units_once + units_per_pass * passes_of(length));
     const double error = error_of(one, length, data, found);
     if (!(error <= bound)) {
@@ -169,7 +158,7 @@ static double check_length(const build *one, cl_kernel kernel, uint32_t length) 
 static unsigned check_lengths(const build *one, uint32_t most) {
     static const uint32_t large[] = {1280, 1536, 1715, 2000, 2048, 2401, 2560, 3125, 4096, 6561};
     const uint32_t num_large = is_simulated ? 0 : sizeof large / sizeof large[0];
-    cl_kernel kernel = make_kernel(one);
+    ps_kernel *kernel = make_kernel(one);
     double smallest = HUGE_VAL;
     unsigned num = 0;
     unsigned num_fitting = 0;
@@ -189,7 +178,6 @@ static unsigned check_lengths(const build *one, uint32_t most) {
                       num - num_fitting, num,
                       (unsigned long long)ps_device_get_limits(device)->local_bytes);
     }
-    clReleaseKernel(kernel);
     return num_fitting;
 }
 
@@ -217,7 +205,7 @@ static void impulses(void **state) {
     static const uint32_t some[] = {7, 30, 42, 64, 126};
     const build one = {32, 4, 1, true};
     const size_t row = (size_t)2 * one.lanes;
-    cl_kernel kernel = make_kernel(&one);
+    ps_kernel *kernel = make_kernel(&one);
     for (size_t i = 0; i < (is_simulated ? 2 : sizeof some / sizeof some[0]); i++) {
         const uint32_t length = some[i];
         const double allowed = 0x1p-24 * 1.5 * passes_of(length); /* measured 1.1 */
@@ -240,7 +228,6 @@ static void impulses(void **state) {
         }
         free(roots);
     }
-    clReleaseKernel(kernel);
 }
 
 /* Numbers of one lane change nothing in the others, whatever they are. */
@@ -249,7 +236,7 @@ static void lanes_apart(void **state) {
     enum { LENGTH = 30, LANE = 2 };
     const build one = {32, 4, 1, true};
     const size_t num = (size_t)NUM_GROUPS * LENGTH * 2 * one.lanes;
-    cl_kernel kernel = make_kernel(&one);
+    ps_kernel *kernel = make_kernel(&one);
     double *data = test_whole_numbers(&seed, num, 1000);
     double *found = transform(&one, kernel, LENGTH, data, 1);
     for (size_t i = LANE; i < num; i += one.lanes) {
@@ -262,7 +249,6 @@ static void lanes_apart(void **state) {
     free(data);
     free(found);
     free(other);
-    clReleaseKernel(kernel);
 }
 
 /* ---- plans ------------------------------------------------------------------------------- */

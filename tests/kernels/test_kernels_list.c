@@ -102,7 +102,7 @@ static test_memory upload_frequencies(const list_case *one, const list_data *dat
     return memory;
 }
 
-static cl_kernel create_kernel(const list_case *one) {
+static ps_kernel *create_kernel(const list_case *one) {
     return test_kernel(device, "torus/list.cl", "torus_list",
                        "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DLIST_RUN=%zu -DSTORE_TABLE=%d",
                        one->precision, one->lanes, one->dimension, one->run, one->has_table);
@@ -111,7 +111,7 @@ static cl_kernel create_kernel(const list_case *one) {
 /* Returns the sums; *table_values receives the table when there is one. */
 static double *run_list(const list_case *one, const list_data *data, size_t group,
                         double **table_values) {
-    cl_kernel kernel = create_kernel(one);
+    ps_kernel *kernel = create_kernel(one);
     test_memory points = test_memory_create(device, data->points,
                                             data->num_points * one->dimension * sizeof(uint64_t));
     test_memory weights =
@@ -133,7 +133,6 @@ static double *run_list(const list_case *one, const list_data *data, size_t grou
     test_memory_free_unchanged(&frequencies);
     test_memory_free(&sums);
     test_memory_free(&table);
-    clReleaseKernel(kernel);
     return values;
 }
 

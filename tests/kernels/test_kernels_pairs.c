@@ -120,9 +120,9 @@ static void check_pair_sums(const pairs_case *one) {
     test_memory inverses = make_inverses(one);
     test_memory partials =
         test_reals_create(device, one->precision, NULL, SETS * num_runs * 2 * LAST);
-    cl_kernel kernel = test_kernel(device, "pairs/sums.cl", "pairs_sums",
-                                   "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DRUN=%d -DONLY_EVEN=0",
-                                   one->precision, one->lanes, CHUNK, RUN);
+    ps_kernel *kernel = test_kernel(device, "pairs/sums.cl", "pairs_sums",
+                                    "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DRUN=%d -DONLY_EVEN=0",
+                                    one->precision, one->lanes, CHUNK, RUN);
     LAUNCH_ALONE(kernel, num_runs, PS_BUFFER(data.on_device.buffer), PS_BUFFER(data.counts.buffer),
                  PS_BUFFER(inverses.buffer), PS_BUFFER(partials.buffer), PS_U64(data.stride),
                  PS_U64(0), PS_U32(LAST));
@@ -131,7 +131,6 @@ static void check_pair_sums(const pairs_case *one) {
     free(sums);
     test_memory_free(&partials);
     test_memory_free_unchanged(&inverses);
-    clReleaseKernel(kernel);
     free_data(&data);
 }
 
@@ -153,15 +152,16 @@ static void check_histogram(const pairs_case *one) {
     test_memory moments = test_reals_create(device, one->precision, NULL, SETS * 2 * NODES);
     test_memory weights = test_reals_create(device, one->precision, NULL, SETS * NODES);
     test_memory partials = test_reals_create(device, one->precision, NULL, SETS * 2 * LAST);
-    cl_kernel histogram = test_kernel(device, "pairs/histogram.cl", "pairs_histogram",
-                                      "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    cl_kernel fold = test_kernel(device, "pairs/fold.cl", "pairs_fold",
-                                 "-DPRECISION=%u -DLANES=%u -DPARTS=1", one->precision, one->lanes);
-    cl_kernel to_nodes =
+    ps_kernel *histogram = test_kernel(device, "pairs/histogram.cl", "pairs_histogram",
+                                       "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *fold =
+        test_kernel(device, "pairs/fold.cl", "pairs_fold", "-DPRECISION=%u -DLANES=%u -DPARTS=1",
+                    one->precision, one->lanes);
+    ps_kernel *to_nodes =
         test_kernel(device, "pairs/nodes.cl", "pairs_nodes", "-DPRECISION=%u", one->precision);
-    cl_kernel sum = test_kernel(device, "pairs/nodes_sums.cl", "pairs_nodes_sums",
-                                "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DRUN=%d", one->precision,
-                                one->lanes, 64, NODES);
+    ps_kernel *sum = test_kernel(device, "pairs/nodes_sums.cl", "pairs_nodes_sums",
+                                 "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DRUN=%d", one->precision,
+                                 one->lanes, 64, NODES);
     LAUNCH_ALONE(histogram, 1, PS_BUFFER(data.on_device.buffer), PS_BUFFER(data.counts.buffer),
                  PS_BUFFER(histograms.buffer), PS_U64(data.stride), PS_U64(0), PS_U64(RUN_VECTORS),
                  PS_U32(BINS), PS_BUFFER(scale.buffer));
@@ -178,11 +178,9 @@ static void check_histogram(const pairs_case *one) {
     free(sums);
     test_memory *const made[] = {&histograms, &moments, &weights, &partials};
     test_memory *const given[] = {&inverses, &scale, &table, &places};
-    cl_kernel kernels[] = {histogram, fold, to_nodes, sum};
     for (size_t i = 0; i < 4; i++) {
         test_memory_free(made[i]);
         test_memory_free_unchanged(given[i]);
-        clReleaseKernel(kernels[i]);
     }
     free_data(&data);
 }

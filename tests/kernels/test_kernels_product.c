@@ -74,16 +74,15 @@ static void run(const product_case *one) {
     test_memory exponent = test_reals_create(device, one->precision, &power, 1);
     test_memory partials =
         test_reals_create(device, one->precision, NULL, SEGMENTS * PARTS * STRIDE);
-    cl_kernel kernel = test_kernel(device, "rules/product.cl", "kernel_product",
-                                   "-DPRECISION=%u -DLANES=%u -DROOT=%d", one->precision,
-                                   one->lanes, one->is_root);
+    ps_kernel *kernel = test_kernel(device, "rules/product.cl", "kernel_product",
+                                    "-DPRECISION=%u -DLANES=%u -DROOT=%d", one->precision,
+                                    one->lanes, one->is_root);
     TEST_LAUNCH(device, kernel, one->group, STRIDE / one->lanes, SEGMENTS, 1,
                 PS_BUFFER(on_device.buffer), PS_BUFFER(vector.buffer), PS_BUFFER(exponent.buffer),
                 PS_BUFFER(partials.buffer), PS_U64(STRIDE), PS_U64(SEGMENT));
     double *sums = test_reals_read(&partials, one->precision);
     check(points, x, sums, one);
     free(sums);
-    clReleaseKernel(kernel);
     test_memory_free(&partials);
     test_memory_free_unchanged(&on_device);
     test_memory_free_unchanged(&vector);

@@ -59,9 +59,9 @@ static void prepare(const sphere_case *one, const sphere_data *data, test_memory
     *turns = test_memory_create(device, host_turns, num * sizeof *host_turns);
     if (ps_device_get_limits(device)->has_fp64) {
         const unsigned lanes = one->lanes > 8 ? 8 : one->lanes;
-        cl_kernel kernel = test_kernel(device, "sphere/prepare.cl", "sphere_prepare",
-                                       "-DLANES=%u -DOUT_PRECISION=%u -DONLY_EVEN=%d", lanes,
-                                       one->precision, one->only_even);
+        ps_kernel *kernel = test_kernel(device, "sphere/prepare.cl", "sphere_prepare",
+                                        "-DLANES=%u -DOUT_PRECISION=%u -DONLY_EVEN=%d", lanes,
+                                        one->precision, one->only_even);
         test_memory points = test_memory_create(device, data->points, num * 3 * sizeof(double));
         test_memory made = test_memory_create(device, NULL, num * ARRAYS * real_bytes);
         test_memory made_turns = test_memory_create(device, NULL, num * sizeof(uint64_t));
@@ -77,7 +77,6 @@ static void prepare(const sphere_case *one, const sphere_data *data, test_memory
         test_memory_free_unchanged(&points);
         test_memory_free(&made);
         test_memory_free(&made_turns);
-        clReleaseKernel(kernel);
         free(got);
         free(expected);
     }
@@ -150,8 +149,8 @@ static void run_power(const sphere_case *one, const test_memory *sums_memory, co
     for (size_t i = 0; i < (size_t)REALIZATIONS * 2 * STRIDE; i++) {
         begun[i] = i / STRIDE % 2 == 0;
     }
-    cl_kernel kernel = test_kernel(device, "sphere/power.cl", "sphere_power",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "sphere/power.cl", "sphere_power",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     for (size_t g = 0; g < 2; g++) {
         test_memory powers =
             test_reals_create(device, one->precision, begun, (size_t)REALIZATIONS * 2 * STRIDE);
@@ -164,7 +163,6 @@ static void run_power(const sphere_case *one, const test_memory *sums_memory, co
         free(got);
         test_memory_free(&powers);
     }
-    clReleaseKernel(kernel);
 }
 
 static void check_case(const sphere_case *one) {
@@ -181,7 +179,7 @@ static void check_case(const sphere_case *one) {
     test_memory offsets = test_memory_create(device, ends, sizeof ends);
     const size_t num_sums = REALIZATIONS * one->num_orders * SUMS * STRIDE;
     test_memory sums = test_reals_create(device, one->precision, NULL, num_sums);
-    cl_kernel kernel =
+    ps_kernel *kernel =
         test_kernel(device, "sphere/sums.cl", "sphere_sums",
                     "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d",
                     one->precision, one->lanes, CHUNK, ORDERS, one->only_even);
@@ -207,7 +205,6 @@ static void check_case(const sphere_case *one) {
     test_memory_free_unchanged(&weights);
     test_memory_free_unchanged(&offsets);
     test_memory_free(&sums);
-    clReleaseKernel(kernel);
     free(data.points);
     free(data.weights);
 }

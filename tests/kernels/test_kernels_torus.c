@@ -138,7 +138,7 @@ typedef struct product_memory {
     test_memory table, starts, sums, factors, power;
 } product_memory;
 
-static void launch_pairs(cl_kernel kernel, size_t group, const product_numbers *numbers,
+static void launch_pairs(ps_kernel *kernel, size_t group, const product_numbers *numbers,
                          const product_memory *memory) {
     test_memory tiles = test_memory_create(device, pairs, sizeof pairs);
     TEST_LAUNCH(device, kernel, group, PAIRS, REALIZATIONS, 1, PS_STRUCT(*numbers),
@@ -148,7 +148,7 @@ static void launch_pairs(cl_kernel kernel, size_t group, const product_numbers *
     test_memory_free_unchanged(&tiles);
 }
 
-static void check_group(const build *one, cl_kernel kernel, size_t group, const double *values) {
+static void check_group(const build *one, ps_kernel *kernel, size_t group, const double *values) {
     const size_t table_length = (size_t)REALIZATIONS * TILES * TABLE_POINTS * 2 * one->lanes;
     const size_t sums_length = (size_t)REALIZATIONS * PAIRS * one->lanes * 8 * one->lanes;
     const size_t stride = (PAIRS * one->lanes * 2 + 1) * one->lanes;
@@ -184,13 +184,12 @@ static void check_group(const build *one, cl_kernel kernel, size_t group, const 
 
 static void check_product(const build *one) {
     double *values = make_table(one);
-    cl_kernel kernel =
+    ps_kernel *kernel =
         test_kernel(device, "torus/product.cl", "torus_product",
                     "-DPRECISION=%u -DLANES=%u -DRUN=%d", one->precision, one->lanes, RUN);
     for (size_t g = 0; g < one->num_groups; g++) {
         check_group(one, kernel, TEST_GROUP_SIZES[2 - g], values);
     }
-    clReleaseKernel(kernel);
     free(values);
 }
 
@@ -213,7 +212,7 @@ static double *make_chunks(const build *one, size_t num) {
     return chunks;
 }
 
-static void launch_fold(const build *one, cl_kernel kernel, size_t group, const double *chunks,
+static void launch_fold(const build *one, ps_kernel *kernel, size_t group, const double *chunks,
                         size_t num_chunks, bool is_first, test_memory *totals) {
     test_memory sums = test_reals_create(device, one->precision, chunks,
                                          (FOLD_FIRST_ROW + FOLD_REALIZATIONS) * num_chunks *
@@ -253,8 +252,8 @@ static void check_totals(const build *one, const test_memory *totals, const int6
 /* Slabs of 5, 0, 1 and 2 chunks, one after the other. */
 static void check_fold(const build *one) {
     const size_t slabs[] = {5, 0, 1, 2};
-    cl_kernel kernel = test_kernel(device, "torus/fold.cl", "torus_fold",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "torus/fold.cl", "torus_fold",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     for (size_t g = 0; g < one->num_groups; g++) {
         const size_t length = (FOLD_FIRST_ROW + FOLD_REALIZATIONS) * FOLD_TILES * 4 * one->lanes;
         test_memory totals = test_reals_create(device, one->precision, NULL, length);
@@ -269,7 +268,6 @@ static void check_fold(const build *one) {
         free(expected);
         test_memory_free(&totals);
     }
-    clReleaseKernel(kernel);
 }
 
 static void fold(void **state) {
@@ -291,8 +289,8 @@ static void check_power_list(const build *one) {
     enum { NUM_TILES = 5 };
     const size_t lanes = one->lanes, first_slot = 2 * lanes, stride = (NUM_TILES + 3) * lanes;
     const size_t length = (size_t)POWER_REALIZATIONS * NUM_TILES * 4 * lanes;
-    cl_kernel kernel = test_kernel(device, "torus/power.cl", "torus_power_list",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "torus/power.cl", "torus_power_list",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     double *values = test_whole_numbers(&seed, length, largest_part(one->precision));
     for (size_t g = 0; g < one->num_groups; g++) {
         test_memory totals = test_reals_create(device, one->precision, values, length);
@@ -319,7 +317,6 @@ static void check_power_list(const build *one) {
         test_memory_free(&power);
     }
     free(values);
-    clReleaseKernel(kernel);
 }
 
 static void power_of_lists(void **state) {

@@ -86,7 +86,7 @@ static inputs make_inputs(unsigned precision, uint32_t block_tiles) {
     return made;
 }
 
-static cl_kernel make_kernel(unsigned precision, const char *source, const char *name) {
+static ps_kernel *make_kernel(unsigned precision, const char *source, const char *name) {
     return test_kernel(device, source, name,
                        "-DPRECISION=%u -DLANES=%d -DRUN=%d -DDIMENSION=%d -DLEFT_AXES=2 "
                        "-DSTORE_TABLE=1",
@@ -96,8 +96,8 @@ static cl_kernel make_kernel(unsigned precision, const char *source, const char 
 /* The sums and powers by a table and torus_product. */
 static void multiply_table(unsigned precision, const product_numbers *numbers, const inputs *in,
                            test_memory *sums, test_memory *power) {
-    cl_kernel list = make_kernel(precision, "torus/list.cl", "torus_list");
-    cl_kernel kernel = make_kernel(precision, "torus/product.cl", "torus_product");
+    ps_kernel *list = make_kernel(precision, "torus/list.cl", "torus_list");
+    ps_kernel *kernel = make_kernel(precision, "torus/product.cl", "torus_product");
     const size_t entries = (size_t)REALIZATIONS * TILES * 2 * LANES;
     test_memory chunks = test_reals_create(device, precision, NULL, 2 * entries);
     test_memory table = test_reals_create(device, precision, NULL, entries * TABLE_POINTS);
@@ -111,13 +111,11 @@ static void multiply_table(unsigned precision, const product_numbers *numbers, c
                 PS_BUFFER(sums->buffer), PS_BUFFER(in->scales.buffer), PS_BUFFER(power->buffer));
     test_memory_free(&table);
     test_memory_free(&chunks);
-    clReleaseKernel(kernel);
-    clReleaseKernel(list);
 }
 
 static void multiply_shared(unsigned precision, size_t group, const product_numbers *numbers,
                             const inputs *in, test_memory *sums, test_memory *power) {
-    cl_kernel kernel = make_kernel(precision, "torus/product_shared.cl", "torus_product_shared");
+    ps_kernel *kernel = make_kernel(precision, "torus/product_shared.cl", "torus_product_shared");
     const size_t row = (size_t)BLOCK_TILES * LANES * precision / 8;
     TEST_LAUNCH(device, kernel, group, group, 2, REALIZATIONS, PS_STRUCT(*numbers),
                 PS_BUFFER(in->points.buffer), PS_BUFFER(in->weights.buffer),
@@ -125,7 +123,6 @@ static void multiply_shared(unsigned precision, size_t group, const product_numb
                 PS_BUFFER(in->blocks.buffer), PS_BUFFER(in->in_block.buffer),
                 PS_BUFFER(sums->buffer), PS_BUFFER(in->scales.buffer), PS_BUFFER(power->buffer),
                 PS_LOCAL(2 * 2 * RUN * row));
-    clReleaseKernel(kernel);
 }
 
 static void check_equal(const test_memory *one, const test_memory *other) {
@@ -193,7 +190,7 @@ static void shared_product(void **state) {
 
 static void multiply_units(unsigned precision, uint32_t block_tiles, const product_numbers *numbers,
                            const inputs *in, test_memory *sums, test_memory *power) {
-    cl_kernel kernel =
+    ps_kernel *kernel =
         test_kernel(device, "torus/product_units.cl", "torus_product_units",
                     "-DPRECISION=%u -DLANES=%d -DDIMENSION=%d -DLEFT_AXES=2 "
                     "-DTILES=%u %s",
@@ -207,7 +204,6 @@ static void multiply_units(unsigned precision, uint32_t block_tiles, const produ
                 PS_BUFFER(in->blocks.buffer), PS_BUFFER(in->in_block.buffer),
                 PS_BUFFER(sums->buffer), PS_BUFFER(in->scales.buffer), PS_BUFFER(power->buffer),
                 PS_LOCAL(2 * 2 * UNIT_CHUNK * row + 2 * steps * UNIT_GAP));
-    clReleaseKernel(kernel);
 }
 
 /* Sums of weights below 1 of at most two slabs: 8 u of the sum of sizes is what factors, products

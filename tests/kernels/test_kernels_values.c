@@ -57,7 +57,7 @@ static void check_sums(const double *sums, size_t lanes, const double *points,
     }
 }
 
-static void launch(cl_kernel kernel, size_t group, unsigned precision, size_t lanes,
+static void launch(ps_kernel *kernel, size_t group, unsigned precision, size_t lanes,
                    const double *points, const double *weights, const double *moves) {
     const size_t capacity = VECTORS * lanes;
     const values_sizes sizes = {capacity, TRIALS};
@@ -91,13 +91,12 @@ static void check_build(unsigned precision, size_t lanes) {
     double *points = grid_numbers(DIMENSION * capacity);
     double *moves = grid_numbers((size_t)SETS * TRIALS * DIMENSION);
     double *weights = test_whole_numbers(&seed, capacity, precision == 64 ? 0x1p53 : 0x1p24);
-    cl_kernel kernel = test_kernel(device, "integrands/values.cl", "integrand_values",
-                                   "-DINTEGRAND=box -DPRECISION=%u -DLANES=%zu -DDIMENSION=%d",
-                                   precision, lanes, DIMENSION);
+    ps_kernel *kernel = test_kernel(device, "integrands/values.cl", "integrand_values",
+                                    "-DINTEGRAND=box -DPRECISION=%u -DLANES=%zu -DDIMENSION=%d",
+                                    precision, lanes, DIMENSION);
     for (size_t g = 0; g < sizeof TEST_GROUP_SIZES / sizeof TEST_GROUP_SIZES[0]; g++) {
         launch(kernel, TEST_GROUP_SIZES[g], precision, lanes, points, weights, moves);
     }
-    clReleaseKernel(kernel);
     free(points);
     free(moves);
     free(weights);

@@ -46,8 +46,8 @@ static test_memory weighted_powers(const weighted_case *with) {
 
 static void launch_weighted(const weighted_case *with, const test_memory *sums) {
     const build *one = with->one;
-    cl_kernel kernel = test_kernel(device, "accumulate/weighted.cl", "accumulate_weighted",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "accumulate/weighted.cl", "accumulate_weighted",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     const blocks_numbers numbers = {.stride = with->stride,
                                     .num_pieces = with->num_blocks,
                                     .num_realizations = (uint32_t)with->num_rows};
@@ -61,7 +61,6 @@ static void launch_weighted(const weighted_case *with, const test_memory *sums) 
         test_memory_free_unchanged(&weights);
     }
     test_memory_free(&power);
-    clReleaseKernel(kernel);
 }
 
 static int64_t weigh_block(const weighted_case *with, size_t w, size_t row, size_t block) {

@@ -49,8 +49,8 @@ static void device_powers_equal_host_powers(void **state) {
     for (size_t i = 0; i < num; i++) {
         exponents[i] = i < 100 ? (real)i / 2 - 100 : random_exponent() * (real)1.01;
     }
-    cl_kernel kernel = test_kernel(device, "probe/two_to.cl", "probe_two_to",
-                                   "-DPRECISION=%d -DLANES=%u", PRECISION, lanes);
+    ps_kernel *kernel = test_kernel(device, "probe/two_to.cl", "probe_two_to",
+                                    "-DPRECISION=%d -DLANES=%u", PRECISION, lanes);
     test_memory in = test_memory_create(device, exponents, num * sizeof(real));
     test_memory out = test_reals_create(device, PRECISION, NULL, num);
     TEST_LAUNCH(device, kernel, 3, num / lanes, 1, 1, PS_BUFFER(in.buffer), PS_BUFFER(out.buffer),
@@ -62,5 +62,4 @@ static void device_powers_equal_host_powers(void **state) {
     free(powers);
     test_memory_free_unchanged(&in);
     test_memory_free(&out);
-    clReleaseKernel(kernel);
 }

@@ -120,7 +120,7 @@ double ps_nufft_order_launches(const ps_nufft_order_sizes *sizes) {
 static pspec_status create_kernels(ps_nufft_order *self, unsigned dimension, ps_precision precision,
                                    ps_error *error) {
     const struct {
-        cl_kernel *kernel;
+        ps_kernel **kernel;
         const char *name;
     } wanted[] = {{&self->tiles, "order_tiles"},  {&self->segments, "order_segments"},
                   {&self->sum, "order_sums"},     {&self->scatter, "order_scatter"},
@@ -129,8 +129,8 @@ static pspec_status create_kernels(ps_nufft_order *self, unsigned dimension, ps_
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=1 -DDIMENSION=%u",
              precision == PS_SINGLE ? 32u : 64u, dimension);
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        PS_TRY(ps_kernel_create(self->device, wanted[i].kernel, "nufft/order.cl", wanted[i].name,
-                                options, error));
+        PS_TRY(ps_kernel_get(self->device, wanted[i].kernel, "nufft/order.cl", wanted[i].name,
+                             options, error));
     }
     return PSPEC_OK;
 }
@@ -155,13 +155,6 @@ pspec_status ps_nufft_order_create(ps_nufft_order *out, const ps_nufft_order_siz
 }
 
 void ps_nufft_order_free(ps_nufft_order *order) {
-    const cl_kernel kernels[] = {order->tiles,   order->segments, order->sum,
-                                 order->scatter, order->start,    order->move};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     for (size_t i = 0; i < sizeof order->orders / sizeof order->orders[0]; i++) {
         ps_buffer_release(&order->orders[i]);
     }

@@ -37,7 +37,7 @@ typedef struct ps_nufft_order_points {
 typedef struct ps_nufft_order {
     ps_nufft_order_sizes sizes;
     ps_device *device;
-    cl_kernel tiles, segments, sum, scatter, start, move;
+    ps_kernel *tiles, *segments, *sum, *scatter, *start, *move;
     ps_buffer keys;      /* [point] */
     ps_buffer orders[3]; /* of tiles, and two that take turns */
     ps_buffer firsts, sums;

@@ -35,8 +35,8 @@ static pspec_status create_fold(ps_pairs_degrees *self, const ps_problem *proble
     pspec_status status = PSPEC_OK;
     ps_pairs_options(&options, problem, self->precision, self->lanes);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "pairs/fold.cl", "pairs_fold",
-                                        ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->fold, "pairs/fold.cl", "pairs_fold",
+                                     ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
@@ -74,9 +74,6 @@ pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *pr
 }
 
 void ps_pairs_degrees_free(ps_pairs_degrees *self) {
-    if (self->fold != NULL) {
-        clReleaseKernel(self->fold);
-    }
     free(self->power);
     free(self->host_sums);
     ps_buffer_release(&self->inverses);

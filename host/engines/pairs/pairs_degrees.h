@@ -32,7 +32,7 @@ typedef struct ps_pairs_degrees {
     ps_precision precision;
     unsigned lanes;
     size_t num_degrees, row_bytes; /* rounded up; of both parts */
-    cl_kernel fold;
+    ps_kernel *fold;
     double *power;   /* [batch][frequencies->num] */
     void *host_sums; /* [batch][PS_PAIRS_PARTS][num_degrees] */
     ps_buffer inverses, sums;

@@ -32,7 +32,7 @@ typedef struct pairs_direct {
     size_t batch;
     ps_pairs_points points;
     ps_pairs_degrees degrees;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer partials;
 } pairs_direct;
 
@@ -111,9 +111,6 @@ static void destroy(void *state) {
     }
     ps_pairs_points_free(&self->points);
     ps_pairs_degrees_free(&self->degrees);
-    if (self->kernel != NULL) {
-        clReleaseKernel(self->kernel);
-    }
     ps_buffer_release(&self->partials);
     free(self);
 }
@@ -124,8 +121,8 @@ static pspec_status create_kernel(pairs_direct *self, const ps_problem *problem,
     pspec_status status = PSPEC_OK;
     ps_pairs_options(&options, problem, precision, self->layout.lanes);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "pairs/sums.cl", "pairs_sums",
-                                        ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->kernel, "pairs/sums.cl", "pairs_sums",
+                                     ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;

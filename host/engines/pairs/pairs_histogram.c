@@ -46,7 +46,7 @@ typedef struct pairs_histogram {
     histogram_layout layout;
     ps_pairs_points points;
     ps_pairs_degrees degrees;
-    cl_kernel histogram_kernel, fold_kernel, nodes_kernel, sums_kernel;
+    ps_kernel *histogram_kernel, *fold_kernel, *nodes_kernel, *sums_kernel;
     ps_buffer scale, matrix, nodes;
     ps_buffer partials, moments, weights, node_partials;
 } pairs_histogram;
@@ -166,16 +166,6 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 /* ---- create and destroy ------------------------------------------------------------------ */
 
-static void release_kernels(pairs_histogram *self) {
-    cl_kernel all[] = {self->histogram_kernel, self->fold_kernel, self->nodes_kernel,
-                       self->sums_kernel};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        if (all[i] != NULL) {
-            clReleaseKernel(all[i]);
-        }
-    }
-}
-
 static void destroy(void *state) {
     pairs_histogram *self = state;
     if (self == NULL) {
@@ -183,7 +173,6 @@ static void destroy(void *state) {
     }
     ps_pairs_points_free(&self->points);
     ps_pairs_degrees_free(&self->degrees);
-    release_kernels(self);
     ps_buffer_release(&self->scale);
     ps_buffer_release(&self->matrix);
     ps_buffer_release(&self->nodes);
@@ -200,16 +189,16 @@ static pspec_status create_kernels(pairs_histogram *self, const ps_problem *prob
     pspec_status status = PSPEC_OK;
     ps_pairs_options(&options, problem, self->precision, self->layout.lanes);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->histogram_kernel, "pairs/histogram.cl",
-                                        "pairs_histogram", ps_text_string(&options), error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->nodes_kernel, "pairs/nodes.cl",
-                                        "pairs_nodes", ps_text_string(&options), error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->sums_kernel, "pairs/nodes_sums.cl",
-                                        "pairs_nodes_sums", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->histogram_kernel, "pairs/histogram.cl",
+                                     "pairs_histogram", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->nodes_kernel, "pairs/nodes.cl",
+                                     "pairs_nodes", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->sums_kernel, "pairs/nodes_sums.cl",
+                                     "pairs_nodes_sums", ps_text_string(&options), error));
     ps_text_append(&options, " -DPARTS=1");
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold_kernel, "pairs/fold.cl",
-                                        "pairs_fold", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->fold_kernel, "pairs/fold.cl",
+                                     "pairs_fold", ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;

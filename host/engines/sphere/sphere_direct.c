@@ -24,7 +24,7 @@ typedef struct sphere_direct {
     ps_sphere_layout layout;
     size_t batch;
     ps_sphere_points points;
-    cl_kernel sums_kernel, power_kernel;
+    ps_kernel *sums_kernel, *power_kernel;
     size_t table_pass;      /* whose table is on the device */
     long double *constants; /* [L + 1] of the orders */
     double *host_table;     /* [pass_blocks][PS_SPHERE_BLOCK_REALS] */
@@ -82,12 +82,6 @@ static void destroy(void *state) {
         return;
     }
     ps_sphere_points_free(&self->points);
-    if (self->sums_kernel != NULL) {
-        clReleaseKernel(self->sums_kernel);
-    }
-    if (self->power_kernel != NULL) {
-        clReleaseKernel(self->power_kernel);
-    }
     free(self->constants);
     free(self->host_table);
     free(self->host_blocks);
@@ -108,10 +102,10 @@ static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
                    8 * layout->real_bytes, layout->lanes, PS_SPHERE_CHUNK, PS_SPHERE_ORDERS,
                    layout->only_even);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->sums_kernel, "sphere/sums.cl",
-                                        "sphere_sums", ps_text_string(&options), error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->power_kernel, "sphere/power.cl",
-                                        "sphere_power", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->sums_kernel, "sphere/sums.cl",
+                                     "sphere_sums", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->power_kernel, "sphere/power.cl",
+                                     "sphere_power", ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;

@@ -15,8 +15,8 @@ static pspec_status create_prepare(ps_sphere_points *self, ps_error *error) {
                    8 * layout->real_bytes, layout->only_even);
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(self->device, &self->prepare, "sphere/prepare.cl",
-                                  "sphere_prepare", ps_text_string(&options), error);
+        status = ps_kernel_get(self->device, &self->prepare, "sphere/prepare.cl", "sphere_prepare",
+                               ps_text_string(&options), error);
     }
     ps_text_free(&options);
     return status;
@@ -59,9 +59,6 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
 }
 
 void ps_sphere_points_free(ps_sphere_points *self) {
-    if (self->prepare != NULL) {
-        clReleaseKernel(self->prepare);
-    }
     free(self->host_points);
     free(self->host_weights);
     free(self->host_offsets);

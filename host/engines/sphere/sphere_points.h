@@ -14,7 +14,7 @@ typedef struct ps_sphere_points {
     double *host_weights;   /* [capacity] */
     uint64_t *host_offsets; /* [batch + 1] in vectors of lanes */
     size_t num_vectors;     /* of what was uploaded last, of all realizations */
-    cl_kernel prepare;      /* NULL: the device has no double precision, and the host does it */
+    ps_kernel *prepare;     /* NULL: the device has no double precision, and the host does it */
     void *host_values;      /* [arrays][capacity], then */
     uint64_t *host_turns;   /* [capacity] */
     ps_buffer points, values, turns, weights, offsets;

@@ -87,8 +87,8 @@ static pspec_status create_kernel(ps_torus_product *self, const ps_torus_layout 
     }
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(device, &self->kernel, kernel[0], kernel[1],
-                                  ps_text_string(&options), error);
+        status = ps_kernel_get(device, &self->kernel, kernel[0], kernel[1],
+                               ps_text_string(&options), error);
     }
     ps_text_free(&options);
     return status;
@@ -121,9 +121,6 @@ pspec_status ps_torus_product_create(ps_torus_product *out, const ps_torus_layou
 }
 
 void ps_torus_product_free(ps_torus_product *product) {
-    if (product->kernel != NULL) {
-        clReleaseKernel(product->kernel);
-    }
     ps_buffer_release(&product->pairs);
     ps_buffer_release(&product->blocks);
     ps_buffer_release(&product->sums);

@@ -10,7 +10,7 @@
 #include "torus/product.h"
 
 typedef struct ps_torus_product {
-    cl_kernel kernel;
+    ps_kernel *kernel;
     size_t num_blocks; /* 0: tile pairs one by one */
     size_t local_bytes, sharing_items;
     bool has_units;      /* blocks by matrix units */

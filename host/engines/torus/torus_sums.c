@@ -47,12 +47,12 @@ static pspec_status create_kernels(ps_torus_sums *self, const ps_torus_layout *l
     PS_TRY_OUT(status, ps_text_check(&list, error));
     PS_TRY_OUT(status, ps_text_check(&last, error));
     const char *options = ps_text_string(&last);
-    PS_TRY_OUT(status, ps_kernel_create(device, &self->list, "torus/list.cl", "torus_list",
-                                        ps_text_string(&list), error));
-    PS_TRY_OUT(status, ps_kernel_create(device, &self->fold, "torus/fold.cl", "torus_fold", options,
-                                        error));
-    PS_TRY_OUT(status, ps_kernel_create(device, &self->power, "torus/power.cl", "torus_power_list",
-                                        options, error));
+    PS_TRY_OUT(status, ps_kernel_get(device, &self->list, "torus/list.cl", "torus_list",
+                                     ps_text_string(&list), error));
+    PS_TRY_OUT(status,
+               ps_kernel_get(device, &self->fold, "torus/fold.cl", "torus_fold", options, error));
+    PS_TRY_OUT(status, ps_kernel_get(device, &self->power, "torus/power.cl", "torus_power_list",
+                                     options, error));
 out:
     ps_text_free(&common);
     ps_text_free(&list);
@@ -96,12 +96,6 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
 }
 
 void ps_torus_sums_free(ps_torus_sums *self) {
-    cl_kernel *const kernels[] = {&self->list, &self->fold, &self->power};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (*kernels[i] != NULL) {
-            clReleaseKernel(*kernels[i]);
-        }
-    }
     ps_buffer_release(&self->frequencies);
     ps_buffer_release(&self->sums);
     ps_buffer_release(&self->totals);

@@ -13,7 +13,7 @@ typedef struct ps_torus_sums {
     unsigned dimension, lanes;
     size_t real_bytes;
     bool has_table;
-    cl_kernel list, fold, power;
+    ps_kernel *list, *fold, *power;
     ps_buffer frequencies, sums, totals, table;
 } ps_torus_sums;
 

@@ -17,7 +17,7 @@ typedef struct chords {
     size_t num_patterns;
     uint64_t num_runs;
     ps_pairs_points points;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer power, partials;
     void *host_partials;
 } chords;
@@ -37,8 +37,8 @@ static pspec_status create_kernel(chords *self, double power, ps_error *error) {
     ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u -DROOT=%d",
                    8 * ps_real_bytes(self->precision), self->lanes, power == root);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "rules/chords.cl",
-                                        "kernel_chords", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->kernel, "rules/chords.cl",
+                                     "kernel_chords", ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
@@ -97,9 +97,6 @@ pspec_status ps_kernel_chord_sums(ps_device *device, ps_precision precision, dou
                    .num_patterns = batch->num_patterns};
     const pspec_status status = sum_up(&self, power, batch, sums, error);
     ps_pairs_points_free(&self.points);
-    if (self.kernel != NULL) {
-        clReleaseKernel(self.kernel);
-    }
     ps_buffer_release(&self.power);
     ps_buffer_release(&self.partials);
     free(self.host_partials);

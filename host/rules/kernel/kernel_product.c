@@ -18,7 +18,7 @@ struct ps_kernel_product {
     ps_device *device;
     size_t num_points, stride, num_segments;
     unsigned lanes;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer points, x, power, partials;
     double *host;   /* [num_segments][PARTS][stride] */
     double *padded; /* [stride]: x, and 0 beyond it */
@@ -50,8 +50,8 @@ static pspec_status create_kernel(ps_kernel_product *self, double power, ps_erro
     pspec_status status = PSPEC_OK;
     ps_text_append(&options, "-DPRECISION=64 -DLANES=%u -DROOT=%d", self->lanes, power == root);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "rules/product.cl",
-                                        "kernel_product", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->kernel, "rules/product.cl",
+                                     "kernel_product", ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
@@ -110,9 +110,6 @@ pspec_status ps_kernel_product_create(ps_kernel_product **out, ps_device *device
 void ps_kernel_product_destroy(ps_kernel_product *self) {
     if (self == NULL) {
         return;
-    }
-    if (self->kernel != NULL) {
-        clReleaseKernel(self->kernel);
     }
     ps_buffer_release(&self->points);
     ps_buffer_release(&self->x);

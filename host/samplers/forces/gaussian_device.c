@@ -22,8 +22,8 @@ pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
     *d = (ps_gaussian_device){.device = device};
     PS_TRY(ps_forces_need_doubles(ps_device_get_limits(device), "gaussian-blue-noise", error));
     snprintf(options, sizeof options, "-DPRECISION=64 -DDIMENSION=%u", shape->dimension);
-    PS_TRY(ps_kernel_create(device, &d->kernel, "samplers/gaussian.cl", "gaussian_sums", options,
-                            error));
+    PS_TRY(
+        ps_kernel_get(device, &d->kernel, "samplers/gaussian.cl", "gaussian_sums", options, error));
     PS_TRY(ps_buffer_create(device, &d->points, shape->dimension * shape->stride * sizeof(double),
                             "points by cells", error));
     PS_TRY(ps_buffer_create(device, &d->begins, (shape->num_cells + 1) * sizeof(uint32_t),
@@ -34,9 +34,6 @@ pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
 }
 
 void ps_gaussian_device_destroy(ps_gaussian_device *d) {
-    if (d->kernel != NULL) {
-        clReleaseKernel(d->kernel);
-    }
     ps_buffer_release(&d->points);
     ps_buffer_release(&d->begins);
     ps_buffer_release(&d->sums);

@@ -10,7 +10,7 @@ typedef struct ps_gaussian_sums ps_gaussian_sums;
 
 typedef struct ps_gaussian_device {
     ps_device *device; /* borrowed */
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer points, begins, sums;
 } ps_gaussian_device;
 

@@ -42,11 +42,11 @@ double ps_step_pairs_bytes(size_t num, size_t num_bins) {
 
 static pspec_status create_kernels(ps_step_pairs *p, ps_error *error) {
     const char *const options = p->has_shared_counts ? "-DSHARED=1" : "-DSHARED=0";
-    PS_TRY(ps_kernel_create(p->device, &p->count, "samplers/step_counts.cl", "step_counts", options,
-                            error));
-    PS_TRY(ps_kernel_create(p->device, &p->force, "samplers/step_forces.cl", "step_forces", "",
-                            error));
-    return ps_kernel_create(p->device, &p->fold, "samplers/step_fold.cl", "step_fold", "", error);
+    PS_TRY(ps_kernel_get(p->device, &p->count, "samplers/step_counts.cl", "step_counts", options,
+                         error));
+    PS_TRY(
+        ps_kernel_get(p->device, &p->force, "samplers/step_forces.cl", "step_forces", "", error));
+    return ps_kernel_get(p->device, &p->fold, "samplers/step_fold.cl", "step_fold", "", error);
 }
 
 static pspec_status create_buffers(ps_step_pairs *p, ps_error *error) {
@@ -76,20 +76,11 @@ pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t nu
     return create_buffers(p, error);
 }
 
-static void release(cl_kernel kernel) {
-    if (kernel != NULL) {
-        clReleaseKernel(kernel);
-    }
-}
-
 void ps_step_pairs_destroy(ps_step_pairs *p) {
     ps_buffer *const buffers[] = {&p->points, &p->counts, &p->table, &p->forces, &p->sums};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
-    release(p->count);
-    release(p->force);
-    release(p->fold);
     free(p->coordinates);
     free(p->copies);
 }

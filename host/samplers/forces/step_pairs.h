@@ -10,7 +10,7 @@
 typedef struct ps_step_pairs {
     ps_device *device; /* borrowed */
     step_layout layout;
-    cl_kernel count, force, fold;
+    ps_kernel *count, *force, *fold;
     bool has_shared_counts; /* work-items of a row have one copy of counts together */
     double launch_pairs;    /* at most, in a launch; results do not depend on it */
     ps_buffer points, counts, table, forces, sums;

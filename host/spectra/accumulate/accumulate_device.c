@@ -15,7 +15,7 @@ struct ps_device_accumulator {
     ps_accumulator_options options; /* lanes: those of the accumulator */
     size_t real_bytes, num_groups, num_blocks, num_pieces, num_members;
     bool is_gpu;
-    cl_kernel blocks, fold;
+    ps_kernel *blocks, *fold;
     ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums;
     ps_device_states states; /* of frequencies, where they are wanted */
     ps_readings bins_read;
@@ -79,15 +79,15 @@ static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error)
     ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u", self->real_bytes * 8,
                    self->options.lanes);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "accumulate/fold.cl",
-                                        "accumulate_fold", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->fold, "accumulate/fold.cl",
+                                     "accumulate_fold", ps_text_string(&options), error));
     ps_text_append(&options, " -DSQUARES=%d", self->options.mean_only ? 0 : 1);
     PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->blocks, "accumulate/blocks.cl",
-                                        self->options.want_frequencies && !self->is_gpu
-                                            ? "accumulate_bins_and_frequencies"
-                                            : "accumulate_bins",
-                                        ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->blocks, "accumulate/blocks.cl",
+                                     self->options.want_frequencies && !self->is_gpu
+                                         ? "accumulate_bins_and_frequencies"
+                                         : "accumulate_bins",
+                                     ps_text_string(&options), error));
 out:
     ps_text_free(&options);
     return status;
@@ -147,15 +147,9 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
     if (accumulator == NULL) {
         return;
     }
-    cl_kernel *const kernels[] = {&accumulator->blocks, &accumulator->fold};
     ps_buffer *const buffers[] = {&accumulator->first_rings, &accumulator->rings,
                                   &accumulator->members,     &accumulator->bin_pieces,
                                   &accumulator->piece_sums,  &accumulator->bin_sums};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (*kernels[i] != NULL) {
-            clReleaseKernel(*kernels[i]);
-        }
-    }
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }

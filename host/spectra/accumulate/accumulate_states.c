@@ -24,9 +24,8 @@ static pspec_status create_strips(ps_device_states *self, size_t batch, ps_error
     snprintf(options, sizeof options, "-DPRECISION=%zu -DLANES=%u -DSQUARES=%d",
              self->real_bytes * 8, self->lanes, self->mean_only ? 0 : 1);
     self->num_strips = most_strips(batch);
-    PS_TRY(
-        ps_kernel_create(self->device, &self->strips, file, "accumulate_strips", options, error));
-    return ps_kernel_create(self->device, &self->merge, file, "accumulate_merge", options, error);
+    PS_TRY(ps_kernel_get(self->device, &self->strips, file, "accumulate_strips", options, error));
+    return ps_kernel_get(self->device, &self->merge, file, "accumulate_merge", options, error);
 }
 
 /* A larger buffer, with what was in the old one. */
@@ -81,12 +80,6 @@ pspec_status ps_device_states_create(ps_device_states *out, const ps_accumulator
 }
 
 void ps_device_states_free(ps_device_states *states) {
-    const cl_kernel kernels[] = {states->strips, states->merge};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     for (size_t i = 0; i < PS_NUM_STATES; i++) {
         ps_buffer_release(&states->buffers[i]);
     }

@@ -15,9 +15,9 @@ typedef struct ps_device_states {
     ps_device *device;
     size_t stride, real_bytes;
     unsigned lanes;
-    bool mean_only;          /* the last two are not there */
-    cl_kernel strips, merge; /* on GPUs */
-    size_t num_strips;       /* rows that they need behind the others */
+    bool mean_only;            /* the last two are not there */
+    ps_kernel *strips, *merge; /* on GPUs */
+    size_t num_strips;         /* rows that they need behind the others */
     unsigned levels;
     uint64_t count; /* of realizations */
     ps_buffer buffers[PS_NUM_STATES];

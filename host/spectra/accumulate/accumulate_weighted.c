@@ -21,7 +21,7 @@ struct ps_device_weighted {
     ps_device *device;
     ps_accumulator_options options; /* lanes: those of the kernel */
     size_t num_blocks;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     vector *vectors; /* [num_weighted] */
     /* [num_weighted][groups of lanes realizations][block][high, low][lanes] */
     ps_buffer pieces;
@@ -67,8 +67,8 @@ static pspec_status create_kernel(ps_device_weighted *self, ps_error *error) {
                    ps_real_bytes(self->options.precision) * 8, self->options.lanes);
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(self->device, &self->kernel, "accumulate/weighted.cl",
-                                  "accumulate_weighted", ps_text_string(&options), error);
+        status = ps_kernel_get(self->device, &self->kernel, "accumulate/weighted.cl",
+                               "accumulate_weighted", ps_text_string(&options), error);
     }
     ps_text_free(&options);
     return status;
@@ -112,9 +112,6 @@ out:
 void ps_device_weighted_destroy(ps_device_weighted *weighted) {
     if (weighted == NULL) {
         return;
-    }
-    if (weighted->kernel != NULL) {
-        clReleaseKernel(weighted->kernel);
     }
     for (size_t w = 0; weighted->vectors != NULL && w < weighted->options.num_weighted; w++) {
         ps_buffer_release(&weighted->vectors[w].weights);

@@ -24,8 +24,8 @@ static pspec_status prepare(ps_peak *peak, ps_precision precision, ps_error *err
                    precision == PS_SINGLE ? 32 : 64, lanes, STEPS);
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(peak->device, &peak->kernel, "probe/peak.cl", "probe_peak",
-                                  ps_text_string(&options), error);
+        status = ps_kernel_get(peak->device, &peak->kernel, "probe/peak.cl", "probe_peak",
+                               ps_text_string(&options), error);
     }
     ps_text_free(&options);
     PS_TRY(status);
@@ -52,9 +52,6 @@ pspec_status ps_peak_run(const ps_peak *peak, double *flops_per_second, ps_error
 }
 
 void ps_peak_destroy(ps_peak *peak) {
-    if (peak->kernel != NULL) {
-        clReleaseKernel(peak->kernel);
-    }
     ps_buffer_release(&peak->result);
     peak->kernel = NULL;
 }
@@ -64,7 +61,7 @@ void ps_peak_destroy(ps_peak *peak) {
 /* Two buffers, a kernel, and a number that must arrive at the end. */
 typedef struct copy {
     ps_device *device;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer from, to;
     size_t bytes;
     ps_range range;
@@ -88,8 +85,8 @@ static pspec_status prepare_copy(copy *self, ps_error *error) {
     ps_text_append(&options, "-DPRECISION=32 -DLANES=%u", lanes);
     pspec_status status = ps_text_check(&options, error);
     if (status == PSPEC_OK) {
-        status = ps_kernel_create(self->device, &self->kernel, "probe/copy.cl", "probe_copy",
-                                  ps_text_string(&options), error);
+        status = ps_kernel_get(self->device, &self->kernel, "probe/copy.cl", "probe_copy",
+                               ps_text_string(&options), error);
     }
     ps_text_free(&options);
     PS_TRY(status);
@@ -176,9 +173,6 @@ static pspec_status measure_memory(ps_device *device, ps_device_peaks *peaks, ps
     PS_TRY_OUT(status, measure_launches(&self, peaks, error));
     PS_TRY_OUT(status, measure_sent(&self, peaks, error));
 out:
-    if (self.kernel != NULL) {
-        clReleaseKernel(self.kernel);
-    }
     ps_buffer_release(&self.from);
     ps_buffer_release(&self.to);
     return status;

@@ -10,7 +10,7 @@
  * whoever compares may measure it again beside every run. */
 typedef struct ps_peak {
     ps_device *device;
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer result;
     ps_range range;
 } ps_peak;

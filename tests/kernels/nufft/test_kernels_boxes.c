@@ -294,7 +294,7 @@ static slab make_slab(const boxes_case *one, const boxes_data *data, uint32_t fi
     return made;
 }
 
-static void spread(const boxes_case *one, const boxes_data *data, size_t group, cl_kernel kernel,
+static void spread(const boxes_case *one, const boxes_data *data, size_t group, ps_kernel *kernel,
                    test_memory in[NUM_INPUTS], const slab *grid) {
     const ps_nufft_boxes *boxes = &data->layout.boxes;
     const uint32_t colours = boxes->colours[0] * boxes->colours[1] * boxes->colours[2];
@@ -338,7 +338,7 @@ static void run_case(const boxes_case *one, const boxes_data *data, size_t group
     /* As in engines CPUs alone have groups of one item; nor does Oclgrind know of prefetching. */
     const bool is_alone =
         one->is_alone && !ps_device_get_limits(device)->has_dedicated_local_memory;
-    cl_kernel kernel =
+    ps_kernel *kernel =
         test_kernel(device, "nufft/boxes.cl", "nufft_boxes",
                     "-DPRECISION=%u -DLANES=%u -DPAIRS=%u -DALONE=%u -DDIMENSION=%u",
                     one->precision, one->lanes, one->has_pairs, is_alone, one->dimension);
@@ -353,7 +353,6 @@ static void run_case(const boxes_case *one, const boxes_data *data, size_t group
     for (size_t i = 0; i < NUM_INPUTS; i++) {
         test_memory_free_unchanged(&in[i]);
     }
-    clReleaseKernel(kernel);
 }
 
 static void sums_of_windows(void **state) {

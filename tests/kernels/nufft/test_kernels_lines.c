@@ -188,7 +188,7 @@ static void spread(const lines_case *one, size_t items) {
                                   .K = one->K};
     test_memory power = test_reals_create(device, one->precision, NULL, NUM_ROWS * stride);
     test_memory lines = test_reals_create(device, one->precision, NULL, NUM_ROWS * n);
-    cl_kernel kernel =
+    ps_kernel *kernel =
         test_kernel(device, "nufft/tile.cl", "nufft_tile", "-DPRECISION=%u -DLANES=%u -DLINE=1",
                     one->precision, one->lanes);
     TEST_LAUNCH(
@@ -210,7 +210,6 @@ static void spread(const lines_case *one, size_t items) {
         test_memory_free_unchanged(&in[i]);
     }
     ps_nufft_plan_free(&plan);
-    clReleaseKernel(kernel);
 }
 
 /* Work-items alone, and a group that shares cells, of few lanes: PoCL takes seconds to compile it
@@ -293,8 +292,8 @@ static void run_powers(const lines_case *one) {
     test_memory lines = test_reals_create(device, one->precision, cells, NUM_SETS * (size_t)n);
     test_memory scale = test_reals_create(device, one->precision, scales, NUM_ROWS);
     test_memory out = test_reals_create(device, one->precision, NULL, NUM_ROWS * stride);
-    cl_kernel kernel = test_kernel(device, "nufft/lines.cl", "nufft_line_powers",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "nufft/lines.cl", "nufft_line_powers",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     TEST_LAUNCH(device, kernel, 1, 1, num_groups(one), 1, PS_STRUCT(numbers),
                 PS_BUFFER(lines.buffer), TRANSFORM(plan), PS_BUFFER(plan.gains),
                 PS_BUFFER(scale.buffer), PS_BUFFER(out.buffer), PS_LOCAL(row_bytes(one, &plan)));
@@ -313,7 +312,6 @@ static void run_powers(const lines_case *one) {
     test_memory_free_unchanged(&scale);
     test_memory_free(&out);
     ps_nufft_plan_free(&plan);
-    clReleaseKernel(kernel);
 }
 
 static void check_columns(const lines_case *one, const ps_nufft_plan plans[2], const double *cells,
@@ -351,10 +349,10 @@ static void run_columns(const lines_case *one) {
     test_memory grid = test_reals_create(device, one->precision, NULL,
                                          num_groups(one) * kept * one->n[1] * 2 * one->lanes);
     test_memory out = test_reals_create(device, one->precision, NULL, NUM_ROWS * stride);
-    cl_kernel rows = test_kernel(device, "nufft/lines.cl", "nufft_line_rows",
-                                 "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    cl_kernel columns = test_kernel(device, "nufft/lines.cl", "nufft_line_columns",
-                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *rows = test_kernel(device, "nufft/lines.cl", "nufft_line_rows",
+                                  "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *columns = test_kernel(device, "nufft/lines.cl", "nufft_line_columns",
+                                     "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     TEST_LAUNCH(device, rows, 1, 1, num_groups(one) * one->n[1], 1, PS_STRUCT(along),
                 PS_BUFFER(lines.buffer), TRANSFORM(plans[0]), PS_BUFFER(grid.buffer),
                 PS_U32(one->n[1]), PS_LOCAL(row_bytes(one, &plans[0])));
@@ -373,8 +371,6 @@ static void run_columns(const lines_case *one) {
     test_memory_free(&out);
     ps_nufft_plan_free(&plans[0]);
     ps_nufft_plan_free(&plans[1]);
-    clReleaseKernel(rows);
-    clReleaseKernel(columns);
 }
 
 static void powers_of_lines(void **state) {

@@ -235,8 +235,8 @@ static void run_case(const strips_case *one, const strips_data *data) {
     const size_t stride = (one->K / one->lanes + 1) * one->lanes * (2 * (size_t)one->K + 1);
     const strips_numbers numbers = numbers_of(one, data, &sizes, stride);
     const size_t real_bytes = one->precision / 8;
-    cl_kernel kernel = test_kernel(device, "nufft/strips.cl", "nufft_strips",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    ps_kernel *kernel = test_kernel(device, "nufft/strips.cl", "nufft_strips",
+                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     test_memory in[NUM_INPUTS];
     upload(one, data, in);
     test_memory strips =
@@ -265,7 +265,6 @@ static void run_case(const strips_case *one, const strips_data *data) {
     for (size_t i = 0; i < NUM_INPUTS; i++) {
         test_memory_free_unchanged(&in[i]);
     }
-    clReleaseKernel(kernel);
 }
 
 static void powers_of_windows(void **state) {

@@ -11,8 +11,8 @@ static const ps_sphere_source sums = {"sphere/nufft/grid_sums.cl", "sphere_grid_
 static pspec_status create_kernels(ps_sphere_grid_stages *self, ps_error *error) {
     static const ps_sphere_source values = {"sphere/nufft/grid_values.cl", "sphere_grid_values",
                                             false};
-    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->make, &values, false, error));
-    return ps_sphere_kernel_create(&self->powers, &self->sum, &sums, false, error);
+    PS_TRY(ps_sphere_kernel_get(&self->powers, &self->make, &values, false, error));
+    return ps_sphere_kernel_get(&self->powers, &self->sum, &sums, false, error);
 }
 
 static pspec_status create_buffers(ps_sphere_grid_stages *self, ps_error *error) {
@@ -50,12 +50,6 @@ pspec_status ps_sphere_grid_stages_create(ps_sphere_grid_stages *out, const ps_s
 }
 
 void ps_sphere_grid_stages_free(ps_sphere_grid_stages *stages) {
-    const cl_kernel kernels[] = {stages->make, stages->sum};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     ps_sphere_grid_table_free(&stages->table);
     ps_buffer_release(&stages->grids);
     ps_buffer_release(&stages->scratch);
@@ -103,7 +97,7 @@ pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t firs
 }
 
 /* ps_sphere_launch_sums */
-static pspec_status sum_cells(void *stages, cl_kernel kernel, const ps_buffer *to, size_t num,
+static pspec_status sum_cells(void *stages, ps_kernel *kernel, const ps_buffer *to, size_t num,
                               ps_error *error) {
     const ps_sphere_grid_stages *self = stages;
     const ps_sphere_shape *shape = self->shape;

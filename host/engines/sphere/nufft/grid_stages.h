@@ -18,7 +18,7 @@ typedef struct ps_sphere_grid_stages {
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;
     ps_sphere_grid_table table;
-    cl_kernel make, sum;
+    ps_kernel *make, *sum;
     ps_buffer grids, scratch, values;
     ps_sphere_powers powers;
 } ps_sphere_grid_stages;

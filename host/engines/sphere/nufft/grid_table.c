@@ -21,7 +21,7 @@ typedef struct making {
     ps_precision precision;
     ps_device *device;
     uint32_t angle_pitch;
-    cl_kernel make, begin;
+    ps_kernel *make, *begin;
     ps_sphere_starts starts;
     ps_buffer filters, states, scales, diagonals, diagonal_scales;
 } making;
@@ -220,12 +220,12 @@ static pspec_status create_kernels(making *self, ps_error *error) {
              "-DTARGET_LANES=%u -DTARGET_VECTORS=%u",
              self->rings.lanes, self->rings.run_vectors, self->is_alone ? 1u : 0u, bits,
              self->shape->lanes, self->shape->run_vectors);
-    PS_TRY(ps_kernel_create(self->device, &self->make, "sphere/nufft/grid_table.cl",
-                            "sphere_grid_table", options, error));
+    PS_TRY(ps_kernel_get(self->device, &self->make, "sphere/nufft/grid_table.cl",
+                         "sphere_grid_table", options, error));
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u", bits,
              self->shape->lanes, self->shape->run_vectors);
-    return ps_kernel_create(self->device, &self->begin, "sphere/nufft/grid_begins.cl",
-                            "sphere_grid_begins", options, error);
+    return ps_kernel_get(self->device, &self->begin, "sphere/nufft/grid_begins.cl",
+                         "sphere_grid_begins", options, error);
 }
 
 static pspec_status make_numbers(const ps_sphere_grid_table *table, const making *self,
@@ -275,12 +275,6 @@ static void free_making(making *self) {
         ps_buffer_release(buffers[i]);
     }
     ps_sphere_starts_free(&self->starts);
-    if (self->make != NULL) {
-        clReleaseKernel(self->make);
-    }
-    if (self->begin != NULL) {
-        clReleaseKernel(self->begin);
-    }
 }
 
 static pspec_status make(ps_sphere_grid_table *table, making *self, ps_error *error) {

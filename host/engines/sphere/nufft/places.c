@@ -80,8 +80,8 @@ static pspec_status create_kernels(ps_sphere_places *self, ps_error *error) {
     char options[64];
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
              self->precision == PS_SINGLE ? 32u : 64u, self->lanes);
-    PS_TRY(ps_kernel_create(self->device, &self->turn, names[which][0], names[which][1], options,
-                            error));
+    PS_TRY(
+        ps_kernel_get(self->device, &self->turn, names[which][0], names[which][1], options, error));
     return which == KEYS ? ps_nufft_order_create(&self->order, &shape->order, parts, 2,
                                                  self->precision, self->device, error)
                          : PSPEC_OK;
@@ -105,9 +105,6 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
 }
 
 void ps_sphere_places_free(ps_sphere_places *points) {
-    if (points->turn != NULL) {
-        clReleaseKernel(points->turn);
-    }
     ps_nufft_order_free(&points->order);
     ps_buffer_release(&points->vectors);
     ps_buffer_release(&points->turns);

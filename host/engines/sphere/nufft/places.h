@@ -14,7 +14,7 @@ typedef struct ps_sphere_places {
     unsigned lanes;
     uint64_t shift;         /* of the angle from the pole, in units of 2^-64 turns */
     bool has_unit_weights;  /* on the device */
-    cl_kernel turn;         /* or sort, or keys where there is an order */
+    ps_kernel *turn;        /* or sort, or keys where there is an order */
     ps_nufft_order order;   /* of parts, on GPUs */
     void *host_weights;     /* [most_points] float or double */
     uint64_t *host_offsets; /* [together + 1], where there is an order of the parts */

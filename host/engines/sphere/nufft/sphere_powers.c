@@ -2,8 +2,8 @@
 
 #include <stdio.h>
 
-pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out,
-                                     const ps_sphere_source *source, bool keeps, ps_error *error) {
+pspec_status ps_sphere_kernel_get(const ps_sphere_powers *self, ps_kernel **out,
+                                  const ps_sphere_source *source, bool keeps, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const unsigned precision = self->precision == PS_SINGLE ? 32 : 64;
     char options[192], of_values[96] = "";
@@ -15,7 +15,7 @@ pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *ou
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u%s%s",
              source->sums_one ? 64u : precision, source->sums_one ? shape->sum_lanes : shape->lanes,
              shape->run_vectors, self->is_alone ? 1u : 0u, of_values, keeps ? " -DKEEP=1" : "");
-    return ps_kernel_create(self->device, out, source->file, source->name, options, error);
+    return ps_kernel_get(self->device, out, source->file, source->name, options, error);
 }
 
 pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shape *shape,
@@ -27,14 +27,11 @@ pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shap
                               .shape = shape};
     static const ps_sphere_source fold = {"sphere/nufft/orders_fold.cl", "sphere_orders_fold",
                                           false};
-    PS_TRY(ps_sphere_kernel_create(out, &out->fold, &fold, false, error));
+    PS_TRY(ps_sphere_kernel_get(out, &out->fold, &fold, false, error));
     return ps_buffer_create(device, &out->sums, shape->at_once * each, "powers of orders", error);
 }
 
 void ps_sphere_powers_free(ps_sphere_powers *powers) {
-    if (powers->fold != NULL) {
-        clReleaseKernel(powers->fold);
-    }
     ps_buffer_release(&powers->sums);
     *powers = (ps_sphere_powers){0};
 }
@@ -57,7 +54,7 @@ pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, dou
 
 /* ---- coefficients ------------------------------------------------------------------------ */
 
-static pspec_status keep_with(const ps_sphere_powers *self, cl_kernel kernel,
+static pspec_status keep_with(const ps_sphere_powers *self, ps_kernel *kernel,
                               ps_sphere_launch_sums launch, void *stages, double *to,
                               ps_error *error) {
     const size_t num = ((size_t)self->shape->max_degree + 1) * 4 * self->shape->half_pitch;
@@ -74,9 +71,7 @@ static pspec_status keep_with(const ps_sphere_powers *self, cl_kernel kernel,
 pspec_status ps_sphere_keep(const ps_sphere_powers *self, const ps_sphere_source *source,
                             ps_sphere_launch_sums launch, void *stages, double *coefficients,
                             ps_error *error) {
-    cl_kernel kernel = NULL;
-    PS_TRY(ps_sphere_kernel_create(self, &kernel, source, true, error));
-    const pspec_status status = keep_with(self, kernel, launch, stages, coefficients, error);
-    clReleaseKernel(kernel);
-    return status;
+    ps_kernel *kernel = NULL;
+    PS_TRY(ps_sphere_kernel_get(self, &kernel, source, true, error));
+    return keep_with(self, kernel, launch, stages, coefficients, error);
 }

@@ -11,7 +11,7 @@ typedef struct ps_sphere_powers {
     ps_precision precision;
     bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     const ps_sphere_shape *shape;
-    cl_kernel fold;
+    ps_kernel *fold;
     ps_buffer sums; /* [group][realization][even, odd degrees][half_pitch] */
 } ps_sphere_powers;
 
@@ -28,9 +28,9 @@ typedef struct ps_sphere_source {
 } ps_sphere_source;
 
 /* A kernel for this precision, these lanes and work-groups; keeps: with -DKEEP=1. */
-pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out,
-                                     const ps_sphere_source *source, bool keeps,
-                                     ps_error *error) PS_MUST_CHECK;
+pspec_status ps_sphere_kernel_get(const ps_sphere_powers *self, ps_kernel **out,
+                                  const ps_sphere_source *source, bool keeps,
+                                  ps_error *error) PS_MUST_CHECK;
 
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
@@ -41,7 +41,7 @@ pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, dou
                                    ps_error *error) PS_MUST_CHECK;
 
 /* Launches a kernel of sums for the first num realizations. */
-typedef pspec_status (*ps_sphere_launch_sums)(void *stages, cl_kernel kernel, const ps_buffer *to,
+typedef pspec_status (*ps_sphere_launch_sums)(void *stages, ps_kernel *kernel, const ps_buffer *to,
                                               size_t num, ps_error *error);
 /* The conjugates of c_lm of the first to [order][even, odd l - m][re, im][half_pitch]. Kernel and
  * room are there only as long as they are needed. */

@@ -22,11 +22,11 @@ static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
     static const ps_sphere_source orders = {"sphere/nufft/orders.cl", "sphere_orders", false};
     static const ps_sphere_source bands = {"sphere/nufft/orders_bands.cl", "sphere_orders_bands",
                                            false};
-    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->orders, &orders, false, error));
+    PS_TRY(ps_sphere_kernel_get(&self->powers, &self->orders, &orders, false, error));
     if (self->shape->is_sorted) {
-        PS_TRY(ps_sphere_kernel_create(&self->powers, &self->bands, &bands, false, error));
+        PS_TRY(ps_sphere_kernel_get(&self->powers, &self->bands, &bands, false, error));
     }
-    return ps_sphere_kernel_create(&self->powers, &self->sum, source_of_sums(self), false, error);
+    return ps_sphere_kernel_get(&self->powers, &self->sum, source_of_sums(self), false, error);
 }
 
 static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
@@ -73,12 +73,6 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
 }
 
 void ps_sphere_stages_free(ps_sphere_stages *stages) {
-    const cl_kernel kernels[] = {stages->orders, stages->bands, stages->sum};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     ps_buffer *const buffers[] = {&stages->strip_turns,  &stages->strip_weights,   &stages->strips,
                                   &stages->strip_starts, &stages->grids,           &stages->rows,
                                   &stages->values,       &stages->states,          &stages->scales,
@@ -210,7 +204,7 @@ pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t val
 }
 
 /* ps_sphere_launch_sums */
-static pspec_status sum_rings(void *stages, cl_kernel kernel, const ps_buffer *to, size_t num,
+static pspec_status sum_rings(void *stages, ps_kernel *kernel, const ps_buffer *to, size_t num,
                               ps_error *error) {
     const ps_sphere_stages *self = stages;
     const ps_sphere_shape *shape = self->shape;

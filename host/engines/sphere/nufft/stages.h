@@ -16,7 +16,7 @@ typedef struct ps_sphere_stages {
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;
     ps_sphere_ring_tables rings;
-    cl_kernel orders, bands, sum;           /* bands: of sorted points */
+    ps_kernel *orders, *bands, *sum;        /* bands: of sorted points */
     ps_buffer grids, rows, scratch, values; /* of orders.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
     ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */

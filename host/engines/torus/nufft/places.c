@@ -28,8 +28,8 @@ static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, p
     char options[64];
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DBOXES=%u",
              precision == PS_SINGLE ? 32u : 64u, layout->lanes, self->dimension, layout->has_boxes);
-    PS_TRY(ps_kernel_create(self->device, &self->sort, "nufft/sort.cl",
-                            has_order ? "nufft_keys" : "nufft_sort", options, error));
+    PS_TRY(ps_kernel_get(self->device, &self->sort, "nufft/sort.cl",
+                         has_order ? "nufft_keys" : "nufft_sort", options, error));
     return has_order ? ps_nufft_order_create(&self->order, &layout->order, layout->parts,
                                              self->dimension, precision, self->device, error)
                      : PSPEC_OK;
@@ -47,9 +47,6 @@ pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout 
 }
 
 void ps_nufft_places_free(ps_nufft_places *places) {
-    if (places->sort != NULL) {
-        clReleaseKernel(places->sort);
-    }
     ps_nufft_order_free(&places->order);
     ps_buffer_release(&places->places);
     ps_buffer_release(&places->sorted);

@@ -11,7 +11,7 @@ typedef struct ps_nufft_places {
     unsigned dimension;
     ps_torus_points points;
     size_t num_points;    /* that were uploaded */
-    cl_kernel sort;       /* or keys, where there is an order */
+    ps_kernel *sort;      /* or keys, where there is an order */
     ps_nufft_order order; /* on GPUs */
     uint64_t *host_places;
     ps_buffer places, sorted, heights, starts;

@@ -14,13 +14,13 @@
 
 /* A pass on the device; items of its work-groups are compiled in. */
 typedef struct pass {
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_range range; /* of no groups and sets yet */
     ps_buffer roots, turns, gains;
 } pass;
 
 typedef struct grid {
-    cl_kernel spread;
+    ps_kernel *spread;
     bool has_sums;       /* boxes, of the chunks before */
     ps_buffer high, low; /* tiles */
     ps_buffer numbers[2];
@@ -46,12 +46,11 @@ static void append_sides(const ps_nufft_state *self, ps_text *options) {
 }
 
 /* options are freed. */
-static pspec_status build(ps_nufft_state *self, cl_kernel *kernel, const char *source,
+static pspec_status build(ps_nufft_state *self, ps_kernel **kernel, const char *source,
                           const char *name, ps_text *options, ps_error *error) {
     pspec_status status = ps_text_check(options, error);
     if (status == PSPEC_OK) {
-        status =
-            ps_kernel_create(self->device, kernel, source, name, ps_text_string(options), error);
+        status = ps_kernel_get(self->device, kernel, source, name, ps_text_string(options), error);
     }
     ps_text_free(options);
     return status;
@@ -149,18 +148,12 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     grid *const self = own;
-    if (self->spread != NULL) {
-        clReleaseKernel(self->spread);
-    }
     ps_buffer_release(&self->high);
     ps_buffer_release(&self->low);
     ps_buffer_release(&self->numbers[0]);
     ps_buffer_release(&self->numbers[1]);
     for (unsigned i = 0; i < PS_NUFFT_MOST_PASSES; i++) {
         pass *const own_pass = &self->passes[i];
-        if (own_pass->kernel != NULL) {
-            clReleaseKernel(own_pass->kernel);
-        }
         ps_buffer_release(&own_pass->roots);
         ps_buffer_release(&own_pass->turns);
         ps_buffer_release(&own_pass->gains);

@@ -11,7 +11,7 @@
 typedef struct grid {
     bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     bool is_empty; /* whatever the buffers hold */
-    cl_kernel spread, first, tile, rows, columns;
+    ps_kernel *spread, *first, *tile, *rows, *columns;
     ps_buffer high[PS_NUFFT_MOST_SLABS], low[PS_NUFFT_MOST_SLABS]; /* [num_slabs] */
     ps_buffer high_strip, low_strip;                               /* of more than one slab */
     ps_buffer tile_rows, transformed;                              /* of tiles_at_once */
@@ -30,7 +30,7 @@ static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
              self->precision == PS_SINGLE ? 32u : 64u, self->layout.lanes, self->layout.has_pairs,
              of(self)->is_alone, self->layout.choice.num_axes);
     const struct {
-        cl_kernel *kernel;
+        ps_kernel **kernel;
         const char *source, *name;
     } all[] = {{&of(self)->spread, "nufft/boxes.cl", "nufft_boxes"},
                {&of(self)->first, "nufft/first.cl", "nufft_first"},
@@ -38,8 +38,8 @@ static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
                {&of(self)->rows, "nufft/finish.cl", "nufft_finish_rows"},
                {&of(self)->columns, "nufft/columns.cl", "nufft_columns"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        PS_TRY(ps_kernel_create(self->device, all[i].kernel, all[i].source, all[i].name, options,
-                                error));
+        PS_TRY(
+            ps_kernel_get(self->device, all[i].kernel, all[i].source, all[i].name, options, error));
     }
     return PSPEC_OK;
 }
@@ -92,12 +92,6 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     grid *const self = own;
-    const cl_kernel kernels[] = {self->spread, self->first, self->tile, self->rows, self->columns};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     for (uint32_t slab = 0; slab < PS_NUFFT_MOST_SLABS; slab++) {
         ps_buffer_release(&self->high[slab]);
         ps_buffer_release(&self->low[slab]);

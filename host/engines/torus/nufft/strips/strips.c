@@ -10,7 +10,7 @@
 /* ---- create ------------------------------------------------------------------------------ */
 
 typedef struct strips {
-    cl_kernel kernel;
+    ps_kernel *kernel;
     ps_buffer strips, tiles; /* of work-groups */
 } strips;
 
@@ -25,8 +25,8 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
     const size_t bytes = layout->groups * layout->real_bytes;
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
              self->precision == PS_SINGLE ? 32u : 64u, layout->lanes);
-    PS_TRY(ps_kernel_create(self->device, &own->kernel, "nufft/strips.cl", "nufft_strips", options,
-                            error));
+    PS_TRY(ps_kernel_get(self->device, &own->kernel, "nufft/strips.cl", "nufft_strips", options,
+                         error));
     PS_TRY(ps_buffer_create(self->device, &own->strips, bytes * layout->strips.strip_reals,
                             "strips", error));
     return ps_buffer_create(self->device, &own->tiles, bytes * layout->strips.tile_reals, "tiles",
@@ -35,9 +35,6 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     strips *const self = own;
-    if (self->kernel != NULL) {
-        clReleaseKernel(self->kernel);
-    }
     ps_buffer_release(&self->strips);
     ps_buffer_release(&self->tiles);
 }

@@ -12,12 +12,11 @@ static pspec_status create_kernels(ps_nufft_lines *self, ps_precision precision,
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
              precision == PS_SINGLE ? 32u : 64u, self->layout->lanes);
     if (self->layout->choice.num_axes == 1) {
-        return ps_kernel_create(self->device, &self->powers, file, "nufft_line_powers", options,
-                                error);
+        return ps_kernel_get(self->device, &self->powers, file, "nufft_line_powers", options,
+                             error);
     }
-    PS_TRY(ps_kernel_create(self->device, &self->rows, file, "nufft_line_rows", options, error));
-    return ps_kernel_create(self->device, &self->columns, file, "nufft_line_columns", options,
-                            error);
+    PS_TRY(ps_kernel_get(self->device, &self->rows, file, "nufft_line_rows", options, error));
+    return ps_kernel_get(self->device, &self->columns, file, "nufft_line_columns", options, error);
 }
 
 /* Kernels that fill lines have an argument for them in any case. */
@@ -40,12 +39,6 @@ pspec_status ps_nufft_lines_create(ps_nufft_lines *out, const ps_nufft_layout *l
 }
 
 void ps_nufft_lines_free(ps_nufft_lines *lines) {
-    const cl_kernel kernels[] = {lines->powers, lines->rows, lines->columns};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     ps_buffer_release(&lines->lines);
     ps_buffer_release(&lines->grid);
     *lines = (ps_nufft_lines){0};

@@ -12,8 +12,8 @@ typedef struct ps_nufft_lines {
     const ps_nufft_layout *layout;
     const ps_nufft_plan *plans; /* of the axes */
     ps_device *device;
-    cl_kernel powers;        /* where one axis has a transform, */
-    cl_kernel rows, columns; /* where two have */
+    ps_kernel *powers;         /* where one axis has a transform, */
+    ps_kernel *rows, *columns; /* where two have */
     ps_buffer lines; /* [realization][row][n], which kernels/nufft/tile.cl and rows.cl fill */
     ps_buffer grid;  /* between the two transforms */
 } ps_nufft_lines;

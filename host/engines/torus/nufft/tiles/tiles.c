@@ -16,7 +16,7 @@
 #include <stdlib.h>
 
 typedef struct tiles {
-    cl_kernel tile, rows, columns;
+    ps_kernel *tile, *rows, *columns;
     ps_buffer pattern; /* how frequency 0 turns from cell to cell of the first axis */
     ps_buffer grid;    /* transformed rows, in three dimensions */
     ps_nufft_lines lines;
@@ -34,13 +34,13 @@ static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
              self->precision == PS_SINGLE ? 32u : 64u, self->layout.lanes,
              self->layout.choice.has_line);
     if (self->layout.choice.num_axes == 1) {
-        return ps_kernel_create(self->device, &of(self)->tile, "nufft/tile.cl", "nufft_tile",
-                                options, error);
+        return ps_kernel_get(self->device, &of(self)->tile, "nufft/tile.cl", "nufft_tile", options,
+                             error);
     }
-    PS_TRY(ps_kernel_create(self->device, &of(self)->rows, "nufft/rows.cl", "nufft_rows", options,
-                            error));
-    return ps_kernel_create(self->device, &of(self)->columns, "nufft/columns.cl", "nufft_columns",
-                            options, error);
+    PS_TRY(ps_kernel_get(self->device, &of(self)->rows, "nufft/rows.cl", "nufft_rows", options,
+                         error));
+    return ps_kernel_get(self->device, &of(self)->columns, "nufft/columns.cl", "nufft_columns",
+                         options, error);
 }
 
 /* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis
@@ -76,12 +76,6 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     tiles *const self = own;
-    const cl_kernel kernels[] = {self->tile, self->rows, self->columns};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
     ps_nufft_lines_free(&self->lines);
     ps_buffer_release(&self->pattern);
     ps_buffer_release(&self->grid);

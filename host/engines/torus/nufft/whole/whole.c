@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 typedef struct whole {
-    cl_kernel kernel;
+    ps_kernel *kernel;
     bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     ps_torus_points points;
     size_t num_points; /* that were uploaded */
@@ -115,8 +115,8 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
     own->is_alone = ps_range_is_alone(self->device);
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DALONE=%u",
              self->precision == PS_SINGLE ? 32u : 64u, layout->lanes, own->is_alone ? 1u : 0u);
-    PS_TRY(ps_kernel_create(self->device, &own->kernel, "nufft/whole.cl", "nufft_whole", options,
-                            error));
+    PS_TRY(
+        ps_kernel_get(self->device, &own->kernel, "nufft/whole.cl", "nufft_whole", options, error));
     PS_TRY(ps_torus_points_create(&own->points, layout->choice.num_axes, layout->parts,
                                   layout->part_points, self->precision, false, self->device,
                                   error));
@@ -131,9 +131,6 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     whole *const self = own;
-    if (self->kernel != NULL) {
-        clReleaseKernel(self->kernel);
-    }
     ps_torus_points_free(&self->points);
     for (size_t i = 0; i < 2; i++) {
         ps_fft_plan_free(&self->transforms[i]);
