@@ -34,6 +34,17 @@ static uint64_t bytes_of_boxes(const ps_nufft_layout *layout) {
     return (cells + chunk * windows) * layout->real_bytes + chunk * sizeof(uint32_t);
 }
 
+/* The lines that a pass of the grid of GPUs has at once, whose axes may be cut in halves. */
+static uint64_t bytes_of_passes(const ps_nufft_layout *layout) {
+    uint64_t most = 0;
+    for (unsigned i = 0; i < layout->grid.num_passes; i++) {
+        const ps_nufft_pass *pass = &layout->grid.passes[i];
+        const uint64_t numbers = (uint64_t)pass->lines_at_once * pass->length;
+        most = numbers > most ? numbers : most;
+    }
+    return most * 2 * layout->real_bytes;
+}
+
 /* A row of lanes of the longest axis, which every transform of it takes. */
 static uint64_t bytes_of_rows(const ps_nufft_layout *layout) {
     unsigned num = 0;
@@ -55,7 +66,9 @@ static int check_layout(const ps_problem *problem, const ps_device_limits *limit
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
     const ps_nufft_variant *const variant = layout.choice.variant;
     assert_true(variant->local_bytes(&layout) <= limits->local_bytes);
-    if (variant != &ps_nufft_whole && variant != &ps_nufft_strips) {
+    if (layout.grid.num_passes > 0) {
+        assert_true(bytes_of_passes(&layout) <= variant->local_bytes(&layout));
+    } else if (variant != &ps_nufft_whole && variant != &ps_nufft_strips) {
         /* their transforms are in global memory */
         assert_true(bytes_of_rows(&layout) <= variant->local_bytes(&layout));
     }
