@@ -139,9 +139,9 @@ uint32_t ps_fft_good_length(uint64_t least) {
     return (uint32_t)best;
 }
 
-/* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric
+/* [cosine, sine] of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric
  * factors are equal to the bit. */
-static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *sine) {
+static void put_root(uint32_t t, uint32_t n, double out[2]) {
     const uint64_t eighths = 8 * (uint64_t)t;
     const uint64_t octant = eighths / n;
     const uint64_t quarter = (octant + 1) / 2; /* nearest quarter turn */
@@ -152,17 +152,21 @@ static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *si
     const long double s = sinl(angle);
     const long double cosines[4] = {c, -s, -c, s};
     const long double sines[4] = {s, c, -s, -c};
-    *cosine = cosines[quarter % 4];
-    *sine = -sines[quarter % 4];
+    out[0] = (double)cosines[quarter % 4];
+    out[1] = (double)-sines[quarter % 4];
 }
 
-void ps_fft_roots(uint32_t length, double *roots) {
+pspec_status ps_fft_roots_create(ps_buffer *out, uint32_t length, ps_precision precision,
+                                 ps_device *device, ps_error *error) {
+    double *roots = NULL;
+    PS_TRY(PS_NEW(&roots, 2 * (size_t)length, "roots of unity", error));
     for (uint32_t i = 0; i < length; i++) {
-        long double value[2];
-        twiddle(i, length, &value[0], &value[1]);
-        roots[2 * (size_t)i] = (double)value[0];
-        roots[2 * (size_t)i + 1] = (double)value[1];
+        put_root(i, length, roots + 2 * (size_t)i);
     }
+    const pspec_status status =
+        ps_reals_upload(device, out, precision, roots, 2 * (size_t)length, "roots of unity", error);
+    free(roots);
+    return status;
 }
 
 /* [pass][t][j - 1]: as the passes read them. */
@@ -173,10 +177,8 @@ static void fill_twiddles(uint32_t length, const uint32_t *radices, double *out)
         rest /= radix;
         for (uint32_t t = 0; t < rest; t++) {
             for (uint32_t j = 1; j < radix; j++) {
-                long double value[2];
-                twiddle((uint32_t)((uint64_t)t * j * step % length), length, &value[0], &value[1]);
-                *out++ = (double)value[0];
-                *out++ = (double)value[1];
+                put_root((uint32_t)((uint64_t)t * j * step % length), length, out);
+                out += 2;
             }
         }
         step *= radix;

@@ -30,8 +30,9 @@ double ps_fft_cycles(uint32_t length);
 /* Cell where the result of frequency k = 0 .. length - 1 stands. */
 uint32_t ps_fft_position(uint32_t length, const uint32_t *radices, uint32_t k);
 
-/* roots [length][cosine, sine] of -2 pi i / length. */
-void ps_fft_roots(uint32_t length, double *roots);
+/* [length][cosine, sine] of -2 pi i / length, on the device. */
+pspec_status ps_fft_roots_create(ps_buffer *out, uint32_t length, ps_precision precision,
+                                 ps_device *device, ps_error *error) PS_MUST_CHECK;
 
 /* On the device, as in kernels/nufft/transform/fft.h: radices, twiddles, position. */
 typedef struct ps_fft_plan {

@@ -29,17 +29,16 @@ static pspec_status create_polynomials(ps_nufft_plan *plan, double tolerance,
                            (plan->degree + 1) * (size_t)plan->bins, "window polynomials", error);
 }
 
-static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps_device *device,
-                                 ps_error *error) {
-    const ps_nufft_axis *axis = &plan->axis;
+pspec_status ps_nufft_gains_create(ps_buffer *out, const ps_nufft_axis *axis, ps_nufft_gains of,
+                                   ps_precision precision, ps_device *device, ps_error *error) {
     const size_t num = (size_t)axis->max_frequency + 1;
     double *gains = NULL;
     PS_TRY(PS_NEW(&gains, num, "gains", error));
     for (size_t k = 0; k < num; k++) {
-        gains[k] = ps_nufft_gain(axis, (uint32_t)k);
+        const double gain = ps_nufft_gain(axis, (uint32_t)k);
+        gains[k] = of == PS_NUFFT_OF_AMPLITUDES ? sqrt(gain) : gain;
     }
-    const pspec_status status =
-        ps_reals_upload(device, &plan->gains, precision, gains, num, "gains", error);
+    const pspec_status status = ps_reals_upload(device, out, precision, gains, num, "gains", error);
     free(gains);
     return status;
 }
@@ -53,7 +52,7 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
     if (!has_transform) {
         return PSPEC_OK;
     }
-    PS_TRY(create_gains(out, precision, device, error));
+    PS_TRY(ps_nufft_gains_create(&out->gains, axis, PS_NUFFT_OF_POWERS, precision, device, error));
     return ps_fft_plan_create(&out->fft, axis->n, precision, device, error);
 }
 

@@ -28,6 +28,12 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
                                   ps_error *error) PS_MUST_CHECK;
 void ps_nufft_plan_free(ps_nufft_plan *plan);
 
+/* What undoes the window in powers of frequencies 0 .. K, or, as its roots, in amplitudes. */
+typedef enum ps_nufft_gains { PS_NUFFT_OF_POWERS, PS_NUFFT_OF_AMPLITUDES } ps_nufft_gains;
+pspec_status ps_nufft_gains_create(ps_buffer *out, const ps_nufft_axis *axis, ps_nufft_gains of,
+                                   ps_precision precision, ps_device *device,
+                                   ps_error *error) PS_MUST_CHECK;
+
 /* What launches are told of an axis: its window and place among coordinates, its transform. */
 window_numbers ps_nufft_window_numbers(const ps_nufft_plan *plan);
 axis_numbers ps_nufft_axis_numbers(const ps_nufft_plan *plan);

@@ -24,7 +24,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
 }
 
 void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch) {
-    if (layout->choice.variant->launcher->add == NULL) {
+    if (layout->choice.variant->launcher->spread == NULL) {
         layout->parts = layout->parts < batch ? layout->parts : batch;
         layout->groups = layout->groups < batch ? layout->groups : batch;
     }

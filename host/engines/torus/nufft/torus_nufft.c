@@ -63,7 +63,7 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
         .bytes_per_realization = (double)layout->bytes_per_realization,
         .row_bytes = (double)(layout->stride * layout->real_bytes),
         .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization,
-        .takes_blocks = variant->launcher->add != NULL};
+        .takes_blocks = variant->launcher->spread != NULL};
 }
 
 static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
@@ -222,22 +222,52 @@ static ps_rows show_rows(const ps_nufft_state *self, size_t num_rows) {
 
 static size_t stream_unit(const void *state) {
     const ps_nufft_state *self = state;
-    return self->launcher->add != NULL ? self->layout.parts * self->layout.part_points : 0;
+    return self->launcher->spread != NULL ? self->layout.parts * self->layout.part_points : 0;
 }
 
 static pspec_status begin_blocks(void *state, ps_error *error) {
     ps_nufft_state *self = state;
-    (void)error;
     self->sum_of_blocks = 0;
-    self->launcher->begin(self);
-    return PSPEC_OK;
+    return self->launcher->begin(self, error);
+}
+
+/* Points *first .. of a block, which *first moves behind. */
+static pspec_status add_chunk(ps_nufft_state *self, const ps_batch *block, size_t *first,
+                              ps_error *error) {
+    const pspec_pattern *const whole = &block->patterns[0];
+    pspec_pattern parts[PS_NUFFT_MOST_PARTS];
+    int exponents[PS_NUFFT_MOST_PARTS];
+    size_t num = 0;
+    ps_batch chunk = *block;
+    chunk.patterns = parts;
+    chunk.exponents = exponents;
+    chunk.is_one_set = true;
+    chunk.first_point += *first;
+    for (; num < self->layout.parts && *first < whole->num_points; num++) {
+        const size_t rest = whole->num_points - *first, most = self->layout.part_points;
+        parts[num] = (pspec_pattern){
+            .dimension = whole->dimension,
+            .num_points = rest < most ? rest : most,
+            .points = whole->points != NULL ? whole->points + *first * whole->dimension : NULL,
+            .weights = whole->weights != NULL ? whole->weights + *first : NULL};
+        exponents[num] = exponent_of(block, 0);
+        *first += parts[num].num_points;
+    }
+    chunk.num_patterns = num;
+    PS_TRY(ps_batch_go_on(block, error));
+    PS_TRY(ps_nufft_places_upload(&self->places, &chunk, error));
+    PS_TRY(ps_nufft_places_sort(&self->places, num, error));
+    return self->launcher->spread(self, num, error);
 }
 
 static pspec_status add_block(void *state, const ps_batch *block, ps_error *error) {
     ps_nufft_state *self = state;
     self->sum_of_blocks =
         add_weights(self->sum_of_blocks, &block->patterns[0], exponent_of(block, 0));
-    return self->launcher->add(self, block, error);
+    for (size_t first = 0; first < block->patterns[0].num_points;) {
+        PS_TRY(add_chunk(self, block, &first, error));
+    }
+    return PSPEC_OK;
 }
 
 static pspec_status finish_blocks(ps_nufft_state *self, const ps_nufft_target *target,
@@ -269,7 +299,7 @@ static pspec_status upload(ps_nufft_state *self, const ps_batch *some, ps_error 
 
 static pspec_status run_some(ps_nufft_state *self, const ps_batch *some,
                              const ps_nufft_target *target, ps_error *error) {
-    if (self->launcher->add != NULL) {
+    if (self->launcher->spread != NULL) {
         PS_TRY(begin_blocks(self, error));
         PS_TRY(add_block(self, some, error));
         return finish_blocks(self, target, error);
@@ -282,7 +312,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     ps_nufft_state *self = state;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
-    const size_t at_once = self->launcher->add != NULL ? 1 : self->layout.parts;
+    const size_t at_once = self->launcher->spread != NULL ? 1 : self->layout.parts;
     for (size_t row = 0; row < batch->num_patterns; row += at_once) {
         const ps_batch some = ps_batch_part(batch, row, at_once);
         PS_TRY(ps_batch_go_on(batch, error));

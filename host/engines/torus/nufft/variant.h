@@ -81,11 +81,12 @@ struct ps_nufft_launcher {
     /* What is left to do once all realizations of a batch were run; NULL: nothing. */
     pspec_status (*finish)(ps_nufft_state *, size_t num_realizations, const ps_nufft_target *,
                            ps_error *);
-    /* One realization at a time, in blocks of any number of points: begin, add any number of times,
-     * run. NULL: as many realizations at a time as the layout has parts. Bits are the same in
-     * several calls if all but the last have a multiple of layout.parts * layout.part_points. */
-    void (*begin)(ps_nufft_state *);
-    pspec_status (*add)(ps_nufft_state *, const ps_batch *block, ps_error *);
+    /* One realization at a time, in chunks of layout.parts * layout.part_points points, the last of
+     * which may have fewer: begin, then for each chunk, whose parts are in places, spread, which
+     * adds it to those before, then run. NULL: as many realizations at a time as the layout has
+     * parts. */
+    pspec_status (*begin)(ps_nufft_state *, ps_error *);
+    pspec_status (*spread)(ps_nufft_state *, size_t num_parts, ps_error *);
 };
 
 /* In the order in which they are tried, ended by NULL. */

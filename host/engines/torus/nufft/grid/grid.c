@@ -1,16 +1,9 @@
 /* Many sets at a time on GPUs: spread box by box, then transformed axis by axis into powers
  * (kernels/nufft/grid/). */
-#include "base/memory.h"
 #include "base/round.h"
-#include "device/reals.h"
 #include "engines/torus/nufft/measure.h"
 #include "engines/torus/nufft/variant.h"
-#include "math/pi.h"
 #include "nufft/grid/grid.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 /* A pass on the device; items of its work-groups are compiled in. */
 typedef struct pass {
@@ -88,40 +81,16 @@ static pspec_status create_lines(ps_nufft_state *self, const ps_nufft_pass *size
     return build(self, &out->kernel, "nufft/grid/lines.cl", "nufft_grid_lines", &options, error);
 }
 
-/* [num][cosine, sine] of -2 pi i / num */
-static pspec_status upload_roots(ps_nufft_state *self, ps_buffer *out, uint32_t num,
-                                 ps_error *error) {
-    double *roots = NULL;
-    PS_TRY(PS_NEW(&roots, 2 * (size_t)num, "roots of unity", error));
-    ps_fft_roots(num, roots);
-    const pspec_status status = ps_reals_upload(self->device, out, self->precision, roots,
-                                                2 * (size_t)num, "roots of unity", error);
-    free(roots);
-    return status;
-}
-
-static pspec_status upload_gains(ps_nufft_state *self, ps_buffer *out, const ps_nufft_axis *axis,
-                                 ps_error *error) {
-    const size_t num = (size_t)axis->max_frequency + 1;
-    double *gains = NULL;
-    PS_TRY(PS_NEW(&gains, num, "gains", error));
-    for (size_t k = 0; k < num; k++) {
-        gains[k] = sqrt(ps_nufft_gain(axis, (uint32_t)k));
-    }
-    const pspec_status status =
-        ps_reals_upload(self->device, out, self->precision, gains, num, "gains", error);
-    free(gains);
-    return status;
-}
-
 static pspec_status create_pass(ps_nufft_state *self, unsigned i, ps_error *error) {
     const ps_nufft_pass *sizes = &self->layout.grid.passes[i];
     const ps_nufft_axis *axis = &self->layout.choice.axes[sizes->axis];
     pass *const out = &of(self)->passes[i];
     PS_TRY(create_lines(self, sizes, out, error));
-    PS_TRY(upload_roots(self, &out->roots, sizes->length, error));
-    PS_TRY(upload_roots(self, &out->turns, sizes->is_turned ? axis->n : 1, error));
-    return upload_gains(self, &out->gains, axis, error);
+    PS_TRY(ps_fft_roots_create(&out->roots, sizes->length, self->precision, self->device, error));
+    PS_TRY(ps_fft_roots_create(&out->turns, sizes->is_turned ? axis->n : 1, self->precision,
+                               self->device, error));
+    return ps_nufft_gains_create(&out->gains, axis, PS_NUFFT_OF_AMPLITUDES, self->precision,
+                                 self->device, error);
 }
 
 static pspec_status create_buffers(ps_nufft_state *self, ps_error *error) {
@@ -240,30 +209,15 @@ const ps_nufft_launcher ps_nufft_grid_launcher = {
 
 /* ---- chunks ------------------------------------------------------------------------------ */
 
-static void begin(ps_nufft_state *self) {
+static pspec_status begin(ps_nufft_state *self, ps_error *error) {
+    (void)error;
     of(self)->has_sums = false;
+    return PSPEC_OK;
 }
 
-static pspec_status add(ps_nufft_state *self, const ps_batch *block, ps_error *error) {
-    const pspec_pattern *const whole = &block->patterns[0];
-    const size_t most = self->layout.part_points;
-    for (size_t first = 0; first < whole->num_points; first += most) {
-        const size_t rest = whole->num_points - first;
-        const pspec_pattern part = {
-            .dimension = whole->dimension,
-            .num_points = rest < most ? rest : most,
-            .points = whole->points != NULL ? whole->points + first * whole->dimension : NULL,
-            .weights = whole->weights != NULL ? whole->weights + first : NULL};
-        ps_batch chunk = *block;
-        chunk.patterns = &part;
-        chunk.is_one_set = true;
-        chunk.first_point = block->first_point + first;
-        PS_TRY(ps_batch_go_on(block, error));
-        PS_TRY(ps_nufft_places_upload(&self->places, &chunk, error));
-        PS_TRY(ps_nufft_places_sort(&self->places, 1, error));
-        PS_TRY(spread(self, 1, error));
-        of(self)->has_sums = true;
-    }
+static pspec_status spread_chunk(ps_nufft_state *self, size_t num_parts, ps_error *error) {
+    PS_TRY(spread(self, num_parts, error));
+    of(self)->has_sums = true;
     return PSPEC_OK;
 }
 
@@ -283,4 +237,4 @@ const ps_nufft_launcher ps_nufft_grid_chunks_launcher = {.sorts = true,
                                                          .free = free_own,
                                                          .run = finish_chunks,
                                                          .begin = begin,
-                                                         .add = add};
+                                                         .spread = spread_chunk};

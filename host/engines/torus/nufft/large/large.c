@@ -10,7 +10,6 @@
 
 typedef struct grid {
     bool is_alone; /* work-groups of one item: kernels/shared/group.h */
-    bool is_empty; /* whatever the buffers hold */
     ps_kernel *spread, *first, *tile, *rows, *columns;
     ps_buffer high[PS_NUFFT_MOST_SLABS], low[PS_NUFFT_MOST_SLABS]; /* [num_slabs] */
     ps_buffer high_strip, low_strip;                               /* of more than one slab */
@@ -102,10 +101,16 @@ static void free_own(void *own) {
     ps_buffer_release(&self->transformed);
 }
 
-/* ---- add --------------------------------------------------------------------------------- */
+/* ---- spread --------------------------------------------------------------------------------- */
 
-static void begin(ps_nufft_state *self) {
-    of(self)->is_empty = true;
+/* One thread of a device clears, while the host converts points. */
+static pspec_status begin(ps_nufft_state *self, ps_error *error) {
+    for (uint32_t slab = 0; slab < self->layout.num_slabs; slab++) {
+        PS_TRY(ps_buffer_clear(self->device, &of(self)->high[slab], error));
+        PS_TRY(self->layout.has_pairs ? ps_buffer_clear(self->device, &of(self)->low[slab], error)
+                                      : PSPEC_OK);
+    }
+    return PSPEC_OK;
 }
 
 /* Kernels want a buffer in every place: where there are no pairs, one that is not touched there. */
@@ -156,22 +161,10 @@ static pspec_status spread_colour(ps_nufft_state *self, uint32_t slab, size_t nu
                      PS_LOCAL(local.cells));
 }
 
-/* Clears a grid that nothing was added to. One thread of a device does it, while the host converts
- * points. */
-static pspec_status clear_once(ps_nufft_state *self, ps_error *error) {
-    for (uint32_t slab = 0; of(self)->is_empty && slab < self->layout.num_slabs; slab++) {
-        PS_TRY(ps_buffer_clear(self->device, &of(self)->high[slab], error));
-        PS_TRY(self->layout.has_pairs ? ps_buffer_clear(self->device, &of(self)->low[slab], error)
-                                      : PSPEC_OK);
-    }
-    of(self)->is_empty = false;
-    return PSPEC_OK;
-}
-
 /* Of a colour. */
-static double spread_flops(const ps_nufft_state *self, size_t num_points, uint32_t num_colours) {
+static double spread_flops(const ps_nufft_state *self, uint32_t num_colours) {
     const unsigned axes = self->layout.choice.num_axes;
-    double flops = 2.0 * (double)num_points * self->plans[axes - 1].bins / num_colours;
+    double flops = 2.0 * (double)self->places.num_points * self->plans[axes - 1].bins / num_colours;
     for (unsigned i = 0; i + 1 < axes; i++) {
         flops *= self->plans[i].axis.window.width;
     }
@@ -179,62 +172,20 @@ static double spread_flops(const ps_nufft_state *self, size_t num_points, uint32
 }
 
 static pspec_status spread_on(ps_nufft_state *self, uint32_t slab, size_t num_parts,
-                              size_t num_points, ps_error *error) {
+                              ps_error *error) {
     const ps_nufft_boxes *boxes = &self->layout.boxes;
     const uint32_t colours = boxes->colours[0] * boxes->colours[1] * boxes->colours[2];
     for (uint32_t colour = 0; colour < colours; colour++) {
         const boxes_numbers numbers = numbers_of_colour(self, slab, num_parts, colour);
         PS_TRY(spread_colour(self, slab, ps_nufft_boxes_of_colour(boxes), &numbers,
-                             spread_flops(self, num_points, colours), error));
+                             spread_flops(self, colours), error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status spread(ps_nufft_state *self, size_t num_parts, size_t num_points,
-                           ps_error *error) {
+static pspec_status spread(ps_nufft_state *self, size_t num_parts, ps_error *error) {
     for (uint32_t slab = 0; slab < self->layout.num_slabs; slab++) {
-        PS_TRY(spread_on(self, slab, num_parts, num_points, error));
-    }
-    return PSPEC_OK;
-}
-
-/* Points first .. of a pattern that fit into a chunk, as parts; how many parts. */
-static size_t cut(const ps_nufft_layout *layout, const pspec_pattern *pattern, size_t first,
-                  pspec_pattern *parts, size_t *num_points) {
-    size_t num = 0;
-    *num_points = 0;
-    while (num < layout->parts && first < pattern->num_points) {
-        const size_t rest = pattern->num_points - first;
-        parts[num] = *pattern;
-        parts[num].num_points = rest < layout->part_points ? rest : layout->part_points;
-        parts[num].points =
-            pattern->points != NULL ? pattern->points + first * pattern->dimension : NULL;
-        parts[num].weights = pattern->weights != NULL ? pattern->weights + first : NULL;
-        first += parts[num].num_points;
-        *num_points += parts[num++].num_points;
-    }
-    return num;
-}
-
-static pspec_status add(ps_nufft_state *self, const ps_batch *batch, ps_error *error) {
-    pspec_pattern parts[PS_NUFFT_MOST_PARTS];
-    int exponents[PS_NUFFT_MOST_PARTS];
-    size_t num_points = 0;
-    PS_TRY(clear_once(self, error));
-    for (size_t i = 0; i < PS_NUFFT_MOST_PARTS; i++) {
-        exponents[i] = batch->exponents != NULL ? batch->exponents[0] : 0;
-    }
-    for (size_t first = 0; first < batch->patterns[0].num_points; first += num_points) {
-        ps_batch chunk = *batch;
-        chunk.patterns = parts;
-        chunk.exponents = exponents;
-        chunk.is_one_set = true;
-        chunk.first_point = batch->first_point + first;
-        chunk.num_patterns = cut(&self->layout, &batch->patterns[0], first, parts, &num_points);
-        PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(ps_nufft_places_upload(&self->places, &chunk, error));
-        PS_TRY(ps_nufft_places_sort(&self->places, chunk.num_patterns, error));
-        PS_TRY(spread(self, chunk.num_patterns, num_points, error));
+        PS_TRY(spread_on(self, slab, num_parts, error));
     }
     return PSPEC_OK;
 }
@@ -368,8 +319,7 @@ static pspec_status finish_rows(ps_nufft_state *self, extent tiles, const ps_nuf
 static pspec_status run(ps_nufft_state *self, size_t num_realizations,
                         const ps_nufft_target *target, ps_error *error) {
     const ps_nufft_layout *layout = &self->layout;
-    (void)num_realizations;          /* one */
-    PS_TRY(clear_once(self, error)); /* of a set without points */
+    (void)num_realizations; /* one */
     for (size_t first = 0; first < layout->num_tiles; first += layout->tiles_at_once) {
         const extent tiles = cut_extent(first, layout->tiles_at_once, layout->num_tiles);
         PS_TRY(transform_first(self, tiles, error));
@@ -386,4 +336,4 @@ const ps_nufft_launcher ps_nufft_large_launcher = {.has_transforms = true,
                                                    .free = free_own,
                                                    .run = run,
                                                    .begin = begin,
-                                                   .add = add};
+                                                   .spread = spread};
