@@ -50,6 +50,16 @@ bool ps_fft_radices(uint32_t length, uint32_t radices[PS_FFT_MAX_PASSES]) {
     return rest == 1;
 }
 
+unsigned ps_fft_passes(uint32_t length) {
+    uint32_t radices[PS_FFT_MAX_PASSES];
+    unsigned num = 0;
+    ps_fft_radices(length, radices);
+    while (radices[num] != 0) {
+        num++;
+    }
+    return num;
+}
+
 double ps_fft_flops(uint32_t length) {
     uint32_t radices[PS_FFT_MAX_PASSES];
     double flops = 0;
@@ -67,15 +77,7 @@ double ps_fft_flops(uint32_t length) {
 }
 
 double ps_fft_passed(uint32_t length) {
-    uint32_t radices[PS_FFT_MAX_PASSES];
-    double passes = 0;
-    if (!ps_fft_radices(length, radices)) {
-        return HUGE_VAL;
-    }
-    for (const uint32_t *radix = radices; *radix != 0; radix++) {
-        passes++;
-    }
-    return passes * length;
+    return (double)ps_fft_passes(length) * length;
 }
 
 double ps_fft_cycles(uint32_t length) {

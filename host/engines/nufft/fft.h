@@ -18,6 +18,9 @@ uint32_t ps_fft_good_length(uint64_t least);
 /* Radices of the passes, ended by 0; false when the length has other prime factors (or is 0). */
 bool ps_fft_radices(uint32_t length, uint32_t radices[PS_FFT_MAX_PASSES]);
 
+/* How many these are. */
+unsigned ps_fft_passes(uint32_t length);
+
 /* Additions and multiplications of one complex transform, as the kernels make them. */
 double ps_fft_flops(uint32_t length);
 

@@ -25,9 +25,13 @@ static long double bessel_i0(long double x) {
  * and sigma = 1.2 .. 4; the optimum is flat. */
 static const double beyond_edge = 2.7;
 
-ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n) {
+double ps_nufft_window_beta(unsigned width, int32_t max_frequency, uint32_t n) {
     const double alias = PS_PI * width * (1 - (double)max_frequency / (double)n);
-    const double beta = sqrt(alias * alias - beyond_edge * beyond_edge);
+    return sqrt(alias * alias - beyond_edge * beyond_edge);
+}
+
+ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n) {
+    const double beta = ps_nufft_window_beta(width, max_frequency, n);
     return (ps_nufft_window){.width = width, .beta = beta, .peak = bessel_i0(beta)};
 }
 

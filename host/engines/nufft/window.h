@@ -12,13 +12,14 @@
 typedef struct ps_nufft_window {
     unsigned width; /* w */
     double beta;
-    long double peak; /* I_0(beta), of which planning would make thousands */
+    long double peak; /* I_0(beta): of values and transforms; losses do without */
 } ps_nufft_window;
 
 enum { PS_NUFFT_MIN_WIDTH = 2, PS_NUFFT_MAX_WIDTH = 16, PS_NUFFT_MAX_DEGREE = 25 };
 
-/* The window of a width for frequencies up to K on n cells. */
+/* The window of a width for frequencies up to K on n cells; its beta alone. */
 ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n);
+double ps_nufft_window_beta(unsigned width, int32_t max_frequency, uint32_t n);
 double ps_nufft_window_value(const ps_nufft_window *window, double t);
 /* Fourier transform at f cycles per cell. */
 double ps_nufft_window_transform(const ps_nufft_window *window, long double f);

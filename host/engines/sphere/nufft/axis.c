@@ -50,15 +50,10 @@ uint32_t ps_sphere_ring_length(int32_t max_degree) {
 
 static ps_nufft_axis make_axis(int32_t max_degree, uint32_t n, unsigned width) {
     ps_nufft_axis axis = {.factor = 1, .max_frequency = max_degree, .n = n};
-    uint32_t radices[PS_FFT_MAX_PASSES];
     axis.window = ps_nufft_window_make(width, max_degree, n);
     axis.loss.amplification = ps_nufft_window_amplification(&axis.window, max_degree, n);
     ps_sphere_nufft_loss(&axis, &axis.loss.aliasing, &axis.loss.worst);
-    ps_fft_radices(n / 2, radices);
-    while (radices[axis.passes] != 0) {
-        axis.passes++;
-    }
-    axis.passes++; /* the halves meet */
+    axis.passes = ps_fft_passes(n / 2) + 1; /* the halves meet */
     return axis;
 }
 

@@ -29,7 +29,6 @@ typedef struct ps_nufft_variant ps_nufft_variant; /* variant.h */
 typedef struct ps_nufft_choice {
     const ps_nufft_variant *variant;
     unsigned lanes; /* whose cost counts: those of the device, nominal ones where it has none */
-    uint32_t most_cells; /* of an axis */
     unsigned num_axes;
     uint32_t span;       /* number of frequencies on axis 0 that are summed directly; */
     bool has_line;       /* frequency 0 is stored apart, as real numbers: kernels/nufft/line.h */

@@ -16,9 +16,6 @@ static const double largest_sigma = 4;
 /* Windows must not meet themselves. */
 enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
 
-/* A row must fit into local memory, a megabyte at most, in one lane of 8 bytes. */
-enum { MOST_CELLS = 1 << 17 };
-
 /* Lengths between the two sigmas, twice. */
 enum { MAX_CANDIDATES = 128 };
 
@@ -34,25 +31,20 @@ static double power_of(const ps_problem *problem) {
     return fmax(nominal, ps_expected_power(problem));
 }
 
-/* Makes an axis without its loss, of which it has a lower bound alone. */
-static ps_nufft_axis begin_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
-    ps_nufft_axis axis = *what;
-    uint32_t radices[PS_FFT_MAX_PASSES];
-    axis.n = n;
-    axis.window = ps_nufft_window_make(width, axis.max_frequency, n);
-    axis.loss =
-        (ps_nufft_loss){.worst = ps_nufft_window_least_worst(&axis.window, axis.max_frequency, n)};
-    axis.passes = 0;
-    ps_fft_radices(n, radices);
-    while (radices[axis.passes] != 0) {
-        axis.passes++;
-    }
+/* Makes an axis of a window without its loss, of which it has a lower bound alone. */
+static ps_nufft_axis begin_axis(const ps_nufft_axis *of_length, unsigned width) {
+    ps_nufft_axis axis = *of_length;
+    axis.window = (ps_nufft_window){
+        .width = width, .beta = ps_nufft_window_beta(width, axis.max_frequency, axis.n)};
+    axis.loss = (ps_nufft_loss){
+        .worst = ps_nufft_window_least_worst(&axis.window, axis.max_frequency, axis.n)};
     return axis;
 }
 
-static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
-    ps_nufft_axis axis = begin_axis(what, n, width);
-    axis.loss = ps_nufft_window_loss(&axis.window, axis.max_frequency, n);
+static ps_nufft_axis make_axis(const ps_nufft_axis *of_length, unsigned width) {
+    ps_nufft_axis axis = *of_length;
+    axis.window = ps_nufft_window_make(width, axis.max_frequency, axis.n);
+    axis.loss = ps_nufft_window_loss(&axis.window, axis.max_frequency, axis.n);
     return axis;
 }
 
@@ -72,6 +64,14 @@ typedef struct axis_search {
     ps_precision precision;
     const best_choice *best;
 } axis_search;
+
+/* The axis that is searched for, without a window. */
+static ps_nufft_axis axis_of_length(const axis_search *search, uint32_t n) {
+    ps_nufft_axis axis = search->whole->axes[search->which];
+    axis.n = n;
+    axis.passes = ps_fft_passes(n);
+    return axis;
+}
 
 static double share_of_tolerance(const axis_search *search) {
     const double rest = 0.95; /* of the tolerance, where something else comes to it */
@@ -122,18 +122,18 @@ static bool is_hopeless(const axis_search *search, const ps_nufft_axis *axis) {
 /* Finds the narrowest window of a length that keeps the tolerance. Losses take microseconds, and
  * there are hundreds of lengths: they are computed only for windows that a bound leaves and that
  * would be cheaper than what there is. False says that the length has no such window. */
-static bool find_narrowest(const axis_search *search, uint32_t n, ps_nufft_axis *out) {
+static bool find_narrowest(const axis_search *search, const ps_nufft_axis *of_length,
+                           ps_nufft_axis *out) {
     const double tolerance = share_of_tolerance(search);
     for (unsigned width = PS_NUFFT_MIN_WIDTH; width <= PS_NUFFT_MAX_WIDTH; width++) {
-        const ps_nufft_axis *what = &search->whole->axes[search->which];
-        *out = begin_axis(what, n, width);
+        *out = begin_axis(of_length, width);
         if (error_alone(search, out) > tolerance) {
             continue;
         }
         if (is_hopeless(search, out)) {
             return false;
         }
-        *out = make_axis(what, n, width);
+        *out = make_axis(of_length, width);
         if (error_alone(search, out) <= tolerance) {
             return true;
         }
@@ -143,25 +143,24 @@ static bool find_narrowest(const axis_search *search, uint32_t n, ps_nufft_axis 
 
 /* Finds the most exact window of a length, of several the narrowest. Losses are computed only for
  * the window with the least bound and for those whose bound is below what was found. */
-static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
+static ps_nufft_axis find_most_exact(const axis_search *search, const ps_nufft_axis *of_length) {
     enum { WIDTHS = PS_NUFFT_MAX_WIDTH - PS_NUFFT_MIN_WIDTH + 1 };
-    const ps_nufft_axis *what = &search->whole->axes[search->which];
     double bounds[WIDTHS];
     unsigned hopeful = 0;
     for (unsigned i = 0; i < WIDTHS; i++) {
-        ps_nufft_axis axis = begin_axis(what, n, PS_NUFFT_MIN_WIDTH + i);
+        ps_nufft_axis axis = begin_axis(of_length, PS_NUFFT_MIN_WIDTH + i);
         axis.loss.amplification =
-            ps_nufft_window_amplification(&axis.window, axis.max_frequency, n);
+            ps_nufft_window_amplification(&axis.window, axis.max_frequency, axis.n);
         bounds[i] = error_alone(search, &axis);
         hopeful = bounds[i] < bounds[hopeful] ? i : hopeful;
     }
-    ps_nufft_axis best = make_axis(what, n, PS_NUFFT_MIN_WIDTH + hopeful);
+    ps_nufft_axis best = make_axis(of_length, PS_NUFFT_MIN_WIDTH + hopeful);
     double least_error = error_alone(search, &best);
     for (unsigned i = 0; i < WIDTHS; i++) {
         if (i == hopeful || bounds[i] > least_error) {
             continue;
         }
-        const ps_nufft_axis axis = make_axis(what, n, PS_NUFFT_MIN_WIDTH + i);
+        const ps_nufft_axis axis = make_axis(of_length, PS_NUFFT_MIN_WIDTH + i);
         const double error = error_alone(search, &axis);
         if (error < least_error ||
             (error == least_error && axis.window.width < best.window.width)) {
@@ -175,7 +174,7 @@ static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
 static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least) {
     const ps_nufft_variant *variant = whole->variant;
     const uint32_t unit = variant->unit != NULL ? variant->unit(whole, which) : 1;
-    return least > whole->most_cells ? 0 : ps_fft_good_length(ps_divide_up(least, unit)) * unit;
+    return least > variant->most_cells ? 0 : ps_fft_good_length(ps_divide_up(least, unit)) * unit;
 }
 
 /* The lengths of an axis, one after the other, beginning with n = 0; 0: there are no more. */
@@ -186,7 +185,7 @@ static uint32_t next_length(const axis_search *search, uint32_t n) {
                                   : (uint64_t)n + 1 + n / NEXT_LENGTH;
     const uint32_t next = length_for(whole, search->which, least);
     const bool is_too_long = n > 0 && next > (uint64_t)(largest_sigma * twice_k);
-    return next <= search->whole->most_cells && !is_too_long ? next : 0;
+    return next <= whole->variant->most_cells && !is_too_long ? next : 0;
 }
 
 /* Where there are two axes, a window may be narrower if the other is wider. */
@@ -194,13 +193,14 @@ static size_t list_candidates(const axis_search *search, ps_nufft_axis candidate
     size_t num = 0;
     for (uint32_t n = next_length(search, 0); n != 0 && num + 2 <= MAX_CANDIDATES;
          n = next_length(search, n)) {
+        const ps_nufft_axis of_length = axis_of_length(search, n);
         ps_nufft_axis axis = {0};
-        if (!find_narrowest(search, n, &axis)) {
-            axis = find_most_exact(search, n);
+        if (!find_narrowest(search, &of_length, &axis)) {
+            axis = find_most_exact(search, &of_length);
         }
         candidates[num++] = axis;
         if (search->whole->num_axes == 2 && axis.window.width > PS_NUFFT_MIN_WIDTH) {
-            candidates[num++] = make_axis(&axis, n, axis.window.width - 1);
+            candidates[num++] = make_axis(&of_length, axis.window.width - 1);
         }
     }
     return num;
@@ -231,12 +231,13 @@ static void consider_lengths(best_choice *best, ps_nufft_choice *choice, const p
                              ps_precision precision) {
     const axis_search search = {choice, 0, problem, precision, best};
     for (uint32_t n = next_length(&search, 0); n != 0; n = next_length(&search, n)) {
+        const ps_nufft_axis of_length = axis_of_length(&search, n);
         ps_nufft_axis axis = {0};
-        const bool is_enough = find_narrowest(&search, n, &axis);
+        const bool is_enough = find_narrowest(&search, &of_length, &axis);
         if (!is_enough && keeps_tolerance(best, problem)) {
             continue; /* nothing to gain from it */
         }
-        choice->axes[0] = is_enough ? axis : find_most_exact(&search, n);
+        choice->axes[0] = is_enough ? axis : find_most_exact(&search, &of_length);
         consider_grid(best, choice, problem, precision);
     }
 }
@@ -251,17 +252,18 @@ static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_
         consider_lengths(best, choice, problem, precision);
         return;
     }
-    for (unsigned i = 0; i < choice->num_axes; i++) {
+    const bool are_alike = choice->variant->are_alike; /* to the first */
+    for (unsigned i = 0; i < (are_alike ? 1 : choice->num_axes); i++) {
         const axis_search search = {choice, i, problem, precision, best};
         num[i] = list_candidates(&search, candidates[i]);
         total *= num[i];
     }
-    const bool are_alike = choice->variant->are_alike;
-    total = are_alike ? num[0] : total;
     for (size_t combination = 0; combination < total; combination++) {
         size_t rest = combination;
         for (unsigned i = 0; i < choice->num_axes; i++) {
-            choice->axes[i] = candidates[i][rest % num[i]];
+            const unsigned from = are_alike ? 0 : i, axis = choice->axes[i].axis;
+            choice->axes[i] = candidates[from][rest % num[from]];
+            choice->axes[i].axis = axis;
             rest /= are_alike ? 1 : num[i];
         }
         consider_grid(best, choice, problem, precision);
@@ -290,7 +292,6 @@ ps_nufft_choice ps_nufft_choose_among(const ps_nufft_variant *const *variants,
              which++) {
             choice.variant = variant;
             choice.lanes = lanes;
-            choice.most_cells = variant->most_cells > 0 ? variant->most_cells : MOST_CELLS;
             consider_grids(&best, &choice, &problem, precision);
         }
     }

@@ -10,6 +10,9 @@
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/places.h"
 
+/* Of an axis whose row must fit into local memory, a megabyte at most, in one lane of 8 bytes. */
+enum { PS_NUFFT_MOST_ROW_CELLS = 1 << 17 };
+
 /* Makes powers of realizations that are on their way to the device. */
 typedef struct ps_nufft_launcher ps_nufft_launcher;
 
@@ -17,7 +20,7 @@ struct ps_nufft_variant {
     bool on_cpus, on_gpus; /* kinds of devices that it serves */
     bool is_gridded;       /* spreads points on all axes, axis 0 included, as real numbers */
     bool are_alike;        /* its axes have the same cells and windows */
-    uint32_t most_cells;   /* of an axis; 0: as many as a row in local memory may have */
+    uint32_t most_cells;   /* of an axis */
 
     /* ---- what a choice is made of (choose.c) */
     /* Makes offer number `which` to a problem, with frequencies and without grids; false: there are

@@ -224,6 +224,7 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
 
 /* Kernels: all that makes tiles of a grid. */
 const ps_nufft_variant ps_nufft_large = {.on_cpus = true,
+                                         .most_cells = PS_NUFFT_MOST_ROW_CELLS,
                                          .is_gridded = true,
                                          .offer = offer,
                                          .unit = unit,

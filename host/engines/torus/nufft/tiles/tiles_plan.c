@@ -168,6 +168,7 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
 
 /* Kernels: the sort, and rows and columns of tiles. */
 const ps_nufft_variant ps_nufft_tiles = {.on_cpus = true,
+                                         .most_cells = PS_NUFFT_MOST_ROW_CELLS,
                                          .offer = offer,
                                          .settle = settle,
                                          .count = count,

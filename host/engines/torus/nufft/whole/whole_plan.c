@@ -208,6 +208,7 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
 }
 
 const ps_nufft_variant ps_nufft_whole = {.on_cpus = true,
+                                         .most_cells = PS_NUFFT_MOST_ROW_CELLS,
                                          .is_gridded = true,
                                          .are_alike = true,
                                          .offer = offer,
