@@ -126,17 +126,8 @@ static void query_kind(questions *ask, ps_device_limits *limits) {
         query_number(ask, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof(cl_bool)) != 0;
 }
 
-/* NVIDIA's compute capability (cl_nv_device_attribute_query), and the least that has mma.sync for
- * fp16 and double precision. */
-enum { ASK_CAPABILITY = 0x4000, ASK_MINOR_CAPABILITY = 0x4001, LEAST_CAPABILITY_OF_UNITS = 8 };
-
-/* By NVIDIA's table of arithmetic throughput: cards for data centres have half as many units for
- * double precision as for single, all others 1/64 or 1/32 of them. */
-static unsigned find_double_cost(unsigned major, unsigned minor) {
-    enum { OF_HALVES = 2, OF_OTHERS = 64 };
-    const bool is_half = (major >= 6 && major <= 10) && minor == 0;
-    return is_half ? OF_HALVES : OF_OTHERS;
-}
+/* NVIDIA's compute capability (cl_nv_device_attribute_query). */
+enum { ASK_CAPABILITY = 0x4000, ASK_MINOR_CAPABILITY = 0x4001 };
 
 /* What is said of NVIDIA's devices alone. */
 static void query_capability(questions *ask, ps_device_limits *limits) {
@@ -144,8 +135,7 @@ static void query_capability(questions *ask, ps_device_limits *limits) {
     query_text(ask, CL_DEVICE_VENDOR, vendor, sizeof vendor);
     if (strstr(vendor, "NVIDIA") != NULL) {
         const unsigned major = query_uint(ask, ASK_CAPABILITY);
-        limits->double_cost = find_double_cost(major, query_uint(ask, ASK_MINOR_CAPABILITY));
-        limits->units = major >= LEAST_CAPABILITY_OF_UNITS ? PS_UNITS_UNKNOWN : PS_UNITS_NONE;
+        ps_units_of_capability(limits, major, query_uint(ask, ASK_MINOR_CAPABILITY));
     }
 }
 

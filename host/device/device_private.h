@@ -78,6 +78,11 @@ pspec_status ps_staged_write(ps_device *device, const ps_buffer *buffer, size_t 
                              const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
 void ps_staged_release(ps_device *device);
 
+/* What double precision costs on a device of NVIDIA with this compute capability, by their table of
+ * arithmetic throughput: cards for data centres have half as many units for it as for single, all
+ * others 1/64 or 1/32 of them; and whether it may have mma.sync for fp16 and double precision. */
+void ps_units_of_capability(ps_device_limits *limits, unsigned major, unsigned minor);
+
 /* Adds one finished launch to the profile and releases the event. */
 pspec_status ps_profile_add(ps_device *device, const char *kernel, const ps_range *range,
                             cl_event event, ps_error *error) PS_MUST_CHECK;

@@ -1,4 +1,4 @@
-/* Matrix units: which a device has is found out by trying them. */
+/* Matrix units: which a device may have is known of NVIDIA's, and found out by trying them. */
 #include "device/device_private.h"
 
 #include <stdio.h>
@@ -6,6 +6,13 @@
 const char *ps_units_name(ps_units units) {
     static const char *const names[] = {"none", "unknown", "emulated", "ptx"};
     return names[units];
+}
+
+void ps_units_of_capability(ps_device_limits *limits, unsigned major, unsigned minor) {
+    enum { OF_HALVES = 2, OF_OTHERS = 64, LEAST_OF_UNITS = 8 };
+    const bool is_half = (major >= 6 && major <= 10) && minor == 0;
+    limits->double_cost = is_half ? OF_HALVES : OF_OTHERS;
+    limits->units = major >= LEAST_OF_UNITS ? PS_UNITS_UNKNOWN : PS_UNITS_NONE;
 }
 
 /* *wrong begins as all ones, so that a device that does nothing is not taken to be right. */
