@@ -7,6 +7,7 @@
 #include "engines/error_units.h"
 #include "engines/torus/nufft/torus_nufft.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -201,4 +202,28 @@ void contract_check_rows(const contract_way *way, const char *what, size_t num, 
         }
     }
     free(found);
+}
+
+/* ---- bytes of buffers --------------------------------------------------------------------- */
+
+double contract_bytes, contract_most_bytes;
+
+/* Linked in the place of the driver's (tests/CMakeLists.txt). */
+cl_mem __real_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code);
+cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code);
+cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code) {
+    contract_bytes += (double)bytes;
+    contract_most_bytes = fmax(contract_most_bytes, contract_bytes);
+    return __real_clCreateBuffer(context, flags, bytes, host, code);
+}
+cl_int __real_clReleaseMemObject(cl_mem memory);
+cl_int __wrap_clReleaseMemObject(cl_mem memory);
+cl_int __wrap_clReleaseMemObject(cl_mem memory) {
+    size_t bytes = 0;
+    clGetMemObjectInfo(memory, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
+    contract_bytes -= (double)bytes;
+    return __real_clReleaseMemObject(memory);
 }

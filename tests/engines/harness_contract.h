@@ -60,6 +60,8 @@ double contract_power_of(const contract_way *way, const double *c, size_t i);
 double contract_error(const contract_way *way, void *state, const pspec_pattern *set,
                       const double *found, double *bound);
 size_t contract_row_bytes(const contract_way *way);
+/* Of buffers that there are, and the most there were since this was set. */
+extern double contract_bytes, contract_most_bytes;
 /* The test fails where bits of num rows differ; found is freed. */
 void contract_check_rows(const contract_way *way, const char *what, size_t num, double *found,
                          const double *expected);

@@ -15,28 +15,6 @@
 static ps_device *device;
 static const ps_engine *asked; /* NULL: all */
 
-/* Linked in the place of the driver's (tests/CMakeLists.txt): bytes of buffers that are there, and
- * the most there were. */
-static double bytes_there, most_bytes;
-cl_mem __real_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
-                             cl_int *code);
-cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
-                             cl_int *code);
-cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
-                             cl_int *code) {
-    bytes_there += (double)bytes;
-    most_bytes = fmax(most_bytes, bytes_there);
-    return __real_clCreateBuffer(context, flags, bytes, host, code);
-}
-cl_int __real_clReleaseMemObject(cl_mem memory);
-cl_int __wrap_clReleaseMemObject(cl_mem memory);
-cl_int __wrap_clReleaseMemObject(cl_mem memory) {
-    size_t bytes = 0;
-    clGetMemObjectInfo(memory, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
-    bytes_there -= (double)bytes;
-    return __real_clReleaseMemObject(memory);
-}
-
 static double *run_all(const contract_way *way, size_t batch) {
     return contract_powers(way, &way->problem, way->sets, CONTRACT_SETS, batch);
 }
@@ -147,16 +125,16 @@ static void memory_is_announced(const contract_way *way) {
     const double page = 4096;
     for (size_t i = 0; i < 2 && way->engine->needs_device; i++) {
         ps_problem problem = way->problem;
-        const double before = bytes_there;
+        const double before = contract_bytes;
         const double expected = announced(way, batches[i]);
         problem.num_realizations = batches[i];
-        most_bytes = before;
+        contract_most_bytes = before;
         free(contract_powers(way, &problem, way->sets, batches[i], batches[i]));
-        assert_true(bytes_there == before);
-        if (!(most_bytes - before <= expected + page &&
-              expected <= 2 * (most_bytes - before) + page)) {
+        assert_true(contract_bytes == before);
+        if (!(contract_most_bytes - before <= expected + page &&
+              expected <= 2 * (contract_most_bytes - before) + page)) {
             CONTRACT_FAIL(way, "batches of %zu take %.0f bytes, announced were %.0f", batches[i],
-                          most_bytes - before, expected);
+                          contract_most_bytes - before, expected);
         }
     }
 }

@@ -76,10 +76,11 @@ pspec_pattern test_pattern(const test_set *set) {
     return (pspec_pattern){set->dimension, set->num_points, set->points, set->weights};
 }
 
-ps_device *test_open_device(void) {
+static ps_device *open_device(bool with_profile) {
     ps_device *device = NULL;
     ps_error error = {0};
-    const pspec_status status = ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, &error);
+    const pspec_status status =
+        ps_device_open(&device, getenv("POINTSPEC_DEVICE"), with_profile, &error);
     if (status == PSPEC_ERROR_NO_DEVICE) {
         print_message("skipped: %s\n", error.message);
         exit(TEST_SKIPPED);
@@ -87,6 +88,18 @@ ps_device *test_open_device(void) {
     if (status != PSPEC_OK) {
         fail_msg("%s", error.message);
     }
+    return device;
+}
+
+ps_device *test_open_device(void) {
+    return open_device(false);
+}
+
+ps_device *test_open_gpu(void) {
+    enum { GROUP = 64 };
+    ps_device *const device = open_device(true);
+    ps_device_set_dedicated_local_memory(device, true);
+    ps_device_set_group_size(device, test_group(GROUP));
     return device;
 }
 

@@ -53,6 +53,8 @@ pspec_pattern test_pattern(const test_set *set);
 
 /* Opens the default device, or ends the test program as skipped when there is none. */
 ps_device *test_open_device(void);
+/* The same, which works as GPUs do, in groups of test_group, and counts launches. */
+ps_device *test_open_gpu(void);
 
 /* Items of a work-group as GPUs have them: POINTSPEC_TEST_GROUP, which .ci/run draws from 32 to
  * 512, else `usual`. */

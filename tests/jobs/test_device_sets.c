@@ -5,7 +5,6 @@
 #include "jobs/self_check.h"
 #include "jobs/spectrum/power_job.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static ps_device *device;
@@ -99,26 +98,14 @@ static void cpus_make_no_points(void **state) {
     assert_true(count_launches() == before || ps_device_get_limits(device)->is_gpu);
 }
 
-static int open_device(void **state) {
-    (void)state;
-    ps_device_close(test_open_device()); /* skips where there is none */
-    assert_ok(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), true, error));
-    ps_device_set_dedicated_local_memory(device, true);
-    ps_device_set_group_size(device, test_group(64));
-    return 0;
-}
-
-static int close_device(void **state) {
-    (void)state;
-    ps_device_close(device);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_points_of_a_job_have_the_same_bits_either_way),
         cmocka_unit_test(parts_of_a_batch_have_its_realizations),
         cmocka_unit_test(cpus_make_no_points),
     };
-    return cmocka_run_group_tests_name("device_sets", tests, open_device, close_device);
+    device = test_open_gpu();
+    const int failures = cmocka_run_group_tests_name("device_sets", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
 }

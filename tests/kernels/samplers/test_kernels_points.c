@@ -156,25 +156,14 @@ static void others_are_made_by_the_host(void **state) {
     assert_false(ps_device_sets_serve(&white, &gpu));
 }
 
-static int open_device(void **state) {
-    (void)state;
-    device = test_open_device();
-    ps_device_set_dedicated_local_memory(device, true);
-    ps_device_set_group_size(device, test_group(64));
-    return 0;
-}
-
-static int close_device(void **state) {
-    (void)state;
-    ps_device_close(device);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_have_the_bits_of_the_host),
         cmocka_unit_test(beginnings_are_those_of_the_host),
         cmocka_unit_test(others_are_made_by_the_host),
     };
-    return cmocka_run_group_tests_name("kernels_points", tests, open_device, close_device);
+    device = test_open_gpu();
+    const int failures = cmocka_run_group_tests_name("kernels_points", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
 }
