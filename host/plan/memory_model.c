@@ -37,18 +37,24 @@ static double running_states(const ps_problem *problem, size_t batch) {
     return 4 * (1.0 + sum_levels(known > 0 ? known : batch));
 }
 
+/* Those that GPUs have besides, of each block that a batch is part of
+ * (spectra/accumulate/accumulate_states.h). */
+static double strip_states(const ps_device_limits *limits, size_t batch) {
+    return limits->has_dedicated_local_memory ? 4.0 * most_strips(batch) : 0;
+}
+
 /* Adds what rows of powers on the device bring: their sums over realizations, also read
- * back; members of bins, and the pieces of bins in the blocks of a row: 3 numbers for each, and its
- * sum in pairs, two of which are on their way to the host. In one dimension all frequencies of a
- * block are of one ring, which makes pieces of PS_ACCUMULATE_PIECE; else rings cross a block in
- * about 36, some of them in two pieces. */
+ * back, and strips; members of bins, and the pieces of bins in the blocks of a row: 3 numbers for
+ * each, and its sum in pairs, two of which are on their way to the host. In one dimension all
+ * frequencies of a block are of one ring, which makes pieces of PS_ACCUMULATE_PIECE; else rings
+ * cross a block in about 36, some of them in two pieces. */
 static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_problem *problem,
-                            double rows, double states, double real_bytes) {
+                            double rows, double states, double strips, double real_bytes) {
     const double pieces_of_block = problem->frequencies->dimension == 1 ? 32 : 44;
     const double num = (double)problem->frequencies->num;
     const double blocks = ceil(work->row_bytes / real_bytes / block);
     const double pieces = fmin(num, blocks * pieces_of_block);
-    sum->device += states * work->row_bytes + num * (double)sizeof(uint16_t) +
+    sum->device += (states + strips) * work->row_bytes + num * (double)sizeof(uint16_t) +
                    pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
     sum->host += states * work->row_bytes + 2 * pieces * 2 * rows * real_bytes;
 }
@@ -111,10 +117,7 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     }
     const double rows = padded_rows(limits, precision, batch);
     const double real_bytes = (double)ps_real_bytes(precision);
-    add_accumulator(&sum, work, problem, rows, states, real_bytes);
-    sum.device += limits->has_dedicated_local_memory /* spectra/accumulate/accumulate_states.h */
-                      ? 4 * work->row_bytes * most_strips(batch)
-                      : 0;
+    add_accumulator(&sum, work, problem, rows, states, strip_states(limits, batch), real_bytes);
     add_weighted(&sum, work, problem, rows, real_bytes);
     return sum;
 }

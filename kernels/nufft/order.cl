@@ -155,17 +155,22 @@ __kernel void order_tiles(const order_numbers numbers, __global const ulong *res
 
 /* ---- sums over tiles --------------------------------------------------------------------- */
 
+/* The first tile of a segment; behind the last one all tiles. */
+static inline uint first_tile(const order_numbers numbers, const uint segment) {
+    const uint each = (numbers.tiles + ORDER_SEGMENTS - 1) / ORDER_SEGMENTS;
+    return min(numbers.tiles, segment * each);
+}
+
 /* Launch of both: (row, ORDER_SEGMENTS, sets), the row rounded up at will. */
 __kernel void order_segments(const order_numbers numbers, __global const uint *restrict firsts,
                              __global uint *restrict sums) {
     const uint b = get_global_id(0), segment = get_global_id(1), set = get_global_id(2);
-    const uint each = (numbers.tiles + ORDER_SEGMENTS - 1) / ORDER_SEGMENTS;
-    const uint end = min(numbers.tiles, (segment + 1) * each);
+    const uint end = first_tile(numbers, segment + 1);
     if (b >= numbers.row) {
         return;
     }
     uint sum = 0;
-    for (uint tile = segment * each; tile < end; tile++) {
+    for (uint tile = first_tile(numbers, segment); tile < end; tile++) {
         sum += firsts[((size_t)set * numbers.tiles + tile) * numbers.row + b];
     }
     sums[((size_t)set * ORDER_SEGMENTS + segment) * numbers.row + b] = sum;
@@ -174,8 +179,7 @@ __kernel void order_segments(const order_numbers numbers, __global const uint *r
 __kernel void order_sums(const order_numbers numbers, __global const uint *restrict sums,
                          __global uint *restrict firsts) {
     const uint b = get_global_id(0), segment = get_global_id(1), set = get_global_id(2);
-    const uint each = (numbers.tiles + ORDER_SEGMENTS - 1) / ORDER_SEGMENTS;
-    const uint end = min(numbers.tiles, (segment + 1) * each);
+    const uint end = first_tile(numbers, segment + 1);
     if (b >= numbers.row) {
         return;
     }
@@ -183,7 +187,7 @@ __kernel void order_sums(const order_numbers numbers, __global const uint *restr
     for (uint before = 0; before < segment; before++) {
         sum += sums[((size_t)set * ORDER_SEGMENTS + before) * numbers.row + b];
     }
-    for (uint tile = segment * each; tile < end; tile++) {
+    for (uint tile = first_tile(numbers, segment); tile < end; tile++) {
         __global uint *const first =
             firsts + ((size_t)set * numbers.tiles + tile) * numbers.row + b;
         sum += *first;

@@ -38,7 +38,7 @@ typedef struct product_numbers {
     ps_u64 stride;       /* of rows of powers */
     ps_u32 is_first, is_last;
     ps_u32 keeps_sums; /* also when is_last is set */
-    ps_u32 unused;
+    ps_u32 unused;     /* fills the size up to whole numbers of eight bytes */
 } product_numbers;
 
 SAME_SIZE(product_numbers, 64);
