@@ -302,6 +302,9 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     device->own_double_lanes = limits[index].native_double_lanes;
     device->own_unified_memory = limits[index].has_unified_memory;
     device->own_dedicated_local_memory = limits[index].has_dedicated_local_memory;
+    if (device->limits.is_gpu && !ps_device_is_simulator(&device->limits)) {
+        ps_device_set_builders(device, ps_workers_most());
+    }
     return PSPEC_OK;
 }
 
@@ -328,6 +331,7 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
     *out = NULL;
     PS_TRY(PS_NEW(&device, 1, "a device", error));
     device->has_profile = with_profile;
+    ps_builders_create(&device->builders);
     ps_process_lock();
     const pspec_status status = find_and_open(device, selector, error);
     ps_process_unlock();

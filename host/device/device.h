@@ -216,9 +216,18 @@ typedef struct ps_kernel ps_kernel;
 /* The kernel `name` of source file `source` (below kernels/), built with the -D options given, for
  * example "-DPRECISION=32 -DLANES=16". A program is built once per (source, options), and asking
  * again gives the same kernel: arguments are those of a launch. A failed build puts the log into
- * the message. */
+ * the message. GPUs have threads that build while the host goes on: ps_device_build waits, or the
+ * first launch, and it is then that a failure is told. */
 pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *source, const char *name,
                            const char *options, ps_error *error) PS_MUST_CHECK;
+
+/* Waits until all kernels that were asked for can be launched; the first that cannot, in the order
+ * of asking, is the error. It is built again when it is asked for again, or launched. */
+pspec_status ps_device_build(ps_device *device, ps_error *error) PS_MUST_CHECK;
+
+/* At most so many threads build from now on; 0: who asks for a kernel builds it, as on CPUs, since
+ * PoCL builds one program at a time. For tests: kernels do not depend on it. */
+void ps_device_set_builders(ps_device *device, unsigned most);
 
 /* ---- launches -------------------------------------------------------------------------------- */
 

@@ -3,24 +3,45 @@
 #define PS_DEVICE_DEVICE_PRIVATE_H
 
 #include "base/text.h"
+#include "base/workers.h"
 #include "device/device.h"
 
 #include <glob.h>
+#include <pthread.h>
 
 /* cl_ext.h: the loader's answer when no driver is installed. */
 enum { PS_CL_PLATFORM_NOT_FOUND = -1001 };
 
+typedef enum ps_program_state {
+    PS_PROGRAM_IDLE = 0, /* not built, nor to be, until somebody asks again */
+    PS_PROGRAM_WANTED,
+    PS_PROGRAM_BEGUN,
+    PS_PROGRAM_BUILT,
+    PS_PROGRAM_FAILED /* which nobody was told yet */
+} ps_program_state;
+
 typedef struct ps_program {
-    struct ps_program *next;
+    struct ps_program *next; /* as state, under the mutex of the builders */
+    ps_program_state state;
+    cl_int code;             /* of clBuildProgram */
     ps_text source, options; /* options: all that it is built with */
     cl_program object;
 } ps_program;
 
+/* Threads that build what is wanted, in the order in which it was asked for. */
+typedef struct ps_builders {
+    pthread_mutex_t mutex;
+    pthread_cond_t has_changed; /* the state of a program, or is_over */
+    pthread_t threads[PS_WORKERS_MOST];
+    unsigned num, most;
+    bool is_over;
+} ps_builders;
+
 struct ps_kernel {
     ps_kernel *next;
     ps_program *program;
-    ps_text name;
-    cl_kernel object;
+    char name[64];    /* as long as profiles have them */
+    cl_kernel object; /* NULL: its program was not waited for yet */
 };
 
 /* Local memory of its own that a driver may count beside what kernels ask for: 4 bytes by NVIDIA's
@@ -48,6 +69,7 @@ struct ps_device {
     uint64_t num_waits;    /* see ps_device_num_waits */
     ps_program *programs;  /* in the order in which they were asked for */
     ps_kernel *kernels;
+    ps_builders builders;
     glob_t kept;         /* kernels that PoCL kept before (drivers.h); none for other drivers */
     size_t group_size;   /* see ps_device_set_group_size; 0: default */
     ps_figures *figures; /* that limits.figures points to, or NULL */
@@ -58,7 +80,20 @@ struct ps_device {
     size_t num_profile_rows;
 };
 
+/* Of a kernel that was asked for; waits until its program is built. */
+pspec_status ps_kernel_object(ps_device *device, ps_kernel *kernel, cl_kernel *out,
+                              ps_error *error) PS_MUST_CHECK;
 void ps_programs_release(ps_device *device);
+
+void ps_builders_create(ps_builders *builders);
+/* Ends the threads after what they are building. */
+void ps_builders_end(ps_device *device);
+/* Lets a thread build it, unless it is built; false: there are to be none. */
+bool ps_builders_begin(ps_device *device, ps_program *program);
+/* Whether it is wanted or was built. */
+bool ps_builders_has(ps_device *device, const ps_program *program);
+/* Builds it, or waits for who does: the code of clBuildProgram. */
+cl_int ps_builders_wait(ps_device *device, ps_program *program);
 
 /* A queue of the device, as ps_device_open makes it. */
 pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out,

@@ -126,14 +126,16 @@ pspec_status ps_launch_arguments(ps_device *device, ps_kernel *kernel, const ps_
                                  ps_error *error) {
     size_t local_bytes = 0;
     cl_event event = NULL;
+    cl_kernel object = NULL;
     for (unsigned i = 0; i < range->rank; i++) {
         if (range->global[i] == 0) {
             return PSPEC_OK;
         }
     }
-    PS_TRY(set_arguments(kernel->object, arguments, num_arguments, &local_bytes, error));
-    PS_TRY(check_limits(device, kernel->object, range, local_bytes, error));
-    PS_TRY_CL(clEnqueueNDRangeKernel(device->queue, kernel->object, range->rank, range->offset,
+    PS_TRY(ps_kernel_object(device, kernel, &object, error));
+    PS_TRY(set_arguments(object, arguments, num_arguments, &local_bytes, error));
+    PS_TRY(check_limits(device, object, range, local_bytes, error));
+    PS_TRY_CL(clEnqueueNDRangeKernel(device->queue, object, range->rank, range->offset,
                                      range->global, range->local[0] > 0 ? range->local : NULL, 0,
                                      NULL, device->has_profile ? &event : NULL),
               error);
@@ -146,9 +148,8 @@ pspec_status ps_launch_arguments(ps_device *device, ps_kernel *kernel, const ps_
         }
         return ps_device_fail(code, "clFlush", error);
     }
-    return device->has_profile
-               ? ps_profile_add(device, ps_text_string(&kernel->name), range, event, error)
-               : PSPEC_OK;
+    return device->has_profile ? ps_profile_add(device, kernel->name, range, event, error)
+                               : PSPEC_OK;
 }
 
 double ps_device_launched_flops(const ps_device *device) {

@@ -4,6 +4,11 @@
  * with pieces of 1024 they were most of the time of a table of Legendre functions. */
 enum { PIECE = 8192 };
 
+const char *ps_precision_name(ps_precision precision) {
+    static const char *const names[] = {"single", "double", "extended"};
+    return names[precision];
+}
+
 size_t ps_real_bytes(ps_precision precision) {
     return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
 }

@@ -30,7 +30,8 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .weights = options->weights,
         .num_weighted = options->num_weighted,
     };
-    return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
+    PS_TRY(ps_accumulator_create(&self->accumulator, &accumulator, self->device, error));
+    return self->device != NULL ? ps_device_build(self->device, error) : PSPEC_OK;
 }
 
 /* Engine and accumulator, for half as many realizations as long as memory is refused to either. */
