@@ -103,7 +103,8 @@ static double seconds_of_variant(const ps_nufft_variant *variant, const ps_probl
                                             ps_expected_power(problem)) > problem->tolerance) {
         return HUGE_VAL;
     }
-    const ps_work work = {.transform_flops = sets * ps_nufft_flops(&choice, precision, num_points),
+    const double flops = ps_nufft_flops_of_layout(&layout, precision, num_points);
+    const ps_work work = {.transform_flops = sets * flops,
                           .launches = variant->count_launches(&layout, num_points, sets)};
     return ps_cost_typical(&work, limits, precision);
 }
@@ -263,6 +264,39 @@ static void small_gpus_have_an_engine_or_a_sentence(void **state) {
     sweep(check_small);
 }
 
+/* Very many points on the few cells of K = 3 in space are two boxes, which two work-groups add to:
+ * sums at each frequency keep all of a GPU busy. Larger grids have more boxes. */
+static void few_boxes_are_left_to_sums(void **state) {
+    (void)state;
+    static const int32_t most[] = {3, 64};
+    static const char *const chosen[] = {"torus_direct", "torus_nufft"};
+    const ps_device_limits limits = test_h200();
+    for (size_t i = 0; i < 2; i++) {
+        const ps_frequencies set = test_lattice(3, most[i]);
+        ps_problem problem = test_problem(&set, 10000000, 1e-6);
+        problem.num_realizations = 1;
+        ps_plan plan;
+        test_make_plan(&plan, &problem, &limits, &test_any_plan);
+        assert_string_equal(plan.chosen->engine->name, chosen[i]);
+    }
+}
+
+/* A box of one cell and what windows of 16 touch behind it take 32 KiB in double precision. */
+static void boxes_that_do_not_fit_are_said_so(void **state) {
+    (void)state;
+    const ps_frequencies set = test_lattice(3, 40);
+    ps_device_limits limits = test_h200();
+    ps_plan plan;
+    const ps_problem problem = test_problem(&set, 100000, 1e-14);
+    limits.local_bytes = 32 << 10;
+    test_make_plan(&plan, &problem, &limits, &test_any_plan);
+    const ps_candidate *const own = test_candidate(&plan, "torus_nufft", PS_DOUBLE);
+    assert_false(own->is_applicable);
+    assert_string_equal(own->reason,
+                        "a row or a box of the fine grid does not fit into local memory");
+    assert_string_equal(plan.chosen->engine->name, "torus_direct");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_measured_on_an_h200),
@@ -271,6 +305,8 @@ int main(void) {
         cmocka_unit_test(equal_kinds_choose_alike),
         cmocka_unit_test(kinds_say_what_was_probed),
         cmocka_unit_test(slow_doubles_cost),
+        cmocka_unit_test(few_boxes_are_left_to_sums),
+        cmocka_unit_test(boxes_that_do_not_fit_are_said_so),
         cmocka_unit_test(small_gpus_have_an_engine_or_a_sentence),
     };
     return cmocka_run_group_tests_name("gpu_costs", tests, NULL, NULL);

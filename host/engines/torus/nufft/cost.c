@@ -83,7 +83,28 @@ double ps_nufft_cycles_of(const ps_nufft_counts *counts) {
     return cycles;
 }
 
+static double flops_of(const ps_nufft_counts *counts, const ps_nufft_choice *choice) {
+    return ps_nufft_cycles_of(counts) * choice->lanes * flops_per_lane;
+}
+
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
     const ps_nufft_counts counts = ps_nufft_count(choice, precision, num_points);
-    return ps_nufft_cycles_of(&counts) * choice->lanes * flops_per_lane;
+    return flops_of(&counts, choice);
+}
+
+/* The part of a nominal GPU that has work while points are spread on its grid: a box is added to by
+ * one work-group, and an H200 is taken to want two for each of its 132 processors (predicted, not
+ * measured). */
+static double busy_share(const ps_nufft_layout *layout) {
+    enum { NOMINAL_GROUPS = 2 * 132 };
+    const double groups = (double)layout->parts * (double)ps_nufft_grid_boxes(&layout->grid);
+    return layout->grid.num_passes > 0 ? fmin(1, groups / NOMINAL_GROUPS) : 1;
+}
+
+double ps_nufft_flops_of_layout(const ps_nufft_layout *layout, ps_precision precision,
+                                double num_points) {
+    ps_nufft_counts counts = ps_nufft_count(&layout->choice, precision, num_points);
+    counts.num[PS_NUFFT_GPU_POINT] /= busy_share(layout);
+    counts.num[PS_NUFFT_GPU_STEP] /= busy_share(layout);
+    return flops_of(&counts, &layout->choice);
 }

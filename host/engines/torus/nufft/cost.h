@@ -5,7 +5,7 @@
 #define PS_ENGINES_TORUS_NUFFT_COST_H
 
 #include "engines/nufft/cycles.h"
-#include "engines/torus/nufft/choice.h"
+#include "engines/torus/nufft/layout.h"
 
 typedef struct ps_nufft_counts {
     double num[PS_NUFFT_NUM_PARTS];
@@ -19,6 +19,10 @@ double ps_nufft_cycles_of(const ps_nufft_counts *counts);
 /* What a device of its lanes would do at its peak while it works on one realization of num_points
  * points. */
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points);
+/* The same with what of a GPU idles where sets have few boxes; for choices among engines: grids and
+ * windows are chosen by the other. */
+double ps_nufft_flops_of_layout(const ps_nufft_layout *layout, ps_precision precision,
+                                double num_points);
 
 /* ---- parts of several variants ----------------------------------------------------------- */
 

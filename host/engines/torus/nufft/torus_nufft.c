@@ -29,7 +29,7 @@ static const char *refuse(const ps_problem *problem) {
 
 static const char *refuse_layout(const ps_nufft_layout *layout, const ps_device_limits *limits) {
     if (layout->lanes == 0) {
-        return "a row of the fine grid does not fit into local memory";
+        return "a row or a box of the fine grid does not fit into local memory";
     }
     if (layout->stride > UINT32_MAX) {
         return "too many frequencies for 32-bit slots";
@@ -52,7 +52,7 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     return (ps_work){
         .transform_flops =
-            realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
+            realizations * ps_nufft_flops_of_layout(layout, precision, (double)problem->num_points),
         .launches = variant->count_launches(layout, (double)problem->num_points, realizations),
         .kernels = variant->kernels[layout->choice.num_axes > 1] +
                    kernels_of_line(&layout->choice) + (layout->order.tile > 0 ? 1 : 0),
