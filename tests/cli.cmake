@@ -1,19 +1,12 @@
 # Tests of the program: the parser as a unit, and scripts that run what was built.
-target_sources(test_arguments PRIVATE
-  ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/command.c)
-target_sources(test_scene PRIVATE
-  ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/command.c)
-
-# These run every command, and so show what a second compiler makes of the program; the others ask the same of it again.
-set(PORTABLE_TESTS cli_errors cli_examples cli_program)
+target_link_libraries(test_arguments PRIVATE pointspec_cli)
+target_link_libraries(test_scene PRIVATE pointspec_cli)
 
 function(add_program_test name)
   file(GLOB_RECURSE script ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh)
-  add_script_test(${name} "unit;program" ${script}
+  add_script_test(${name} "unit" ${script}
     $<TARGET_FILE:pointspec_program> ${ARGN})
-  if(name IN_LIST PORTABLE_TESTS)
-    set_tests_properties(${name} PROPERTIES LABELS unit)
-  elseif(name IN_LIST SWEEP_TESTS)
+  if(name IN_LIST SWEEP_TESTS)
     set_tests_properties(${name} PROPERTIES LABELS "unit;sweep")
   endif()
   set_kernels(${name})

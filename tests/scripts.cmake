@@ -5,13 +5,8 @@ function(add_script_test name label)
   set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT ${TEST_PATIENCE})
 endfunction()
 
-add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_headers.sh
+add_script_test(headers "unit;sweep" ${CMAKE_CURRENT_SOURCE_DIR}/project/test_headers.sh
   ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
-add_script_test(layers "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
-add_script_test(gates "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_gates.sh)
-add_script_test(circles unit ${PROJECT_SOURCE_DIR}/scripts/check_circles.sh ${PROJECT_BINARY_DIR})
-add_script_test(pages "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_pages.sh)
-add_script_test(library_calls "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
 add_script_test(copied_checkout "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/copied_checkout.sh ${PROJECT_SOURCE_DIR})
 add_script_test(stages "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/stages.sh ${PROJECT_SOURCE_DIR})
 add_script_test(changed_tests "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/changed_tests.sh

@@ -16,12 +16,13 @@ mkdir -p "$out"
 say() { echo "gpu: $*" >&2; }
 
 large=("65536 1024 16 1e-6 single" "65536 1024 8 1e-12 double" "65536 32768 64 1e-6 double 1")
-cases=() nufft_cases=() torus_cases=()
+cases=() nufft_cases=() torus_cases=() kernels=.
 if [[ ${1-} == --quick ]]; then
     cases=("2 256 32 256 1e-6 single" "2 1024 128 8 1e-12 double")
     nufft_cases=("256 32 256 1e-6 single" "1024 128 8 1e-12 double")
     torus_cases=("grid 2 256 32 256 single")
     large=("65536 256 2 1e-6 single")
+    kernels='^kernels_(fft|values)$'
 fi
 
 # ---- packages --------------------------------------------------------------------------------
@@ -82,22 +83,17 @@ use_driver() {
 
 # ---- work ------------------------------------------------------------------------------------
 
-configure() { # PRESET
-    scripts/configure.sh "$1" "${options[@]}" >>"$out/build.txt" 2>&1
+build() { # TARGET...
+    { scripts/configure.sh dev "${options[@]}" &&
+        flock build/dev.lock cmake --build --preset dev --parallel "${JOBS:-$(nproc)}" --target "$@"; } >>"$out/build.txt" 2>&1
 }
 
-build() { # PRESET [cmake --build arguments]
-    flock "build/$1.lock" cmake --build --preset "$1" --parallel "${JOBS:-$(nproc)}" "${@:2}" >>"$out/build.txt" 2>&1
-}
-
-# The dev build has assertions, which the release does not.
 test_kernels() {
     local names targets
-    configure dev || { say "no tests: $(tail -n 1 "$out/build.txt")"; return 1; }
-    names=$("$here/kernel_tests.sh" list build/dev) || return 1
+    names=$("$here/kernel_tests.sh" list build/dev "$kernels") || return 1
     mapfile -t targets <<<"$names"
-    build dev --target "${targets[@]/#/test_}" || { say "no tests: $(tail -n 1 "$out/build.txt")"; return 1; }
-    "$here/kernel_tests.sh" run build/dev "$out/tests.txt" >&2
+    build "${targets[@]/#/test_}" || { say "no tests: $(tail -n 1 "$out/build.txt")"; return 1; }
+    "$here/kernel_tests.sh" run build/dev "$out/tests.txt" "$kernels" >&2
 }
 
 # shellcheck source=bench/gpu/measure.sh
@@ -131,7 +127,7 @@ profile() {
     for each in "${profiles[@]}"; do
         echo "## $each" | tee -a "$out/profile.errors.txt" >>"$out/profile.txt"
         # shellcheck disable=SC2086 # words of a command
-        measure profile build/release/pointspec $each --seed 1 --profile -o /dev/null
+        measure profile build/dev/pointspec $each --seed 1 --profile -o /dev/null
     done
 }
 
@@ -144,16 +140,16 @@ patience=${PATIENCE:-60}
 # Kernels are compiled once for tests, benchmarks and other presets, by drivers that keep them here.
 export POCL_CACHE_DIR=${POCL_CACHE_DIR:-$PWD/build/pocl-cache}
 rm -f "$out"/*.txt
-if ! configure release || ! build release --target pointspec_program bench_device bench_nufft bench_torus; then
+if ! build pointspec_program bench_device bench_nufft bench_torus; then
     tail -n 20 "$out/build.txt" >&2
     exit 1
 fi
 nvidia-smi -L 2>/dev/null >"$out/device.txt" || true
 clinfo -l >>"$out/device.txt" 2>&1 || true
 failed=0
-measure doctor build/release/pointspec doctor
+measure doctor build/dev/pointspec doctor
 test_kernels || failed=1
-benches=build/release/bench
+benches=build/dev/bench
 measure_cases table "$benches/bench_device" "${cases[@]}"
 run_peer
 measure_cases nufft "$benches/bench_nufft" "${nufft_cases[@]}"
@@ -161,7 +157,7 @@ measure_cases large "$benches/bench_nufft" "${large[@]}"
 measure_cases torus "$benches/bench_torus" "${torus_cases[@]}"
 if [[ ${1-} != --quick ]]; then
     profile
-    measure stress build/release/pointspec stress --quick
+    measure stress build/dev/pointspec stress --quick
 fi
 cat "$out/table.txt"
 exit $failed

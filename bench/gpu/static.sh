@@ -3,9 +3,9 @@
 # there, without a GPU. PROGRAM, pointspec, takes the lines of scripts/same_bits.txt and those below, once more in double, for
 # jobs on an H100 (bench/gpu/launches.c), whose launches, not run, say the sources, options, work-groups and local memory.
 # Each program of them is compiled for sm_80, sm_90 (clang, libclc, ptxas: NVIDIA's last stage) and, unless it has PTX, gfx90a.
-# Standard output: a table, the most registers first; FOLDER has all else. --sample: every tenth program, chosen by
-# NUMBER. Exit code 1 when registers are spilled to memory, or a source that PROGRAM has is never launched, and
-# static_listed.txt does not say why; or says it of one that is. JOBS compilers at a time.
+# Standard output: a table, the most registers first; FOLDER has all else. --sample: every tenth line, chosen by
+# NUMBER. Exit code 1 when registers are spilled to memory, or without --sample a source that PROGRAM has is never launched,
+# and static_listed.txt does not say why; or says it of one that is. JOBS compilers at a time.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 program=$(realpath "$1") jobs=${JOBS:-$(nproc)} sample=
@@ -33,21 +33,24 @@ record() { # WORD...
     { LD_PRELOAD=$folder/launches.so timeout "$patience" "$program" "$@" --no-self-check || code=$?
         ((code != 2)) || LD_PRELOAD=$folder/launches.so timeout "$patience" "$program" "$@"; } >>log.txt 2>&1 </dev/null || true
 }
+list_lines() { # CAPABILITY WORD...; that of cards without matrix units is 0
+    local lines=$here/../../scripts/same_bits.txt
+    { grep -E '^(power|angular|pairs|variance) ' "$lines" | sed 's/--precision [a-z]*//'
+        echo 'stress --case chords'; } | sed 's/.*/9 & --precision auto\n9 & --precision double/'
+    grep -E '^(quadrature|sample) ' "$lines" | sed 's/^/9 /'
+    cat <<'END'
+9 sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0
+9 bench --quick --case list --engine torus_direct --precision single
+9 power --sampler white -n 256 -m 20 -k 32 --engine torus_direct --precision single
+0 power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision single
+0 power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision double
+END
+}
 record_all() {
-    local words precision
+    local words
     while read -r -a words; do
-        for precision in auto double; do
-            record "${words[@]}" --precision $precision
-        done
-    done < <(grep -E '^(power|angular|pairs|variance) ' "$here/../../scripts/same_bits.txt" | sed 's/--precision [a-z]*//'
-        echo 'stress --case chords')
-    while read -r -a words; do record "${words[@]}"; done < <(grep -E '^(quadrature|sample) ' "$here/../../scripts/same_bits.txt"
-        echo 'sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0'
-        echo 'bench --quick --case list --engine torus_direct --precision single'
-        echo 'power --sampler white -n 256 -m 20 -k 32 --engine torus_direct --precision single')
-    for precision in single double; do # as cards without matrix units have it
-        POINTSPEC_CAPABILITY=0 record power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision $precision
-    done
+        POINTSPEC_CAPABILITY=${words[0]} record "${words[@]:1}"
+    done < <(list_lines | awk -v turn="$sample" 'turn == "" || NR % 10 == turn')
 }
 "${CC:-cc}" -std=gnu11 -Wall -Wextra -Werror -shared -fPIC -DCL_TARGET_OPENCL_VERSION=120 "$here/launches.c" -o launches.so
 export POINTSPEC_LAUNCHES=$folder/launched.txt POINTSPEC_CACHE_DIR=$folder/no-cache
@@ -89,7 +92,7 @@ compile() { # SOURCE OPTION...
 }
 export -f compile
 export kernels=$here/../../kernels
-awk '{ $2 = $3 = $4 = ""; print }' launches.txt | sort -u | awk -v turn="$sample" 'turn == "" || NR % 10 == turn' >programs.txt
+awk '{ $2 = $3 = $4 = ""; print }' launches.txt | sort -u >programs.txt
 # shellcheck disable=SC2016 # words of the inner shell
 xargs -P "$jobs" -I{} bash -c 'compile $1' _ {} <programs.txt >compiled.txt
 [[ ! -s failed.txt ]] || { cat failed.txt >&2; exit 1; }
@@ -125,7 +128,7 @@ awk -v sources="$(grep -rhoE '"[a-z_/]+\.cl"' "$here/../../host" | tr -d '"' | s
         if ($7 > ($3 in may ? may[$3] : 0)) complain($3 " spills " $7 " bytes of an item on " $1 " with" options) }
     END {
         split(sources, all, " ")
-        for (i in all) if (!(all[i] in launched) && !(all[i] in may)) complain("no line launches " all[i])
+        for (i in all) if (is_sample == "" && !(all[i] in launched) && !(all[i] in may)) complain("no line launches " all[i])
         for (name in may) if (may[name] == "-" ? name in launched : is_sample == "" && !(name in does))
             complain(name " is listed, and need not be")
         print "| kernel | options | items | local, bytes | registers | occupancy, % | stack, bytes | spilled, bytes |"

@@ -48,7 +48,7 @@ def parse_arguments():
     parser.add_argument("--output", type=Path, default=Path("bench-output"), metavar="FOLDER",
                         help="for peers.csv, peers_sphere.csv and peers_pairs.csv")
     parser.add_argument("--folder", type=Path, default=Path("build/peers"), help="what is installed")
-    parser.add_argument("--build", type=Path, default=Path("build/release"))
+    parser.add_argument("--build", type=Path, default=Path("build/dev"))
     parser.add_argument("--before", type=Path, metavar="FOLDER",
                         help="a release build of another version of pointspec, which runs in turn with this one")
     arguments = parser.parse_args()

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # make_figures.sh [BUILD_DIR]: makes docs/images/*.png anew from what the programs of BUILD_DIR
-# compute (default: build/release of this checkout; needs pointspec and bench/bench_torus there).
+# compute (default: build/dev of this checkout; needs pointspec and bench/bench_torus there).
 # Eight minutes on two cores; the times in torus_direct_time.png want a quiet machine.
 set -euo pipefail
 docs=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/..")
-build=$(realpath "${1:-$docs/../build/release}")
+build=$(realpath "${1:-$docs/../build/dev}")
 images=$docs/images
 pointspec=$build/pointspec
 scratch=$(mktemp -d)

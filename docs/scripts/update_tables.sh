@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # update_tables.sh BUILD_DIR [TABLE...]: fills the tables of README.md and docs/*/*.md with what the
-# programs of BUILD_DIR print (build/release has benchmarks and tests alike). A table stands between a
+# programs of BUILD_DIR print (build/dev has benchmarks and tests alike). A table stands between a
 # line "<!-- table: NAME -->" and a line "<!-- end -->"; NAME is a function table_NAME below. Times want
 # a quiet machine. Without TABLE all are made; a program that is not built leaves its table alone.
 set -euo pipefail

@@ -54,7 +54,7 @@ grep -qE '^hangs .* FAILED, took more than 1 s$' out || fail "what hangs: $(<out
 grep -qE '^after .* ok$' out || fail "behind what hangs: $(<out)"
 
 # Every check of ./dev is a stage, and a sample says how it is repeated.
-for command in test sweep lint gpu reference clang faults sanitize tsan oclgrind fuzz demo; do
+for command in test sweep lint gpu faults sanitize tsan oclgrind fuzz demo; do
     grep -qE "^[a-z]+ +\./dev $command( |\$)" "$source_dir/.ci/run" || fail ".ci/run lacks ./dev $command"
 done
 # shellcheck disable=SC2016 # as it stands there
