@@ -9,9 +9,7 @@
 #include "cycles.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/sphere/sphere_direct.h"
-#include "engines/torus/nufft/torus_nufft.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 #include "plan/cost_model.h"
 
 #include <math.h>

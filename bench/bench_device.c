@@ -12,9 +12,8 @@
 
 #include "engines/nufft/fft.h"
 #include "engines/torus/nufft/layout.h"
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 #include "engines/torus/nufft/variant.h"
-#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdio.h>

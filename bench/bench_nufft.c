@@ -7,8 +7,7 @@
  */
 #include "bench.h"
 
-#include "engines/torus/nufft/torus_nufft.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,10 +6,8 @@
 
 #include "engines/error_units.h"
 #include "engines/host/host_degree.h"
-#include "engines/pairs/pairs_direct.h"
+#include "engines/engine.h"
 #include "engines/pairs/pairs_histogram.h"
-#include "engines/sphere/nufft/sphere_nufft.h"
-#include "engines/sphere/sphere_direct.h"
 
 #include <math.h>
 #include <stdio.h>

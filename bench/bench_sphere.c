@@ -4,7 +4,7 @@
  */
 #include "bench.h"
 
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
  */
 #include "bench.h"
 
-#include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdio.h>

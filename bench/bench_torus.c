@@ -11,7 +11,7 @@
 #include "bench.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdio.h>

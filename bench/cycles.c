@@ -9,7 +9,7 @@
 #include "engines/torus/nufft/choose.h"
 #include "engines/torus/nufft/cost.h"
 #include "engines/torus/nufft/layout.h"
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>

@@ -206,7 +206,11 @@ size_t ps_num_coefficients_at(const ps_frequencies *frequencies);
 /* PS_ON_SPHERE for degrees, else PS_ON_TORUS. */
 unsigned ps_problem_domain(const ps_problem *problem);
 
-/* All engines, ended by NULL, in the order in which plan lists them. */
+/* Each has a page in docs/engines/; host_direct is the referee. */
+extern const ps_engine ps_torus_nufft, ps_torus_direct, ps_sphere_grid, ps_sphere_nufft,
+    ps_sphere_direct, ps_pairs_direct, ps_pairs_histogram, ps_host_direct;
+
+/* All of them, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];
 
 /* Part of survey of every engine whose kernels know single and double precision: is there a device

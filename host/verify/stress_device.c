@@ -6,7 +6,7 @@
 #include "engines/host/host_direct.h"
 #include "engines/host/host_pairs.h"
 #include "rules/kernel/kernel_chords.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 #include "jobs/estimator.h"
 #include "verify/stress_shapes.h"
 

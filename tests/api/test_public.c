@@ -4,7 +4,7 @@
 #include "harness_public.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <pthread.h>

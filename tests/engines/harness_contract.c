@@ -5,7 +5,7 @@
 #include "harness_sphere_shapes.h"
 
 #include "engines/error_units.h"
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

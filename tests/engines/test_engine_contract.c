@@ -6,7 +6,7 @@
 #include "harness_contract.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "harness_estimator.h"
 #include "harness_kernels.h"
 
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 
 #include <pthread.h>
 #include <stdlib.h>

@@ -6,8 +6,7 @@
 #include "harness_sphere_shapes.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/sphere/nufft/sphere_nufft.h"
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "harness_estimator.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,9 +5,7 @@
 #include "harness_estimator.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/sphere/sphere_direct.h"
-#include "engines/torus/nufft/torus_nufft.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

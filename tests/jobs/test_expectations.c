@@ -3,7 +3,7 @@
  */
 #include "harness.h"
 
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 #include "jobs/spectrum/power_job_private.h"
 
 #include <math.h>

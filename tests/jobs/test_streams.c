@@ -3,7 +3,7 @@
  */
 #include "harness_estimator.h"
 
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 #include "files/npy.h"
 #include "jobs/spectrum/power_job.h"
 #include "points/points.h"

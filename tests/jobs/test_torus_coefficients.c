@@ -5,7 +5,6 @@
 
 #include "engines/engine.h"
 #include "engines/host/host_direct.h"
-#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  */
 #include "harness_sphere.h"
 
-#include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/engine.h"
 #include "math/pi.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include "engines/torus/nufft/choose.h"
 #include "engines/torus/nufft/cost.h"
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 #include "plan/cost_model.h"
 
 #include <math.h>

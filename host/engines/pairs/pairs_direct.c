@@ -1,6 +1,6 @@
 /* The engine: runs of pairs in slabs; for each slab sums over its runs, which are added to those of
  * the slabs before. */
-#include "engines/pairs/pairs_direct.h"
+#include "engines/engine.h"
 
 #include "base/memory.h"
 #include "base/round.h"

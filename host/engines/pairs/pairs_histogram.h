@@ -5,8 +5,6 @@
 
 #include "engines/engine.h"
 
-extern const ps_engine ps_pairs_histogram;
-
 /* Expected error of a problem that it may do, for a set of any mean power (ps_survey.error). */
 double ps_pairs_histogram_error(const ps_problem *problem, const ps_device_limits *limits,
                                 ps_precision precision, double mean_power);

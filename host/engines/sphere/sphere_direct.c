@@ -1,6 +1,6 @@
 /* Orders in passes, points in slabs: for each directions and sums over points, after the last slab
  * sums over orders. */
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 
 #include "base/memory.h"
 #include "base/round.h"

@@ -1,6 +1,6 @@
 /* The engine: sums over a list of frequencies; for a grid, over the two factors of its split, whose
  * tables are then multiplied. */
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 
 #include "base/memory.h"
 #include "base/round.h"

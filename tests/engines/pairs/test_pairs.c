@@ -4,7 +4,7 @@
 
 #include "engines/pairs/pairs_bins.h"
 #include "rules/kernel/kernel_chords.h"
-#include "engines/pairs/pairs_direct.h"
+#include "engines/engine.h"
 #include "engines/pairs/pairs_histogram.h"
 
 #include <math.h>

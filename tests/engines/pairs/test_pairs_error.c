@@ -5,10 +5,8 @@
 #include "harness_sphere_shapes.h"
 
 #include "engines/error_units.h"
-#include "engines/pairs/pairs_direct.h"
+#include "engines/engine.h"
 #include "engines/pairs/pairs_histogram.h"
-#include "engines/sphere/nufft/sphere_nufft.h"
-#include "engines/sphere/sphere_direct.h"
 #include "math/pi.h"
 
 #include <math.h>

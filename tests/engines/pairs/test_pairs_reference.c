@@ -3,11 +3,9 @@
  */
 #include "harness_pairs.h"
 
-#include "engines/pairs/pairs_direct.h"
+#include "engines/engine.h"
 #include "engines/pairs/pairs_histogram.h"
 #include "engines/pairs/pairs_zonal.h"
-#include "engines/sphere/nufft/sphere_nufft.h"
-#include "engines/sphere/sphere_direct.h"
 #include "math/pi.h"
 
 #include <math.h>

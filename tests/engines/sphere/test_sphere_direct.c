@@ -2,7 +2,7 @@
  * (docs/mathematics/sphere.md#coefficients-and-power): no recorded output. */
 #include "harness_sphere.h"
 
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 #include "engines/sphere/sphere_layout.h"
 
 #include <math.h>

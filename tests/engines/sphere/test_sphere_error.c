@@ -3,7 +3,7 @@
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 #include "math/pi.h"
 
 #include <math.h>

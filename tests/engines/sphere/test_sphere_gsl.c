@@ -5,8 +5,7 @@
 #include "harness_sphere.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/sphere/nufft/sphere_nufft.h"
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 
 #include <gsl/gsl_sf_legendre.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
-#include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * ten times as long as the sums of few points and degrees. */
 #include "harness.h"
 
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

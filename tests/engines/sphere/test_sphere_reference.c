@@ -3,7 +3,7 @@
 #include "harness_sphere.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/sphere/sphere_direct.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* What torus_nufft announces to the planner is what it then takes: memory in buffers, launches. */
 #include "harness.h"
 
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 
 #include <math.h>
 #include <stdlib.h>

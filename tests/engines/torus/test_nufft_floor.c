@@ -2,7 +2,7 @@
 #include "harness_shapes.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 #include "plan/choose.h"
 
 #include <math.h>

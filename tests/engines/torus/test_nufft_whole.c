@@ -5,7 +5,7 @@
 
 #include "engines/torus/nufft/choose.h"
 #include "engines/torus/nufft/sizes/whole.h"
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 
 #include "engines/host/host_direct.h"
 #include "engines/torus/nufft/layout.h"
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>

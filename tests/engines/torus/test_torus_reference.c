@@ -6,8 +6,7 @@
 #include "harness.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/torus/nufft/torus_nufft.h"
-#include "engines/torus/torus_direct.h"
+#include "engines/engine.h"
 #include "math/pi.h"
 #include "spectra/bins.h"
 

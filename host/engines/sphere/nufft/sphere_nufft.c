@@ -1,5 +1,5 @@
 /* Two engines that differ in what they make of the grid: sphere_nufft and sphere_grid. */
-#include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/engine.h"
 
 #include "base/memory.h"
 #include "base/round.h"

@@ -1,6 +1,6 @@
 /* The engine: for some realizations at a time, sort points by cells of the fine grid, make their
  * windows and phases, spread and transform tiles into powers. docs/engines/torus_nufft.md. */
-#include "engines/torus/nufft/torus_nufft.h"
+#include "engines/engine.h"
 
 #include "base/memory.h"
 #include "device/reals.h"
