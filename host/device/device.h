@@ -210,14 +210,26 @@ bool ps_units_are_right(ps_device *device, ps_units units);
 
 /* ---- programs and kernels -------------------------------------------------------------------- */
 
+/* What a kernel is compiled with, "-DPRECISION=32 -DLANES=16": nothing to be freed. What does not fit
+ * is refused by ps_kernel_get. */
+enum { PS_DEFINES_BYTES = 384 };
+typedef struct ps_defines {
+    char text[PS_DEFINES_BYTES];
+} ps_defines;
+
+/* Precision is that of numbers of so many bytes; lanes 0: not said. */
+ps_defines ps_defines_of(size_t real_bytes, unsigned lanes);
+/* "-DROOT=%d"; a blank comes between. */
+void ps_defines_add(ps_defines *defines, const char *format, ...) PS_PRINTF(2, 3);
+
 /* A kernel, which belongs to the device as its program does: both stay until it is closed. */
 typedef struct ps_kernel ps_kernel;
 
-/* The kernel `name` of source file `source` (below kernels/), built with the -D options given, for
- * example "-DPRECISION=32 -DLANES=16". A program is built once per (source, options), and asking
- * again gives the same kernel: arguments are those of a launch. A failed build puts the log into
- * the message. GPUs have threads that build while the host goes on: ps_device_build waits, or the
- * first launch, and it is then that a failure is told. */
+/* The kernel `name` of source file `source` (below kernels/), built with the options given
+ * (ps_defines). A program is built once per (source, options), and asking again gives the same
+ * kernel: arguments are those of a launch. A failed build puts the log into the message. GPUs have
+ * threads that build while the host goes on: ps_device_build waits, or the first launch, and it is
+ * then that a failure is told. */
 pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *source, const char *name,
                            const char *options, ps_error *error) PS_MUST_CHECK;
 

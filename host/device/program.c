@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,27 @@ static pspec_status fail_build(const ps_device *device, const ps_program *progra
             ps_text_string(&program->options), LONGEST_LOG, log != NULL ? log : "(no log)");
     free(log);
     return PSPEC_ERROR_BUILD;
+}
+
+ps_defines ps_defines_of(size_t real_bytes, unsigned lanes) {
+    ps_defines defines = {""};
+    ps_defines_add(&defines, "-DPRECISION=%zu", 8 * real_bytes);
+    if (lanes > 0) {
+        ps_defines_add(&defines, "-DLANES=%u", lanes);
+    }
+    return defines;
+}
+
+void ps_defines_add(ps_defines *defines, const char *format, ...) {
+    char *const text = defines->text;
+    va_list arguments;
+    size_t length = strlen(text);
+    if (length > 0 && length + 1 < sizeof defines->text) {
+        text[length++] = ' ';
+    }
+    va_start(arguments, format);
+    vsnprintf(text + length, sizeof defines->text - length, format, arguments);
+    va_end(arguments);
 }
 
 static void release_program(ps_program *program) {
@@ -102,6 +124,11 @@ pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *sourc
     ps_program *program = NULL;
     ps_kernel **end = &device->kernels;
     cl_kernel object = NULL;
+    if (strlen(options) + 1 >= PS_DEFINES_BYTES) { /* what was cut has all the room */
+        return ps_fail(error, PSPEC_ERROR_BUILD,
+                       "kernel %s has more than %d letters of options: %s", source,
+                       PS_DEFINES_BYTES - 2, options);
+    }
     PS_TRY(ps_kept_check(&device->kept, name, error));
     PS_TRY(get_program(device, &program, source, options, error));
     while (*end != NULL && !is_of(*end, program, name)) {

@@ -1,8 +1,6 @@
 /* Matrix units: which a device may have is known of NVIDIA's, and found out by trying them. */
 #include "device/device_private.h"
 
-#include <stdio.h>
-
 const char *ps_units_name(ps_units units) {
     static const char *const names[] = {"none", "unknown", "emulated", "ptx"};
     return names[units];
@@ -19,15 +17,14 @@ void ps_units_of_capability(ps_device_limits *limits, unsigned major, unsigned m
 static pspec_status probe(ps_device *device, ps_units units, unsigned precision, uint32_t *wrong) {
     enum { WARP = 32 }; /* of kernels/torus/units.h */
     const ps_range range = {.rank = 1, .global = {WARP}, .local = {WARP}};
-    char options[64];
+    ps_defines defines = ps_defines_of(precision / 8, 4);
     ps_kernel *kernel = NULL;
     ps_buffer buffer = {0};
     pspec_status status = PSPEC_OK;
     *wrong = UINT32_MAX;
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=4 %s", precision,
-             ps_units_option(units));
+    ps_defines_add(&defines, "%s", ps_units_option(units));
     PS_TRY_OUT(status,
-               ps_kernel_get(device, &kernel, "probe/units.cl", "probe_units", options, NULL));
+               ps_kernel_get(device, &kernel, "probe/units.cl", "probe_units", defines.text, NULL));
     PS_TRY_OUT(status, ps_buffer_create(device, &buffer, sizeof *wrong, "a probe", NULL));
     PS_TRY_OUT(status, ps_buffer_write(device, &buffer, 0, wrong, sizeof *wrong, NULL));
     PS_TRY_OUT(status, PS_LAUNCH(device, kernel, &range, NULL, PS_BUFFER(buffer)));

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 struct ps_device_sets {
@@ -24,13 +23,13 @@ bool ps_device_sets_serve(const ps_sampler_request *request, const ps_device_lim
 }
 
 static pspec_status create(ps_device_sets *self, ps_error *error) {
-    char options[96];
+    ps_defines defines = {""};
     const ps_sampler_by_index *const by_index = &self->request.sampler->by_index;
     PS_TRY(ps_sampler_fill_places(&self->request, &self->places, error));
-    snprintf(options, sizeof options, "-DPOINTS=%s -DDIMENSION=%u -DDOUBLES=%d", by_index->name,
-             self->request.dimension, by_index->needs_doubles);
+    ps_defines_add(&defines, "-DPOINTS=%s -DDIMENSION=%u -DDOUBLES=%d", by_index->name,
+                   self->request.dimension, by_index->needs_doubles);
     PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/points.cl", "sampler_points",
-                         options, error));
+                         defines.text, error));
     PS_TRY(ps_buffer_create(self->device, &self->table, sizeof self->places.table,
                             "a table of a sampler", error));
     return ps_buffer_write(self->device, &self->table, 0, self->places.table,

@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "base/text.h"
 #include "device/reals.h"
 #include "engines/engine.h"
 #include "integrands/values.h"
@@ -34,19 +33,13 @@ struct ps_device_trials {
 
 static pspec_status create_kernel(ps_device_trials *self, ps_error *error) {
     const ps_integrand_place place = self->integrand->place;
-    ps_text options = {0};
-    ps_text_append(&options, "-DINTEGRAND=%s -DPRECISION=%zu -DLANES=%u -DDIMENSION=%u",
-                   ps_integrand_kernel(self->integrand, self->options.precision == PS_DOUBLE),
-                   8 * ps_real_bytes(self->options.precision), self->lanes, place.dimension);
-    ps_text_append(&options, " -DROTATE=%d -DFOLD=%d", place.where != PS_SAMPLES_TORUS,
-                   place.where == PS_SAMPLES_HEMISPHERE);
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(self->device, &self->kernel, "integrands/values.cl",
-                               "integrand_values", ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    return status;
+    const ps_precision precision = self->options.precision;
+    ps_defines defines = ps_defines_of(ps_real_bytes(precision), self->lanes);
+    ps_defines_add(&defines, "-DINTEGRAND=%s -DDIMENSION=%u -DROTATE=%d -DFOLD=%d",
+                   ps_integrand_kernel(self->integrand, precision == PS_DOUBLE), place.dimension,
+                   place.where != PS_SAMPLES_TORUS, place.where == PS_SAMPLES_HEMISPHERE);
+    return ps_kernel_get(self->device, &self->kernel, "integrands/values.cl", "integrand_values",
+                         defines.text, error);
 }
 
 /* ---- create ---------------------------------------------------------------------------------- */

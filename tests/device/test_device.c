@@ -141,13 +141,20 @@ static void missing_sources(void **state) {
     assert_null(kernel);
 }
 
-/* One for as long as the device is open, which releases it. */
-static void a_kernel_is_there_once(void **state) {
+/* What is cut would mean something else. */
+static void options_without_room_are_refused(void **state) {
     (void)state;
-    ps_kernel *const fill = test_kernel(device, "fill.cl", "fill", "-DTEST");
-    assert_ptr_equal(test_kernel(device, "fill.cl", "fill", "-DTEST"), fill);
-    assert_ptr_not_equal(test_kernel(device, "fill.cl", "other", "-DTEST"), fill);
-    assert_ptr_not_equal(test_kernel(device, "fill.cl", "fill", "-DTEST2"), fill);
+    assert_string_equal(ps_defines_of(sizeof(double), 8).text, "-DPRECISION=64 -DLANES=8");
+    for (size_t most = PS_DEFINES_BYTES - 2; most < PS_DEFINES_BYTES + 2; most++) {
+        ps_defines full = ps_defines_of(sizeof(float), 0);
+        ps_kernel *kernel = NULL;
+        ps_error said = {0};
+        ps_defines_add(&full, "-DX%0*d", (int)(most - strlen(full.text) - strlen(" -DX")), 0);
+        const bool fits = most == PS_DEFINES_BYTES - 2;
+        assert_int_equal(ps_kernel_get(device, &kernel, "fill.cl", "fill", full.text, &said),
+                         fits ? PSPEC_OK : PSPEC_ERROR_BUILD);
+        assert_true(fits || strstr(said.message, "letters of options") != NULL);
+    }
 }
 
 /* ---- launches ------------------------------------------------------------------------------ */
@@ -379,7 +386,7 @@ int main(void) {
         cmocka_unit_test(includes_are_expanded),
         cmocka_unit_test(build_logs_name_file_and_line),
         cmocka_unit_test(missing_sources),
-        cmocka_unit_test(a_kernel_is_there_once),
+        cmocka_unit_test(options_without_room_are_refused),
         cmocka_unit_test(matrix_units_are_tried),
         cmocka_unit_test(matrix_units_are_in_the_kind),
         cmocka_unit_test(launches_reach_the_device),

@@ -102,6 +102,7 @@ static void programs_are_built_side_by_side(void **state) {
         kernels[i] = ask(device, 1U << i);
         assert_ptr_equal(ask(device, 1U << i), kernels[i]);
     }
+    assert_ptr_not_equal(kernels[0], kernels[1]);
     assert_ok(ps_device_build(device, error));
     assert_false(gate.is_abandoned);
     for (unsigned i = 0; i < NUM; i++) {

@@ -1,10 +1,9 @@
 #include "engines/nufft/order.h"
 
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/nufft/kernels.h"
 #include "nufft/numbers.h"
-
-#include <stdio.h>
 
 /* ---- sizes ------------------------------------------------------------------------------- */
 
@@ -125,12 +124,11 @@ static pspec_status create_kernels(ps_nufft_order *self, unsigned dimension, ps_
     } wanted[] = {{&self->tiles, "order_tiles"},  {&self->segments, "order_segments"},
                   {&self->sum, "order_sums"},     {&self->scatter, "order_scatter"},
                   {&self->start, "order_starts"}, {&self->move, "order_move"}};
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=1 -DDIMENSION=%u",
-             precision == PS_SINGLE ? 32u : 64u, dimension);
+    ps_defines defines = ps_defines_of(ps_real_bytes(precision), 1);
+    ps_defines_add(&defines, "-DDIMENSION=%u", dimension);
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         PS_TRY(ps_kernel_get(self->device, wanted[i].kernel, "nufft/order.cl", wanted[i].name,
-                             options, error));
+                             defines.text, error));
     }
     return PSPEC_OK;
 }

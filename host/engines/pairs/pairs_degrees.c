@@ -15,11 +15,11 @@ size_t ps_pairs_num_degrees(int32_t max_degree) {
     return ps_round_up((uint64_t)max_degree, DEGREES);
 }
 
-void ps_pairs_options(ps_text *options, const ps_problem *problem, ps_precision precision,
-                      unsigned lanes) {
-    ps_text_append(options, "-DPRECISION=%zu -DLANES=%u -DCHUNK=%d -DRUN=%d -DONLY_EVEN=%d",
-                   8 * ps_real_bytes(precision), lanes, PS_PAIRS_CHUNK, PS_PAIRS_RUN_CHUNKS,
-                   problem->frequencies->degree_step == 2);
+ps_defines ps_pairs_defines(const ps_problem *problem, ps_precision precision, unsigned lanes) {
+    ps_defines defines = ps_defines_of(ps_real_bytes(precision), lanes);
+    ps_defines_add(&defines, "-DCHUNK=%d -DRUN=%d -DONLY_EVEN=%d", PS_PAIRS_CHUNK,
+                   PS_PAIRS_RUN_CHUNKS, problem->frequencies->degree_step == 2);
+    return defines;
 }
 
 double ps_pairs_rounding(const ps_pairs_error_law *law, const ps_problem *problem,
@@ -31,15 +31,9 @@ double ps_pairs_rounding(const ps_pairs_error_law *law, const ps_problem *proble
 
 static pspec_status create_fold(ps_pairs_degrees *self, const ps_problem *problem,
                                 ps_error *error) {
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_pairs_options(&options, problem, self->precision, self->lanes);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->fold, "pairs/fold.cl", "pairs_fold",
-                                     ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    const ps_defines defines = ps_pairs_defines(problem, self->precision, self->lanes);
+    return ps_kernel_get(self->device, &self->fold, "pairs/fold.cl", "pairs_fold", defines.text,
+                         error);
 }
 
 /* 1 / l for l = 1 .. num_degrees. */

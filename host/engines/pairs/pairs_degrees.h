@@ -40,9 +40,8 @@ typedef struct ps_pairs_degrees {
 
 /* Degrees of a row for degrees to max_degree. */
 size_t ps_pairs_num_degrees(int32_t max_degree);
-/* "-DPRECISION=.." of all kernels of pairs. */
-void ps_pairs_options(ps_text *options, const ps_problem *problem, ps_precision precision,
-                      unsigned lanes);
+/* What all kernels of pairs are compiled with. */
+ps_defines ps_pairs_defines(const ps_problem *problem, ps_precision precision, unsigned lanes);
 
 /* Zeroed memory must be given; free it also after a failure. */
 pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *problem,

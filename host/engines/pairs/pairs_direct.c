@@ -117,15 +117,9 @@ static void destroy(void *state) {
 
 static pspec_status create_kernel(pairs_direct *self, const ps_problem *problem,
                                   ps_precision precision, ps_error *error) {
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_pairs_options(&options, problem, precision, self->layout.lanes);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->kernel, "pairs/sums.cl", "pairs_sums",
-                                     ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    const ps_defines defines = ps_pairs_defines(problem, precision, self->layout.lanes);
+    return ps_kernel_get(self->device, &self->kernel, "pairs/sums.cl", "pairs_sums", defines.text,
+                         error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,

@@ -185,23 +185,16 @@ static void destroy(void *state) {
 
 static pspec_status create_kernels(pairs_histogram *self, const ps_problem *problem,
                                    ps_error *error) {
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_pairs_options(&options, problem, self->precision, self->layout.lanes);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->histogram_kernel, "pairs/histogram.cl",
-                                     "pairs_histogram", ps_text_string(&options), error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->nodes_kernel, "pairs/nodes.cl",
-                                     "pairs_nodes", ps_text_string(&options), error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->sums_kernel, "pairs/nodes_sums.cl",
-                                     "pairs_nodes_sums", ps_text_string(&options), error));
-    ps_text_append(&options, " -DPARTS=1");
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->fold_kernel, "pairs/fold.cl",
-                                     "pairs_fold", ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    ps_defines defines = ps_pairs_defines(problem, self->precision, self->layout.lanes);
+    PS_TRY(ps_kernel_get(self->device, &self->histogram_kernel, "pairs/histogram.cl",
+                         "pairs_histogram", defines.text, error));
+    PS_TRY(ps_kernel_get(self->device, &self->nodes_kernel, "pairs/nodes.cl", "pairs_nodes",
+                         defines.text, error));
+    PS_TRY(ps_kernel_get(self->device, &self->sums_kernel, "pairs/nodes_sums.cl",
+                         "pairs_nodes_sums", defines.text, error));
+    ps_defines_add(&defines, "-DPARTS=1");
+    return ps_kernel_get(self->device, &self->fold_kernel, "pairs/fold.cl", "pairs_fold",
+                         defines.text, error);
 }
 
 static pspec_status upload_tables(pairs_histogram *self, ps_error *error) {

@@ -96,19 +96,13 @@ static void destroy(void *state) {
 
 static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u -DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d",
-                   8 * layout->real_bytes, layout->lanes, PS_SPHERE_CHUNK, PS_SPHERE_ORDERS,
-                   layout->only_even);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->sums_kernel, "sphere/sums.cl",
-                                     "sphere_sums", ps_text_string(&options), error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->power_kernel, "sphere/power.cl",
-                                     "sphere_power", ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
+    ps_defines_add(&defines, "-DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d", PS_SPHERE_CHUNK,
+                   PS_SPHERE_ORDERS, layout->only_even);
+    PS_TRY(ps_kernel_get(self->device, &self->sums_kernel, "sphere/sums.cl", "sphere_sums",
+                         defines.text, error));
+    return ps_kernel_get(self->device, &self->power_kernel, "sphere/power.cl", "sphere_power",
+                         defines.text, error);
 }
 
 static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {

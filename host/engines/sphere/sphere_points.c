@@ -10,16 +10,11 @@
 
 static pspec_status create_prepare(ps_sphere_points *self, ps_error *error) {
     const ps_sphere_layout *layout = self->layout;
-    ps_text options = {0};
-    ps_text_append(&options, "-DLANES=%u -DOUT_PRECISION=%zu -DONLY_EVEN=%d", layout->prepare_lanes,
+    ps_defines defines = {""};
+    ps_defines_add(&defines, "-DLANES=%u -DOUT_PRECISION=%zu -DONLY_EVEN=%d", layout->prepare_lanes,
                    8 * layout->real_bytes, layout->only_even);
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(self->device, &self->prepare, "sphere/prepare.cl", "sphere_prepare",
-                               ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    return status;
+    return ps_kernel_get(self->device, &self->prepare, "sphere/prepare.cl", "sphere_prepare",
+                         defines.text, error);
 }
 
 static pspec_status allocate_on_host(ps_sphere_points *self, ps_error *error) {

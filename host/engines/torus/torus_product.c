@@ -76,22 +76,15 @@ static pspec_status create_kernel(ps_torus_product *self, const ps_torus_layout 
                                               {"torus/product_units.cl", "torus_product_units"}};
     const bool has_units = layout->units != PS_UNITS_NONE;
     const char *const *const kernel = kernels[has_units ? 2 : layout->is_shared];
-    ps_text options = {0};
-    ps_torus_options(&options, layout, dimension);
+    ps_defines defines = ps_torus_defines(layout, dimension);
     if (layout->is_shared) {
-        ps_text_append(&options, " -DLEFT_AXES=%u", layout->left_axes);
+        ps_defines_add(&defines, "-DLEFT_AXES=%u", layout->left_axes);
     }
     if (has_units) {
-        ps_text_append(&options, " -DTILES=%u %s", layout->block_tiles,
+        ps_defines_add(&defines, "-DTILES=%u %s", layout->block_tiles,
                        ps_units_option(layout->units));
     }
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(device, &self->kernel, kernel[0], kernel[1],
-                               ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    return status;
+    return ps_kernel_get(device, &self->kernel, kernel[0], kernel[1], defines.text, error);
 }
 
 pspec_status ps_torus_product_create(ps_torus_product *out, const ps_torus_layout *layout,

@@ -5,10 +5,11 @@
 
 #include <stdlib.h>
 
-void ps_torus_options(ps_text *text, const ps_torus_layout *layout, unsigned dimension) {
-    ps_text_append(text, "-DPRECISION=%zu -DLANES=%u -DDIMENSION=%u -DRUN=%d -DLIST_RUN=%d",
-                   layout->real_bytes * 8, layout->lanes, dimension, PS_TORUS_RUN,
+ps_defines ps_torus_defines(const ps_torus_layout *layout, unsigned dimension) {
+    ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
+    ps_defines_add(&defines, "-DDIMENSION=%u -DRUN=%d -DLIST_RUN=%d", dimension, PS_TORUS_RUN,
                    PS_TORUS_LIST_RUN);
+    return defines;
 }
 
 /* Frequencies as the kernels want them: [dimension][tiles * lanes] words, padded with zeros. */
@@ -35,29 +36,15 @@ static pspec_status upload_frequencies(ps_torus_sums *self, const int32_t *vecto
 
 static pspec_status create_kernels(ps_torus_sums *self, const ps_torus_layout *layout,
                                    ps_device *device, ps_error *error) {
-    ps_text common = {0};
-    ps_text list = {0};
-    ps_text last = {0}; /* of passes that know no coordinates: the same for every dimension */
-    pspec_status status = PSPEC_OK;
-    ps_torus_options(&common, layout, self->dimension);
-    ps_text_append(&last, "-DPRECISION=%zu -DLANES=%u", layout->real_bytes * 8, layout->lanes);
-    ps_text_append(&list, "%s -DSTORE_TABLE=%d -DLEFT_AXES=%u", ps_text_string(&common),
-                   self->has_table, self->has_table ? layout->left_axes : self->dimension);
-    PS_TRY_OUT(status, ps_text_check(&common, error));
-    PS_TRY_OUT(status, ps_text_check(&list, error));
-    PS_TRY_OUT(status, ps_text_check(&last, error));
-    const char *options = ps_text_string(&last);
-    PS_TRY_OUT(status, ps_kernel_get(device, &self->list, "torus/list.cl", "torus_list",
-                                     ps_text_string(&list), error));
-    PS_TRY_OUT(status,
-               ps_kernel_get(device, &self->fold, "torus/fold.cl", "torus_fold", options, error));
-    PS_TRY_OUT(status, ps_kernel_get(device, &self->power, "torus/power.cl", "torus_power_list",
-                                     options, error));
-out:
-    ps_text_free(&common);
-    ps_text_free(&list);
-    ps_text_free(&last);
-    return status;
+    ps_defines list = ps_torus_defines(layout, self->dimension);
+    /* Of passes that know no coordinates: the same for every dimension. */
+    const ps_defines last = ps_defines_of(layout->real_bytes, layout->lanes);
+    ps_defines_add(&list, "-DSTORE_TABLE=%d -DLEFT_AXES=%u", self->has_table,
+                   self->has_table ? layout->left_axes : self->dimension);
+    PS_TRY(ps_kernel_get(device, &self->list, "torus/list.cl", "torus_list", list.text, error));
+    PS_TRY(ps_kernel_get(device, &self->fold, "torus/fold.cl", "torus_fold", last.text, error));
+    return ps_kernel_get(device, &self->power, "torus/power.cl", "torus_power_list", last.text,
+                         error);
 }
 
 static pspec_status create_buffers(ps_torus_sums *self, size_t batch, size_t group,

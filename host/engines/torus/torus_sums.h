@@ -17,8 +17,8 @@ typedef struct ps_torus_sums {
     ps_buffer frequencies, sums, totals, table;
 } ps_torus_sums;
 
-/* Kernel options of a job, "-DPRECISION=32 -DLANES=16 ..."; text is freed by the caller. */
-void ps_torus_options(ps_text *text, const ps_torus_layout *layout, unsigned dimension);
+/* What kernels of a job are compiled with. */
+ps_defines ps_torus_defines(const ps_torus_layout *layout, unsigned dimension);
 
 /* vectors: [num][dimension], whole tiles of lanes except at the end. with_table: also fill the
  * table, weights in the first weighted_tiles. */

@@ -32,16 +32,10 @@ static uint64_t most_points(const ps_batch *batch) {
 
 static pspec_status create_kernel(chords *self, double power, ps_error *error) {
     const double root = 0.5;
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u -DROOT=%d",
-                   8 * ps_real_bytes(self->precision), self->lanes, power == root);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->kernel, "rules/chords.cl",
-                                     "kernel_chords", ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    ps_defines defines = ps_defines_of(ps_real_bytes(self->precision), self->lanes);
+    ps_defines_add(&defines, "-DROOT=%d", power == root);
+    return ps_kernel_get(self->device, &self->kernel, "rules/chords.cl", "kernel_chords",
+                         defines.text, error);
 }
 
 static double number_at(const chords *self, size_t i) {

@@ -46,15 +46,10 @@ uint64_t ps_kernel_product_bytes(uint64_t num_points) {
 
 static pspec_status create_kernel(ps_kernel_product *self, double power, ps_error *error) {
     const double root = 0.5;
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_text_append(&options, "-DPRECISION=64 -DLANES=%u -DROOT=%d", self->lanes, power == root);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->kernel, "rules/product.cl",
-                                     "kernel_product", ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    ps_defines defines = ps_defines_of(sizeof(double), self->lanes);
+    ps_defines_add(&defines, "-DROOT=%d", power == root);
+    return ps_kernel_get(self->device, &self->kernel, "rules/product.cl", "kernel_product",
+                         defines.text, error);
 }
 
 /* Coordinates in columns. */

@@ -6,9 +6,7 @@
 #define PRECISION 64
 #include "samplers/gaussian.h"
 
-#include <stdio.h>
-
-enum { SPACE = 3, OPTION_BYTES = 32 };
+enum { SPACE = 3 };
 /* Operations of a pair, pairs of a point at sigma = 1, and points of a launch, between two of which
  * the watch hears of it: 50 ms of a core in space. */
 static const double PAIR_FLOPS = 40;
@@ -18,12 +16,12 @@ enum { POINTS_AT_ONCE = 1 << 13 };
 
 pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
                                        const ps_gaussian_sums *shape, ps_error *error) {
-    char options[OPTION_BYTES];
+    ps_defines defines = ps_defines_of(sizeof(double), 0);
     *d = (ps_gaussian_device){.device = device};
     PS_TRY(ps_forces_need_doubles(ps_device_get_limits(device), "gaussian-blue-noise", error));
-    snprintf(options, sizeof options, "-DPRECISION=64 -DDIMENSION=%u", shape->dimension);
-    PS_TRY(
-        ps_kernel_get(device, &d->kernel, "samplers/gaussian.cl", "gaussian_sums", options, error));
+    ps_defines_add(&defines, "-DDIMENSION=%u", shape->dimension);
+    PS_TRY(ps_kernel_get(device, &d->kernel, "samplers/gaussian.cl", "gaussian_sums", defines.text,
+                         error));
     PS_TRY(ps_buffer_create(device, &d->points, shape->dimension * shape->stride * sizeof(double),
                             "points by cells", error));
     PS_TRY(ps_buffer_create(device, &d->begins, (shape->num_cells + 1) * sizeof(uint32_t),

@@ -74,23 +74,15 @@ static bool has_strips(const ps_device_accumulator *self) {
 }
 
 static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error) {
-    ps_text options = {0};
-    pspec_status status = PSPEC_OK;
-    ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u", self->real_bytes * 8,
-                   self->options.lanes);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->fold, "accumulate/fold.cl",
-                                     "accumulate_fold", ps_text_string(&options), error));
-    ps_text_append(&options, " -DSQUARES=%d", self->options.mean_only ? 0 : 1);
-    PS_TRY_OUT(status, ps_text_check(&options, error));
-    PS_TRY_OUT(status, ps_kernel_get(self->device, &self->blocks, "accumulate/blocks.cl",
-                                     self->options.want_frequencies && !self->is_gpu
-                                         ? "accumulate_bins_and_frequencies"
-                                         : "accumulate_bins",
-                                     ps_text_string(&options), error));
-out:
-    ps_text_free(&options);
-    return status;
+    ps_defines defines = ps_defines_of(self->real_bytes, self->options.lanes);
+    PS_TRY(ps_kernel_get(self->device, &self->fold, "accumulate/fold.cl", "accumulate_fold",
+                         defines.text, error));
+    ps_defines_add(&defines, "-DSQUARES=%d", self->options.mean_only ? 0 : 1);
+    return ps_kernel_get(self->device, &self->blocks, "accumulate/blocks.cl",
+                         self->options.want_frequencies && !self->is_gpu
+                             ? "accumulate_bins_and_frequencies"
+                             : "accumulate_bins",
+                         defines.text, error);
 }
 
 /* Every bin is one piece (none is empty, spectra/bins.h), as in one dimension: nothing to add

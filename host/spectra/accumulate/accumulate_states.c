@@ -5,7 +5,6 @@
 #include "device/reals.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 static size_t num_states(const ps_device_states *self) {
@@ -20,12 +19,12 @@ static size_t rows_bytes(const ps_device_states *self, size_t num_rows) {
 
 static pspec_status create_strips(ps_device_states *self, size_t batch, ps_error *error) {
     static const char file[] = "accumulate/strips.cl";
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%zu -DLANES=%u -DSQUARES=%d",
-             self->real_bytes * 8, self->lanes, self->mean_only ? 0 : 1);
+    ps_defines defines = ps_defines_of(self->real_bytes, self->lanes);
+    ps_defines_add(&defines, "-DSQUARES=%d", self->mean_only ? 0 : 1);
     self->num_strips = most_strips(batch);
-    PS_TRY(ps_kernel_get(self->device, &self->strips, file, "accumulate_strips", options, error));
-    return ps_kernel_get(self->device, &self->merge, file, "accumulate_merge", options, error);
+    PS_TRY(
+        ps_kernel_get(self->device, &self->strips, file, "accumulate_strips", defines.text, error));
+    return ps_kernel_get(self->device, &self->merge, file, "accumulate_merge", defines.text, error);
 }
 
 /* A larger buffer, with what was in the old one. */

@@ -62,16 +62,10 @@ static pspec_status upload_weights(ps_device_weighted *self, ps_error *error) {
 }
 
 static pspec_status create_kernel(ps_device_weighted *self, ps_error *error) {
-    ps_text options = {0};
-    ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u",
-                   ps_real_bytes(self->options.precision) * 8, self->options.lanes);
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(self->device, &self->kernel, "accumulate/weighted.cl",
-                               "accumulate_weighted", ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    return status;
+    const ps_accumulator_options *options = &self->options;
+    const ps_defines defines = ps_defines_of(ps_real_bytes(options->precision), options->lanes);
+    return ps_kernel_get(self->device, &self->kernel, "accumulate/weighted.cl",
+                         "accumulate_weighted", defines.text, error);
 }
 
 /* Numbers in the pieces of one weighted sum. */

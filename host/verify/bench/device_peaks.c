@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "device/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,16 +20,10 @@ static pspec_status prepare(ps_peak *peak, ps_precision precision, ps_error *err
     const unsigned lanes = ps_engine_lanes(limits, precision);
     const size_t items = limits->has_dedicated_local_memory ? GPU_ITEMS : CPU_ITEMS;
     double ignored = 0;
-    ps_text options = {0};
-    ps_text_append(&options, "-DPRECISION=%d -DLANES=%u -DSTEPS=%d",
-                   precision == PS_SINGLE ? 32 : 64, lanes, STEPS);
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(peak->device, &peak->kernel, "probe/peak.cl", "probe_peak",
-                               ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    PS_TRY(status);
+    ps_defines defines = ps_defines_of(ps_real_bytes(precision), lanes);
+    ps_defines_add(&defines, "-DSTEPS=%d", STEPS);
+    PS_TRY(ps_kernel_get(peak->device, &peak->kernel, "probe/peak.cl", "probe_peak", defines.text,
+                         error));
     PS_TRY(ps_buffer_create(peak->device, &peak->result, items * lanes * sizeof(double), "results",
                             error));
     peak->range =
@@ -81,15 +76,9 @@ static size_t copied_bytes(const ps_device_limits *limits) {
 static pspec_status prepare_copy(copy *self, ps_error *error) {
     const ps_device_limits *limits = ps_device_get_limits(self->device);
     const unsigned lanes = ps_engine_lanes(limits, PS_SINGLE);
-    ps_text options = {0};
-    ps_text_append(&options, "-DPRECISION=32 -DLANES=%u", lanes);
-    pspec_status status = ps_text_check(&options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(self->device, &self->kernel, "probe/copy.cl", "probe_copy",
-                               ps_text_string(&options), error);
-    }
-    ps_text_free(&options);
-    PS_TRY(status);
+    const ps_defines defines = ps_defines_of(sizeof(float), lanes);
+    PS_TRY(ps_kernel_get(self->device, &self->kernel, "probe/copy.cl", "probe_copy", defines.text,
+                         error));
     self->bytes = copied_bytes(limits);
     self->range = ps_range_light(self->device, self->bytes / (lanes * sizeof(float)), 1, 1, 0, 0);
     PS_TRY(ps_buffer_create(self->device, &self->from, self->bytes, "a copy", error));

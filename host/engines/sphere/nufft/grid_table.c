@@ -9,7 +9,6 @@
 #include "math/pi.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -213,19 +212,18 @@ static pspec_status create_buffers(ps_sphere_grid_table *table, making *self, ps
 /* ---- kernels ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(making *self, ps_error *error) {
-    char options[160];
-    const unsigned bits = self->precision == PS_SINGLE ? 32 : 64;
-    snprintf(options, sizeof options,
-             "-DPRECISION=64 -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u -DTARGET_PRECISION=%u "
-             "-DTARGET_LANES=%u -DTARGET_VECTORS=%u",
-             self->rings.lanes, self->rings.run_vectors, self->is_alone ? 1u : 0u, bits,
-             self->shape->lanes, self->shape->run_vectors);
+    const size_t target_bytes = ps_real_bytes(self->precision);
+    ps_defines making_defines = ps_defines_of(sizeof(double), self->rings.lanes);
+    ps_defines target = ps_defines_of(target_bytes, self->shape->lanes);
+    ps_defines_add(&making_defines, "-DRUN_VECTORS=%u -DALONE=%u -DTARGET_PRECISION=%zu",
+                   self->rings.run_vectors, self->is_alone ? 1u : 0u, 8 * target_bytes);
+    ps_defines_add(&making_defines, "-DTARGET_LANES=%u -DTARGET_VECTORS=%u", self->shape->lanes,
+                   self->shape->run_vectors);
+    ps_defines_add(&target, "-DRUN_VECTORS=%u", self->shape->run_vectors);
     PS_TRY(ps_kernel_get(self->device, &self->make, "sphere/nufft/grid_table.cl",
-                         "sphere_grid_table", options, error));
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u", bits,
-             self->shape->lanes, self->shape->run_vectors);
+                         "sphere_grid_table", making_defines.text, error));
     return ps_kernel_get(self->device, &self->begin, "sphere/nufft/grid_begins.cl",
-                         "sphere_grid_begins", options, error);
+                         "sphere_grid_begins", target.text, error);
 }
 
 static pspec_status make_numbers(const ps_sphere_grid_table *table, const making *self,

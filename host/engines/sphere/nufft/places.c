@@ -6,7 +6,6 @@
 #include "sphere/nufft/numbers.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -77,11 +76,9 @@ static pspec_status create_kernels(ps_sphere_places *self, ps_error *error) {
     const ps_sphere_shape *const shape = self->shape;
     const int which = shape->order.tile > 0 ? KEYS : shape->is_sorted ? SORT : TURN;
     const size_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, self->lanes);
-    PS_TRY(
-        ps_kernel_get(self->device, &self->turn, names[which][0], names[which][1], options, error));
+    const ps_defines defines = ps_defines_of(ps_real_bytes(self->precision), self->lanes);
+    PS_TRY(ps_kernel_get(self->device, &self->turn, names[which][0], names[which][1], defines.text,
+                         error));
     return which == KEYS ? ps_nufft_order_create(&self->order, &shape->order, parts, 2,
                                                  self->precision, self->device, error)
                          : PSPEC_OK;

@@ -1,21 +1,23 @@
 #include "engines/sphere/nufft/sphere_powers.h"
 
-#include <stdio.h>
+#include "device/reals.h"
 
 pspec_status ps_sphere_kernel_get(const ps_sphere_powers *self, ps_kernel **out,
                                   const ps_sphere_source *source, bool keeps, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
-    const unsigned precision = self->precision == PS_SINGLE ? 32 : 64;
-    char options[192], of_values[96] = "";
+    const size_t value_bytes = ps_real_bytes(self->precision);
+    ps_defines defines = source->sums_one ? ps_defines_of(sizeof(double), shape->sum_lanes)
+                                          : ps_defines_of(value_bytes, shape->lanes);
+    ps_defines_add(&defines, "-DRUN_VECTORS=%u -DALONE=%u", shape->run_vectors,
+                   self->is_alone ? 1u : 0u);
     if (source->sums_one) {
-        snprintf(of_values, sizeof of_values,
-                 " -DVALUE_PRECISION=%u -DVALUE_LANES=%u -DRING_VECTORS=%u", precision,
-                 shape->lanes, ps_sphere_one_vectors(shape));
+        ps_defines_add(&defines, "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u",
+                       8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape));
     }
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u%s%s",
-             source->sums_one ? 64u : precision, source->sums_one ? shape->sum_lanes : shape->lanes,
-             shape->run_vectors, self->is_alone ? 1u : 0u, of_values, keeps ? " -DKEEP=1" : "");
-    return ps_kernel_get(self->device, out, source->file, source->name, options, error);
+    if (keeps) {
+        ps_defines_add(&defines, "-DKEEP=1");
+    }
+    return ps_kernel_get(self->device, out, source->file, source->name, defines.text, error);
 }
 
 pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shape *shape,

@@ -5,7 +5,6 @@
 #include "engines/nufft/kernels.h"
 #include "nufft/numbers.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
@@ -25,11 +24,10 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
     const ps_nufft_layout *const layout = self->layout;
     const bool has_order = layout->order.tile > 0;
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DBOXES=%u",
-             precision == PS_SINGLE ? 32u : 64u, layout->lanes, self->dimension, layout->has_boxes);
+    ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
+    ps_defines_add(&defines, "-DDIMENSION=%u -DBOXES=%u", self->dimension, layout->has_boxes);
     PS_TRY(ps_kernel_get(self->device, &self->sort, "nufft/sort.cl",
-                         has_order ? "nufft_keys" : "nufft_sort", options, error));
+                         has_order ? "nufft_keys" : "nufft_sort", defines.text, error));
     return has_order ? ps_nufft_order_create(&self->order, &layout->order, layout->parts,
                                              self->dimension, precision, self->device, error)
                      : PSPEC_OK;

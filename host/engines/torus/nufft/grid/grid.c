@@ -27,58 +27,45 @@ static grid *of(const ps_nufft_state *self) {
 /* ---- create ------------------------------------------------------------------------------ */
 
 /* What kernels/nufft/grid/sides.h is compiled with. */
-static void append_sides(const ps_nufft_state *self, ps_text *options) {
+static void add_sides(const ps_nufft_state *self, ps_defines *defines) {
     const ps_nufft_grid_sizes *sizes = &self->layout.grid;
-    ps_text_append(options, "-DPRECISION=%u -DDIMENSION=%u -DPAIRS=%u",
-                   self->precision == PS_SINGLE ? 32u : 64u, self->layout.choice.num_axes,
+    ps_defines_add(defines, "-DDIMENSION=%u -DPAIRS=%u", self->layout.choice.num_axes,
                    self->layout.has_pairs);
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
-        ps_text_append(options, " -DEDGE_%u=%lu -DWIDTH_%u=%lu", i, (unsigned long)sizes->edges[i],
+        ps_defines_add(defines, "-DEDGE_%u=%lu -DWIDTH_%u=%lu", i, (unsigned long)sizes->edges[i],
                        i, (unsigned long)(sizes->sides[i] - sizes->edges[i] + 1));
     }
 }
 
-/* options are freed. */
-static pspec_status build(ps_nufft_state *self, ps_kernel **kernel, const char *source,
-                          const char *name, ps_text *options, ps_error *error) {
-    pspec_status status = ps_text_check(options, error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_get(self->device, kernel, source, name, ps_text_string(options), error);
-    }
-    ps_text_free(options);
-    return status;
-}
-
 static pspec_status create_spread(ps_nufft_state *self, ps_error *error) {
     const ps_nufft_grid_sizes *sizes = &self->layout.grid;
-    ps_text options = {0};
-    append_sides(self, &options);
-    ps_text_append(&options, " -DCOPIES=%lu -DPITCH=%lu", (unsigned long)sizes->copies,
+    ps_defines defines = ps_defines_of(self->layout.real_bytes, 0);
+    add_sides(self, &defines);
+    ps_defines_add(&defines, "-DCOPIES=%lu -DPITCH=%lu", (unsigned long)sizes->copies,
                    (unsigned long)sizes->pitch);
-    return build(self, &of(self)->spread, "nufft/grid/spread.cl", "nufft_grid_spread", &options,
-                 error);
+    return ps_kernel_get(self->device, &of(self)->spread, "nufft/grid/spread.cl",
+                         "nufft_grid_spread", defines.text, error);
 }
 
 static pspec_status create_lines(ps_nufft_state *self, const ps_nufft_pass *sizes, pass *out,
                                  ps_error *error) {
-    ps_text options = {0};
+    ps_defines defines = ps_defines_of(self->layout.real_bytes, 0);
     out->range = ps_range_shared(self->device, sizes->items, 0, 0, 0, 0);
     if (sizes->is_first) {
-        append_sides(self, &options);
-        ps_text_append(&options, " -DCELLS_1=%lu -DCELLS_2=%lu",
+        add_sides(self, &defines);
+        ps_defines_add(&defines, "-DCELLS_1=%lu -DCELLS_2=%lu",
                        (unsigned long)self->layout.grid.cells[1],
                        (unsigned long)self->layout.grid.cells[2]);
-    } else {
-        ps_text_append(&options, "-DPRECISION=%u", self->precision == PS_SINGLE ? 32u : 64u);
     }
     for (unsigned i = 0; i < PS_NUFFT_PASS_RADICES; i++) {
-        ps_text_append(&options, " -DRADIX_%u=%lu", i, (unsigned long)sizes->radices[i]);
+        ps_defines_add(&defines, "-DRADIX_%u=%lu", i, (unsigned long)sizes->radices[i]);
     }
-    ps_text_append(
-        &options, " -DLINES=%lu -DITEMS=%zu -DIS_ACROSS=%d -DFROM=%d -DTO=%d -DIS_HALF=%d",
+    ps_defines_add(
+        &defines, "-DLINES=%lu -DITEMS=%zu -DIS_ACROSS=%d -DFROM=%d -DTO=%d -DIS_HALF=%d",
         (unsigned long)sizes->lines_at_once, out->range.local[0], sizes->inner > 1, sizes->is_first,
         sizes->is_turned ? 2 : sizes->is_last, sizes->axis + 1 == self->layout.choice.num_axes);
-    return build(self, &out->kernel, "nufft/grid/lines.cl", "nufft_grid_lines", &options, error);
+    return ps_kernel_get(self->device, &out->kernel, "nufft/grid/lines.cl", "nufft_grid_lines",
+                         defines.text, error);
 }
 
 static pspec_status create_pass(ps_nufft_state *self, unsigned i, ps_error *error) {

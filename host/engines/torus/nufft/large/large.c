@@ -6,8 +6,6 @@
 #include "engines/torus/nufft/variant.h"
 #include "nufft/boxes.h"
 
-#include <stdio.h>
-
 typedef struct grid {
     bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     ps_kernel *spread, *first, *tile, *rows, *columns;
@@ -23,11 +21,9 @@ static grid *of(const ps_nufft_state *self) {
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
-    char options[96];
-    snprintf(options, sizeof options,
-             "-DPRECISION=%u -DLANES=%u -DPAIRS=%u -DALONE=%u -DDIMENSION=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, self->layout.lanes, self->layout.has_pairs,
-             of(self)->is_alone, self->layout.choice.num_axes);
+    ps_defines defines = ps_defines_of(self->layout.real_bytes, self->layout.lanes);
+    ps_defines_add(&defines, "-DPAIRS=%u -DALONE=%u -DDIMENSION=%u", self->layout.has_pairs,
+                   of(self)->is_alone, self->layout.choice.num_axes);
     const struct {
         ps_kernel **kernel;
         const char *source, *name;
@@ -37,8 +33,8 @@ static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
                {&of(self)->rows, "nufft/finish.cl", "nufft_finish_rows"},
                {&of(self)->columns, "nufft/columns.cl", "nufft_columns"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        PS_TRY(
-            ps_kernel_get(self->device, all[i].kernel, all[i].source, all[i].name, options, error));
+        PS_TRY(ps_kernel_get(self->device, all[i].kernel, all[i].source, all[i].name, defines.text,
+                             error));
     }
     return PSPEC_OK;
 }

@@ -5,8 +5,6 @@
 #include "engines/torus/nufft/variant.h"
 #include "nufft/strips.h"
 
-#include <stdio.h>
-
 /* ---- create ------------------------------------------------------------------------------ */
 
 typedef struct strips {
@@ -19,14 +17,12 @@ static strips *of(const ps_nufft_state *self) {
 }
 
 static pspec_status create(ps_nufft_state *self, ps_error *error) {
-    char options[64];
     strips *own = of(self);
     const ps_nufft_layout *layout = &self->layout;
     const size_t bytes = layout->groups * layout->real_bytes;
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, layout->lanes);
-    PS_TRY(ps_kernel_get(self->device, &own->kernel, "nufft/strips.cl", "nufft_strips", options,
-                         error));
+    const ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
+    PS_TRY(ps_kernel_get(self->device, &own->kernel, "nufft/strips.cl", "nufft_strips",
+                         defines.text, error));
     PS_TRY(ps_buffer_create(self->device, &own->strips, bytes * layout->strips.strip_reals,
                             "strips", error));
     return ps_buffer_create(self->device, &own->tiles, bytes * layout->strips.tile_reals, "tiles",

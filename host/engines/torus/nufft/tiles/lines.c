@@ -2,27 +2,23 @@
 
 #include "base/round.h"
 
-#include <stdio.h>
-
 /* ---- create ------------------------------------------------------------------------------ */
 
-static pspec_status create_kernels(ps_nufft_lines *self, ps_precision precision, ps_error *error) {
+static pspec_status create_kernels(ps_nufft_lines *self, ps_error *error) {
     static const char file[] = "nufft/lines.cl";
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes);
+    const ps_defines defines = ps_defines_of(self->layout->real_bytes, self->layout->lanes);
     if (self->layout->choice.num_axes == 1) {
-        return ps_kernel_get(self->device, &self->powers, file, "nufft_line_powers", options,
+        return ps_kernel_get(self->device, &self->powers, file, "nufft_line_powers", defines.text,
                              error);
     }
-    PS_TRY(ps_kernel_get(self->device, &self->rows, file, "nufft_line_rows", options, error));
-    return ps_kernel_get(self->device, &self->columns, file, "nufft_line_columns", options, error);
+    PS_TRY(ps_kernel_get(self->device, &self->rows, file, "nufft_line_rows", defines.text, error));
+    return ps_kernel_get(self->device, &self->columns, file, "nufft_line_columns", defines.text,
+                         error);
 }
 
 /* Kernels that fill lines have an argument for them in any case. */
 pspec_status ps_nufft_lines_create(ps_nufft_lines *out, const ps_nufft_layout *layout, size_t batch,
-                                   const ps_nufft_plan *plans, ps_precision precision,
-                                   ps_device *device, ps_error *error) {
+                                   const ps_nufft_plan *plans, ps_device *device, ps_error *error) {
     *out = (ps_nufft_lines){.layout = layout, .plans = plans, .device = device};
     const bool has_line = layout->choice.has_line;
     const size_t lines = has_line ? batch * layout->line.cells : 1;
@@ -31,7 +27,7 @@ pspec_status ps_nufft_lines_create(ps_nufft_lines *out, const ps_nufft_layout *l
     if (!has_line) {
         return PSPEC_OK;
     }
-    PS_TRY(create_kernels(out, precision, error));
+    PS_TRY(create_kernels(out, error));
     const size_t groups = ps_divide_up(batch, layout->lanes);
     const size_t grid = layout->choice.num_axes == 1 ? 1 : groups * layout->line.grid_reals;
     return ps_buffer_create(device, &out->grid, grid * layout->real_bytes,

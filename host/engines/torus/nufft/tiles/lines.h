@@ -21,8 +21,8 @@ typedef struct ps_nufft_lines {
 /* Room for the lines of a batch. layout and plans are borrowed. Makes next to nothing where the
  * choice has no line. */
 pspec_status ps_nufft_lines_create(ps_nufft_lines *out, const ps_nufft_layout *layout, size_t batch,
-                                   const ps_nufft_plan *plans, ps_precision precision,
-                                   ps_device *device, ps_error *error) PS_MUST_CHECK;
+                                   const ps_nufft_plan *plans, ps_device *device,
+                                   ps_error *error) PS_MUST_CHECK;
 void ps_nufft_lines_free(ps_nufft_lines *lines);
 
 /* The realizations of a batch, whose lines are all there, into rows from target->realization on. */

@@ -12,7 +12,6 @@
 #include "math/pi.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct tiles {
@@ -29,18 +28,16 @@ static tiles *of(const ps_nufft_state *self) {
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DLINE=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, self->layout.lanes,
-             self->layout.choice.has_line);
+    ps_defines defines = ps_defines_of(self->layout.real_bytes, self->layout.lanes);
+    ps_defines_add(&defines, "-DLINE=%u", self->layout.choice.has_line);
     if (self->layout.choice.num_axes == 1) {
-        return ps_kernel_get(self->device, &of(self)->tile, "nufft/tile.cl", "nufft_tile", options,
-                             error);
+        return ps_kernel_get(self->device, &of(self)->tile, "nufft/tile.cl", "nufft_tile",
+                             defines.text, error);
     }
-    PS_TRY(ps_kernel_get(self->device, &of(self)->rows, "nufft/rows.cl", "nufft_rows", options,
+    PS_TRY(ps_kernel_get(self->device, &of(self)->rows, "nufft/rows.cl", "nufft_rows", defines.text,
                          error));
     return ps_kernel_get(self->device, &of(self)->columns, "nufft/columns.cl", "nufft_columns",
-                         options, error);
+                         defines.text, error);
 }
 
 /* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis
@@ -67,8 +64,8 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
     const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
     PS_TRY(create_kernels(self, error));
     PS_TRY(create_pattern(self, error));
-    PS_TRY(ps_nufft_lines_create(&of(self)->lines, layout, self->batch, self->plans,
-                                 self->precision, self->device, error));
+    PS_TRY(ps_nufft_lines_create(&of(self)->lines, layout, self->batch, self->plans, self->device,
+                                 error));
     return ps_buffer_create(self->device, &of(self)->grid,
                             layout->parts * layout->grid_cells * vector_bytes, "transformed rows",
                             error);

@@ -9,7 +9,6 @@
 #include "nufft/whole.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct whole {
@@ -109,14 +108,13 @@ static pspec_status create_buffers(ps_nufft_state *self, ps_error *error) {
 }
 
 static pspec_status create(ps_nufft_state *self, ps_error *error) {
-    char options[64];
     whole *own = of(self);
     const ps_nufft_layout *layout = &self->layout;
     own->is_alone = ps_range_is_alone(self->device);
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DALONE=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, layout->lanes, own->is_alone ? 1u : 0u);
-    PS_TRY(
-        ps_kernel_get(self->device, &own->kernel, "nufft/whole.cl", "nufft_whole", options, error));
+    ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
+    ps_defines_add(&defines, "-DALONE=%u", own->is_alone ? 1u : 0u);
+    PS_TRY(ps_kernel_get(self->device, &own->kernel, "nufft/whole.cl", "nufft_whole", defines.text,
+                         error));
     PS_TRY(ps_torus_points_create(&own->points, layout->choice.num_axes, layout->parts,
                                   layout->part_points, self->precision, false, self->device,
                                   error));
