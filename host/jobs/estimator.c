@@ -44,6 +44,8 @@ static pspec_status create_parts(ps_estimator *self, ps_error *error) {
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
+        ps_accumulator_destroy(self->accumulator); /* there is one where its kernels were refused */
+        self->accumulator = NULL;
         ps_estimator_halve_batch(self);
     }
 }
@@ -304,6 +306,8 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
+        ps_accumulator_destroy(self->accumulator); /* there is one where its kernels were refused */
+        self->accumulator = NULL;
         ps_estimator_halve_batch(self);
         PS_TRY(ps_estimator_make_engine(self, error));
     }

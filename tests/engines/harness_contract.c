@@ -147,7 +147,11 @@ static size_t try_way(contract_way *way, contract_law *law) {
     way->problem = make_problem(way);
     if (is_taken(way) && is_meant(way)) {
         make_sets(way);
+        double *const expected =
+            contract_powers(way, &way->problem, way->sets, CONTRACT_SETS, CONTRACT_SETS);
+        way->expected = expected;
         law(way);
+        free(expected);
         num = 1;
         for (size_t r = 0; r < CONTRACT_SETS; r++) {
             test_free_pattern(&way->sets[r]);
@@ -163,6 +167,7 @@ size_t contract_walk(ps_device *device, const ps_engine *engine, contract_law *l
         for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
             for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
                 contract_way way = {.what = &cases[i],
+                                    .law = "",
                                     .engine = ps_engines[e],
                                     .precision = (ps_precision)precision,
                                     .device = device};

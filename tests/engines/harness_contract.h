@@ -35,9 +35,15 @@ typedef struct contract_way {
     ps_frequencies frequencies;
     ps_problem problem; /* in the units of the engine */
     pspec_pattern sets[CONTRACT_SETS];
+    const double *expected; /* powers of all sets in one batch */
+    const char *law;        /* for what is said when it fails */
 } contract_way;
 
 typedef void contract_law(const contract_way *way);
+typedef struct contract_named_law {
+    const char *name;
+    contract_law *law;
+} contract_named_law;
 
 /* Every case by every engine in every precision that takes it: the law is called. Returns how many
  * times. engine: NULL: every one. */
@@ -66,7 +72,7 @@ extern double contract_bytes, contract_most_bytes;
 void contract_check_rows(const contract_way *way, const char *what, size_t num, double *found,
                          const double *expected);
 #define CONTRACT_FAIL(way, format, ...)                                                            \
-    fail_msg("%s, %s, %s: " format, (way)->engine->name, ps_precision_name((way)->precision),      \
-             (way)->what->name, __VA_ARGS__)
+    fail_msg("%s, %s, %s, %s: " format, (way)->law, (way)->engine->name,                           \
+             ps_precision_name((way)->precision), (way)->what->name, __VA_ARGS__)
 
 #endif

@@ -15,34 +15,9 @@
 static ps_device *device;
 static const ps_engine *asked; /* NULL: all */
 
+/* Its bits are way->expected, whatever the batch. */
 static double *run_all(const contract_way *way, size_t batch) {
     return contract_powers(way, &way->problem, way->sets, CONTRACT_SETS, batch);
-}
-
-/* ---- who is asked ------------------------------------------------------------------------ */
-
-static bool is_asked[3];
-
-static void note(const contract_way *way) {
-    is_asked[way->precision] = true;
-}
-
-static void every_engine_in_every_precision(void **state) {
-    (void)state;
-    for (size_t e = 0; ps_engines[e] != NULL; e++) {
-        if (asked != NULL && ps_engines[e] != asked) {
-            continue;
-        }
-        memset(is_asked, 0, sizeof is_asked);
-        contract_walk(device, ps_engines[e], note);
-        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
-            const bool needs_double =
-                precision == PS_DOUBLE || ps_engines[e]->domains == PS_ON_SPHERE;
-            if (!needs_double || ps_device_get_limits(device)->has_fp64) {
-                assert_true(is_asked[precision] == ps_engines[e]->has_precision[precision]);
-            }
-        }
-    }
 }
 
 /* ---- the same bits ----------------------------------------------------------------------- */
@@ -51,9 +26,8 @@ static void every_engine_in_every_precision(void **state) {
 static void batches_change_no_bit(const contract_way *way) {
     static const size_t batches[] = {1, 5, CONTRACT_SETS + 3};
     pspec_pattern reversed[CONTRACT_SETS];
-    double *const expected = run_all(way, CONTRACT_SETS);
     for (size_t i = 0; i < sizeof batches / sizeof batches[0]; i++) {
-        contract_check_rows(way, "batches", CONTRACT_SETS, run_all(way, batches[i]), expected);
+        contract_check_rows(way, "batches", CONTRACT_SETS, run_all(way, batches[i]), way->expected);
     }
     for (size_t r = 0; r < CONTRACT_SETS; r++) {
         reversed[r] = way->sets[CONTRACT_SETS - 1 - r];
@@ -61,21 +35,18 @@ static void batches_change_no_bit(const contract_way *way) {
     double *const found = contract_powers(way, &way->problem, reversed, CONTRACT_SETS, 4);
     for (size_t r = 0; r < CONTRACT_SETS; r++) {
         const size_t from = (CONTRACT_SETS - 1 - r) * way->frequencies.num;
-        assert_memory_equal(found + from, expected + r * way->frequencies.num,
+        assert_memory_equal(found + from, way->expected + r * way->frequencies.num,
                             contract_row_bytes(way));
     }
     free(found);
-    free(expected);
 }
 
 /* Of files nobody knows how many sets they have, unless it is one. */
 static void unknown_numbers_change_no_bit(const contract_way *way) {
     ps_problem problem = way->problem;
-    double *const expected = run_all(way, CONTRACT_SETS);
     problem.num_realizations = 0;
     contract_check_rows(way, "an unknown number", CONTRACT_SETS,
-                        contract_powers(way, &problem, way->sets, CONTRACT_SETS, 5), expected);
-    free(expected);
+                        contract_powers(way, &problem, way->sets, CONTRACT_SETS, 5), way->expected);
 }
 
 /* PoCL 3.1 gets groups of fewer items than lanes wrong, and all those for grids
@@ -88,24 +59,20 @@ static void work_groups_change_no_bit(const contract_way *way) {
     if (!has_work_groups(way)) {
         return;
     }
-    double *const expected = run_all(way, CONTRACT_SETS);
     const size_t most = 256; /* whose numbers PoCL keeps on 8 MiB of stack, of sphere_nufft */
     ps_device_set_group_size(device, test_group(32) < most ? test_group(32) : most);
     double *const found = run_all(way, 5);
     ps_device_set_group_size(device, 0);
-    contract_check_rows(way, "work-groups", CONTRACT_SETS, found, expected);
-    free(expected);
+    contract_check_rows(way, "work-groups", CONTRACT_SETS, found, way->expected);
 }
 
 /* Room for more points than were planned leaves a job what it has. */
 static void growth_changes_no_bit(const contract_way *way) {
     ps_problem problem = way->problem;
-    double *const expected = run_all(way, CONTRACT_SETS);
     problem.planned_points = (uint64_t)ps_planned_points(&way->problem);
     problem.num_points = 20000;
     contract_check_rows(way, "growth", CONTRACT_SETS,
-                        contract_powers(way, &problem, way->sets, CONTRACT_SETS, 2), expected);
-    free(expected);
+                        contract_powers(way, &problem, way->sets, CONTRACT_SETS, 2), way->expected);
 }
 
 /* ---- memory ------------------------------------------------------------------------------ */
@@ -143,12 +110,11 @@ static void memory_is_announced(const contract_way *way) {
 
 /* (host_direct is the referee of the torus and of coefficients; sums over pairs have another.) */
 static void errors_are_announced(const contract_way *way) {
-    double *const found = run_all(way, CONTRACT_SETS);
     void *const state = contract_state(way);
     const bool is_referee = way->engine == &ps_host_direct;
     for (size_t r = 0; r < CONTRACT_SETS; r++) {
         const pspec_pattern *const set = &way->sets[r];
-        const double *const row = found + r * way->frequencies.num;
+        const double *const row = way->expected + r * way->frequencies.num;
         double bound = 0;
         for (size_t i = 0; i < way->frequencies.num && set->num_points == 0; i++) {
             assert_true(row[i] == 0);
@@ -163,7 +129,6 @@ static void errors_are_announced(const contract_way *way) {
         }
     }
     way->engine->destroy(state);
-    free(found);
 }
 
 /* ---- weights, scales, coefficients ------------------------------------------------------- */
@@ -211,7 +176,6 @@ static void coefficients_have_the_powers(const contract_way *way) {
     if (way->engine->coefficients == NULL) {
         return;
     }
-    double *const expected = run_all(way, CONTRACT_SETS);
     void *const state = contract_state(way);
     for (size_t r = 0; r < CONTRACT_SETS; r++) {
         double *const powers = malloc(contract_row_bytes(way));
@@ -224,11 +188,10 @@ static void coefficients_have_the_powers(const contract_way *way) {
             }
         }
         contract_check_rows(way, "beside coefficients", 1, powers,
-                            expected + r * way->frequencies.num);
+                            way->expected + r * way->frequencies.num);
         free(c);
     }
     way->engine->destroy(state);
-    free(expected);
 }
 
 /* ---- streams, stops, bad points ---------------------------------------------------------- */
@@ -280,7 +243,6 @@ static void runs_stop(const contract_way *way) {
     for (size_t r = 0; r < CONTRACT_SETS; r++) {
         scales[r] = 1;
     }
-    double *const expected = run_all(way, CONTRACT_SETS);
     double *const found = malloc(CONTRACT_SETS * contract_row_bytes(way));
     ps_batch batch = {.num_patterns = CONTRACT_SETS,
                       .patterns = way->sets,
@@ -293,9 +255,8 @@ static void runs_stop(const contract_way *way) {
     assert_int_equal(way->engine->run(state, &batch, &rows, &error), PSPEC_ERROR_CANCELLED);
     batch.should_stop = NULL;
     test_run_batch(way->engine, state, &way->frequencies, device, &batch, found);
-    contract_check_rows(way, "after a stop", CONTRACT_SETS, found, expected);
+    contract_check_rows(way, "after a stop", CONTRACT_SETS, found, way->expected);
     way->engine->destroy(state);
-    free(expected);
 }
 
 /* Coordinates outside of [0, 1) in the last set are found by the engines that look. */
@@ -317,27 +278,62 @@ static void points_are_checked(const contract_way *way) {
     way->engine->destroy(state);
 }
 
-/* A law, which every way keeps, as a test. */
-#define LAW(law)                                                                                   \
-    {                                                                                              \
-#law, keep_law, NULL, NULL, &(contract_law *) {                                            \
-            law                                                                                    \
-        }                                                                                          \
-    }
+/* ---- who is asked ------------------------------------------------------------------------ */
 
-static void keep_law(void **state) {
-    contract_law *const *const law = *state;
-    assert_true(contract_walk(device, asked, *law) > 0);
+static bool is_asked[3];
+
+/* A law of so many of them. */
+static void keep(const contract_way *way, const contract_named_law *laws, size_t num) {
+    is_asked[way->precision] = true;
+    for (size_t i = 0; i < num; i++) {
+        contract_way named = *way;
+        named.law = laws[i].name;
+        laws[i].law(&named);
+    }
 }
 
-/* ---- as on GPUs -------------------------------------------------------------------------- */
+#define LAW(law)                                                                                   \
+    { #law, law }
 
-/* So do engines with the kernels of GPUs. PoCL is slow with these: two sizes of batches do. */
+static void keep_laws(const contract_way *way) {
+    static const contract_named_law laws[] = {
+        LAW(batches_change_no_bit),     LAW(unknown_numbers_change_no_bit),
+        LAW(work_groups_change_no_bit), LAW(growth_changes_no_bit),
+        LAW(memory_is_announced),       LAW(errors_are_announced),
+        LAW(weights_scale_exactly),     LAW(coefficients_have_the_powers),
+        LAW(blocks_change_no_bit),      LAW(runs_stop),
+        LAW(points_are_checked),
+    };
+    keep(way, laws, sizeof laws / sizeof laws[0]);
+}
+
+static void every_engine_in_every_precision(void **state) {
+    (void)state;
+    for (size_t e = 0; ps_engines[e] != NULL; e++) {
+        if (asked != NULL && ps_engines[e] != asked) {
+            continue;
+        }
+        memset(is_asked, 0, sizeof is_asked);
+        assert_true(contract_walk(device, ps_engines[e], keep_laws) > 0);
+        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
+            const bool needs_double =
+                precision == PS_DOUBLE || ps_engines[e]->domains == PS_ON_SPHERE;
+            if (!needs_double || ps_device_get_limits(device)->has_fp64) {
+                assert_true(is_asked[precision] == ps_engines[e]->has_precision[precision]);
+            }
+        }
+    }
+}
+
+/* PoCL is slow with the kernels of GPUs: two sizes of batches do. */
 static void keep_laws_of_gpus(const contract_way *way) {
+    static const contract_named_law laws[] = {
+        LAW(memory_is_announced),
+        LAW(errors_are_announced),
+        LAW(unknown_numbers_change_no_bit),
+    };
     if (has_work_groups(way)) {
-        memory_is_announced(way);
-        errors_are_announced(way);
-        unknown_numbers_change_no_bit(way);
+        keep(way, laws, sizeof laws / sizeof laws[0]);
     }
 }
 
@@ -358,17 +354,6 @@ static void layouts_of_gpus_keep_the_laws(void **state) {
 int main(int num, char **words) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_engine_in_every_precision),
-        LAW(batches_change_no_bit),
-        LAW(unknown_numbers_change_no_bit),
-        LAW(work_groups_change_no_bit),
-        LAW(growth_changes_no_bit),
-        LAW(memory_is_announced),
-        LAW(errors_are_announced),
-        LAW(weights_scale_exactly),
-        LAW(coefficients_have_the_powers),
-        LAW(blocks_change_no_bit),
-        LAW(runs_stop),
-        LAW(points_are_checked),
         cmocka_unit_test(layouts_of_gpus_keep_the_laws),
     };
     for (size_t e = 0; num > 1 && ps_engines[e] != NULL; e++) {
