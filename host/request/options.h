@@ -86,6 +86,15 @@ typedef struct ps_shown_option {
 } ps_shown_option;
 ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 
+/* Refuses two options that were given and do not go together for that taker. */
+pspec_status ps_option_pairs_check(const ps_request *request, ps_verb_id taker,
+                                   ps_error *error) PS_MUST_CHECK;
+/* Is there a row that says that a does not go with b? */
+bool ps_option_is_refused(ps_option_id a, ps_option_id b);
+/* Refuses options of the other one of torus and sphere. */
+pspec_status ps_option_domains_check(const ps_request *request, bool on_sphere,
+                                     ps_error *error) PS_MUST_CHECK;
+
 /* Calls the setter of the option, whose form the request has already. */
 pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
                            const char *value, ps_error *error) PS_MUST_CHECK;

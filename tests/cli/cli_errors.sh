@@ -281,6 +281,9 @@ power 2 '--standard-error: 2 is not above 0 and at most 1' --sampler white -n 16
 power 2 '--per-ring does not go with --standard-error' --sampler white -n 16 -k 4 --per-ring 9 --standard-error 0.1
 refuses 2 '--frequencies does not go with --standard-error' power --frequencies "$in/vectors.txt" --standard-error 0.1 "$in/good.txt"
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
+refuses 2 '--frequencies does not go with --full' power --frequencies "$in/vectors.txt" --full full.npy "$in/good.txt"
+refuses 2 '--frequencies does not go with --plot' power --frequencies "$in/vectors.txt" --plot x.svg "$in/good.txt"
+power 2 '--coefficients does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --coefficients c.npy
 refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
 refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
 planned=$("$program" plan --help | sed -n 's/^Usage: pointspec plan \([a-z|]*\) .*/\1/p')

@@ -56,6 +56,9 @@ refuses '--scatter' --sampler white -n 16 --scatter 1,
 refuses '--scatter does not go with --plot-log: coefficients have both signs' --sampler white -n 16 --scatter 1,1 --plot a.svg --plot-log xy
 refuses 'does not go with several samplers or sets: a picture shows the sets of one' --sampler white --sampler jittered -n 16 --scatter 1,1 --plot a.svg
 refuses 'does not go with --per-ring' --sampler white -n 16 --scatter 1,1 --per-ring 8
+refuses '--scatter does not go with --frequencies: a list has no row' --sampler white -n 16 --scatter 1,1 --frequencies list
+refuses '--scatter does not go with --plot-range: its panels' --sampler white -n 16 --scatter 1,1 --plot a.svg --plot-range 0..1
+refuses '--scatter does not go with --plot-points: its picture' --sampler white -n 16 --scatter 1,1 --plot a.svg --plot-points yes
 refuses 'does not go with --standard-error' --sampler white -n 16 --scatter 1,1 --standard-error 0.1
 
 # ---- pictures, of commands and of scenes, whose answers come from the cache with the same numbers ----

@@ -21,18 +21,6 @@ typedef struct checked {
     ps_homogeneity *homogeneity;
 } checked;
 
-static pspec_status check_domain(const ps_request *request, ps_error *error) {
-    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        if (request->is_given[id] && ps_check_is_of_spectrum((ps_option_id)id)) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "%s does not go with %s: the saved spectrum says it",
-                           ps_option_show(request, (ps_option_id)id).text,
-                           ps_option_show(request, PS_OPTION_AGAINST).text);
-        }
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status find_both_saved(bool *are_both, const ps_request *request, ps_error *error) {
     *are_both = false;
     return request->against != NULL && request->num_sources == 0 && request->num_files == 1
@@ -67,7 +55,7 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--against FILE, the saved spectrum, or --homogeneous is needed");
     }
-    PS_TRY(check_domain(request, error));
+    PS_TRY(ps_option_pairs_check(request, PS_VERB_check, error));
     PS_TRY(find_both_saved(&are_both_saved, request, error));
     if (are_both_saved) {
         return check_both(request, error);

@@ -1,5 +1,7 @@
 #include "answers/check/check_question.h"
 
+#include "request/options.h"
+
 #include <math.h>
 
 ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum *saved) {
@@ -29,8 +31,7 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
 }
 
 bool ps_check_is_of_spectrum(ps_option_id id) {
-    return id == PS_OPTION_DIMENSION || id == PS_OPTION_MAX_FREQUENCY ||
-           id == PS_OPTION_MAX_DEGREE || id == PS_OPTION_HEMISPHERE || id == PS_OPTION_DOMAIN;
+    return ps_option_is_refused(id, PS_OPTION_AGAINST);
 }
 
 pspec_status ps_check_question_make(ps_question_list *out, const ps_request *own,

@@ -31,32 +31,8 @@ static pspec_status find_domain(bool *on_sphere, const ps_request *arguments, ps
     return PSPEC_OK;
 }
 
-/* Options of the other domain. */
-static pspec_status check_domain(const ps_request *own, bool on_sphere, ps_error *error) {
-    static const ps_option_id torus[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
-                                         PS_OPTION_WRAP, PS_NUM_OPTIONS};
-    static const ps_option_id sphere[] = {PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
-                                          PS_OPTION_NORMALIZE_VECTORS, PS_OPTION_LIFT,
-                                          PS_NUM_OPTIONS};
-    for (const ps_option_id *id = on_sphere ? torus : sphere; *id != PS_NUM_OPTIONS; id++) {
-        if (own->is_given[*id]) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "%s is for points of the %s, and these are of the %s",
-                           ps_option_show(own, *id).text, on_sphere ? "torus" : "sphere",
-                           on_sphere ? "sphere" : "torus");
-        }
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status check_request(const ps_request *own, ps_error *error) {
-    if (own->against != NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s does not go with %s: one is about a saved spectrum, the other about "
-                       "realizations alone",
-                       ps_option_show(own, PS_OPTION_AGAINST).text,
-                       ps_option_show(own, PS_OPTION_HOMOGENEOUS).text);
-    }
+    PS_TRY(ps_option_pairs_check(own, PS_VERB_check, error));
     PS_TRY(ps_request_check_one_count(own, "and sets of one are checked at a time", error));
     return own->num_sources <= 1
                ? PSPEC_OK
@@ -69,7 +45,7 @@ pspec_status ps_homogeneity_question_make(ps_question_list *out, const ps_reques
     bool on_sphere = false;
     PS_TRY(check_request(own, error));
     PS_TRY(find_domain(&on_sphere, own, error));
-    PS_TRY(check_domain(own, on_sphere, error));
+    PS_TRY(ps_option_domains_check(own, on_sphere, error));
     PS_TRY(ps_questions_make(out, own, on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER, error));
     ps_power_question *const question = &out->questions[0];
     question->harmonics = on_sphere ? PS_SPHERICAL_HARMONICS : PS_EXPONENTIALS;

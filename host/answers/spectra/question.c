@@ -22,12 +22,6 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* What does not go together, and why; both are options. */
-typedef struct option_pair {
-    ps_option_id a, b;
-    const char *why;
-} option_pair;
-
 /* "several samplers" */
 static const char *name_several(const ps_request *arguments) {
     return arguments->num_sources > 1 ? "several samplers or sets" : "several numbers of points";
@@ -80,34 +74,7 @@ static int count_arrays(const ps_request *arguments) {
 }
 
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
-    static const option_pair pairs[] = {
-        {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_BINS, "a list is not averaged"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_FIT, "it is of rings, and a list has none"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_STANDARD_ERROR,
-         "it is that of rings, and a list has none"},
-        {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
-         "more realizations do not mend the error of the choice"},
-        {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR,
-         "coefficients are of sets whose number is known before"},
-        {PS_OPTION_COEFFICIENTS, PS_OPTION_PER_RING, "a subset does not fill an array"},
-        {PS_OPTION_SCATTER, PS_OPTION_FREQUENCIES, "a list has no row of frequencies"},
-        {PS_OPTION_SCATTER, PS_OPTION_STANDARD_ERROR,
-         "coefficients are of sets whose number is known before"},
-        {PS_OPTION_SCATTER, PS_OPTION_PER_RING, "a subset may not have the frequency"},
-        {PS_OPTION_SCATTER, PS_OPTION_PLOT_LOG, "coefficients have both signs"},
-        {PS_OPTION_SCATTER, PS_OPTION_PLOT_RANGE, "its panels have axes of their own"},
-        {PS_OPTION_SCATTER, PS_OPTION_PLOT_POINTS, "its picture has none"},
-        {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
-        if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {
-            return fail_conflict(ps_option_show(arguments, pairs[i].a).text,
-                                 ps_option_show(arguments, pairs[i].b).text, pairs[i].why, error);
-        }
-    }
+    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_power, error));
     PS_TRY(check_fit(arguments, error));
     if (arguments->wants_array &&
         (arguments->frequencies.path != NULL || arguments->frequencies.per_ring > 0)) {

@@ -22,12 +22,6 @@ static pspec_status fail_without_integrand(ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-static pspec_status fail_conflict(const ps_request *arguments, ps_option_id a, const char *b,
-                                  const char *why, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s",
-                   ps_option_show(arguments, a).text, b, why);
-}
-
 /* The sum is over whole frequencies: rings of a width have no part in it. */
 static pspec_status check_bins(const ps_request *arguments, ps_error *error) {
     const ps_bin_rule *const bins = &arguments->frequencies.bins;
@@ -41,27 +35,13 @@ static pspec_status check_bins(const ps_request *arguments, ps_error *error) {
 }
 
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
-    const ps_shown_option sampler = ps_option_show(arguments, PS_OPTION_SAMPLER);
-    const bool has_samplers = ps_request_has_samplers(arguments);
     if (arguments->num_integrands == 0) {
         return fail_without_integrand(error);
     }
     PS_TRY(ps_sources_check(arguments, "nothing to take a variance of", error));
-    if (arguments->in_place && arguments->is_given[PS_OPTION_SHIFTS]) {
-        return fail_conflict(arguments, PS_OPTION_SHIFTS,
-                             ps_option_show(arguments, PS_OPTION_IN_PLACE).text,
-                             "sets are moved, or they are not", error);
-    }
     PS_TRY(ps_variance_parts_check(arguments, error));
     PS_TRY(ps_point_options_check(arguments, error));
-    if (has_samplers && arguments->is_given[PS_OPTION_WEIGHTS]) {
-        return fail_conflict(arguments, PS_OPTION_WEIGHTS, sampler.text,
-                             "all of its points count the same", error);
-    }
-    if (has_samplers && arguments->hemisphere) {
-        return fail_conflict(arguments, PS_OPTION_HEMISPHERE, sampler.text,
-                             "it says where its points are", error);
-    }
+    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_variance, error));
     return check_bins(arguments, error);
 }
 
@@ -100,30 +80,12 @@ static pspec_status find_place(bool *on_sphere, const ps_request *arguments, ps_
     return PSPEC_OK;
 }
 
-/* Options of the other domain. */
-static pspec_status check_place(const ps_request *arguments, bool on_sphere, ps_error *error) {
-    static const ps_option_id torus[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
-                                         PS_OPTION_WRAP, PS_NUM_OPTIONS};
-    static const ps_option_id sphere[] = {PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
-                                          PS_OPTION_NORMALIZE_VECTORS, PS_OPTION_LIFT,
-                                          PS_NUM_OPTIONS};
-    for (const ps_option_id *id = on_sphere ? torus : sphere; *id != PS_NUM_OPTIONS; id++) {
-        if (arguments->is_given[*id]) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "%s is for points of the %s, and these are of the %s",
-                           ps_option_show(arguments, *id).text, on_sphere ? "torus" : "sphere",
-                           on_sphere ? "sphere" : "torus");
-        }
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status fill_files(ps_power_question *out, const ps_file_list *files,
                                const ps_request *arguments, ps_error *error) {
     bool on_sphere = false;
     PS_TRY(check_files(files, error));
     PS_TRY(find_place(&on_sphere, arguments, error));
-    PS_TRY(check_place(arguments, on_sphere, error));
+    PS_TRY(ps_option_domains_check(arguments, on_sphere, error));
     out->paths = files->paths;
     out->num_paths = files->num;
     out->weights = arguments->weights;
@@ -155,7 +117,7 @@ static pspec_status fill_sampler(ps_power_question *out, ps_sampler_request *req
     out->num_realizations = arguments->num_realizations;
     out->on_sphere = ps_sampler_is_on_sphere(request);
     out->on_hemisphere = ps_sampler_is_on_hemisphere(request);
-    return check_place(arguments, out->on_sphere, error);
+    return ps_option_domains_check(arguments, out->on_sphere, error);
 }
 
 /* ---- questions ----------------------------------------------------------------------------- */

@@ -230,24 +230,8 @@ out:
 
 /* ---- the command --------------------------------------------------------------------------- */
 
-/* Options that are about cases. */
-static pspec_status check_others(const ps_request *arguments, const char *flag, const char *why,
-                                 ps_error *error) {
-    static const ps_option_id ids[] = {PS_OPTION_ENGINE, PS_OPTION_PRECISION, PS_OPTION_PLOT,
-                                       PS_OPTION_CASE, PS_OPTION_QUICK};
-    const bool has_quick = arguments->calibrate; /* which leaves cases out there, too */
-    const size_t num = sizeof ids / sizeof ids[0] - (has_quick ? 2 : 0);
-    for (size_t i = 0; i < num; i++) {
-        if (arguments->is_given[ids[i]]) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--%s does not go with %s: %s",
-                           ps_options[ids[i]].name, flag, why);
-        }
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status check_calibration(const ps_request *arguments, ps_error *error) {
-    PS_TRY(check_others(arguments, "--calibrate", "all engines are measured", error));
+    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_bench, error));
     return arguments->limits.cache_folder != NULL
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -280,11 +264,7 @@ static pspec_status run_scenes(const ps_request *arguments, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--scenes needs scenes, as in --scenes docs/scenes/diffuse.yaml");
     }
-    PS_TRY(check_others(arguments, "--scenes", "scenes are timed as they are", error));
-    if (arguments->calibrate) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--calibrate does not go with --scenes: one at a time");
-    }
+    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_bench, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     pspec_status status = ps_bench_scenes(&table, arguments, error);

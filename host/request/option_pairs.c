@@ -1,0 +1,101 @@
+/* Options that do not go together, one row a pair. Kinds of answers and commands ask the same rows,
+ * whether a command line, a scene or a program filled the request. */
+#include "request/option_rows.h"
+
+/* The first pair that was given is the one that is named, as it stands here: a, then b. */
+typedef struct option_pair {
+    ps_option_id a, b;
+    const char *why;
+    ps_verb_set takers; /* who refuses it; 0: all that take both options */
+} option_pair;
+
+static const option_pair pairs[] = {
+    {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all", 0},
+    {PS_OPTION_FREQUENCIES, PS_OPTION_BINS, "a list is not averaged", 0},
+    {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array", 0},
+    {PS_OPTION_FREQUENCIES, PS_OPTION_FIT, "it is of rings, and a list has none", 0},
+    {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn", 0},
+    {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all", 0},
+    {PS_OPTION_FREQUENCIES, PS_OPTION_STANDARD_ERROR, "it is that of rings, and a list has none",
+     0},
+    {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
+     "more realizations do not mend the error of the choice", 0},
+    {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR,
+     "coefficients are of sets whose number is known before", 0},
+    {PS_OPTION_COEFFICIENTS, PS_OPTION_PER_RING, "a subset does not fill an array", 0},
+    {PS_OPTION_SCATTER, PS_OPTION_FREQUENCIES, "a list has no row of frequencies", 0},
+    {PS_OPTION_SCATTER, PS_OPTION_STANDARD_ERROR,
+     "coefficients are of sets whose number is known before", 0},
+    {PS_OPTION_SCATTER, PS_OPTION_PER_RING, "a subset may not have the frequency", 0},
+    {PS_OPTION_SCATTER, PS_OPTION_PLOT_LOG, "coefficients have both signs", 0},
+    {PS_OPTION_SCATTER, PS_OPTION_PLOT_RANGE, "its panels have axes of their own", 0},
+    {PS_OPTION_SCATTER, PS_OPTION_PLOT_POINTS, "its picture has none", 0},
+    {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array", 0},
+
+    {PS_OPTION_SHIFTS, PS_OPTION_IN_PLACE, "sets are moved, or they are not", 0},
+    {PS_OPTION_WEIGHTS, PS_OPTION_SAMPLER, "all of its points count the same", BIT(variance)},
+    {PS_OPTION_HEMISPHERE, PS_OPTION_SAMPLER, "it says where its points are", BIT(variance)},
+
+    {PS_OPTION_AGAINST, PS_OPTION_HOMOGENEOUS,
+     "one is about a saved spectrum, the other about realizations alone", 0},
+    /* not of the spectrum that check asks for: its request has what the saved one says */
+    {PS_OPTION_DIMENSION, PS_OPTION_AGAINST, "the saved spectrum says it", BIT(check)},
+    {PS_OPTION_MAX_FREQUENCY, PS_OPTION_AGAINST, "the saved spectrum says it", BIT(check)},
+    {PS_OPTION_MAX_DEGREE, PS_OPTION_AGAINST, "the saved spectrum says it", BIT(check)},
+    {PS_OPTION_HEMISPHERE, PS_OPTION_AGAINST, "the saved spectrum says it", BIT(check)},
+    {PS_OPTION_DOMAIN, PS_OPTION_AGAINST, "the saved spectrum says it", BIT(check)},
+
+    {PS_OPTION_ENGINE, PS_OPTION_SCENES, "scenes are timed as they are", 0},
+    {PS_OPTION_PRECISION, PS_OPTION_SCENES, "scenes are timed as they are", 0},
+    {PS_OPTION_PLOT, PS_OPTION_SCENES, "scenes are timed as they are", 0},
+    {PS_OPTION_CALIBRATE, PS_OPTION_SCENES, "one at a time", 0},
+    {PS_OPTION_CASE, PS_OPTION_SCENES, "scenes are timed as they are", 0},
+    {PS_OPTION_QUICK, PS_OPTION_SCENES, "scenes are timed as they are", 0},
+    {PS_OPTION_ENGINE, PS_OPTION_CALIBRATE, "all engines are measured", 0},
+    {PS_OPTION_PRECISION, PS_OPTION_CALIBRATE, "all engines are measured", 0},
+    {PS_OPTION_PLOT, PS_OPTION_CALIBRATE, "all engines are measured", 0},
+};
+enum { NUM_PAIRS = sizeof pairs / sizeof pairs[0] };
+
+/* Scenes name sets of files by the key of samplers. */
+static bool is_there(const ps_request *request, ps_option_id id) {
+    return request->is_given[id] && (id != PS_OPTION_SAMPLER || ps_request_has_samplers(request));
+}
+
+pspec_status ps_option_pairs_check(const ps_request *request, ps_verb_id taker, ps_error *error) {
+    for (size_t i = 0; i < NUM_PAIRS; i++) {
+        const option_pair *const pair = &pairs[i];
+        const bool is_refused = pair->takers == 0 || (pair->takers >> taker & 1) != 0;
+        if (is_refused && is_there(request, pair->a) && is_there(request, pair->b)) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s",
+                           ps_option_show(request, pair->a).text,
+                           ps_option_show(request, pair->b).text, pair->why);
+        }
+    }
+    return PSPEC_OK;
+}
+
+bool ps_option_is_refused(ps_option_id a, ps_option_id b) {
+    size_t i = 0;
+    while (i < NUM_PAIRS && (pairs[i].a != a || pairs[i].b != b)) {
+        i++;
+    }
+    return i < NUM_PAIRS;
+}
+
+pspec_status ps_option_domains_check(const ps_request *request, bool on_sphere, ps_error *error) {
+    static const ps_option_id torus[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
+                                         PS_OPTION_WRAP, PS_NUM_OPTIONS};
+    static const ps_option_id sphere[] = {PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
+                                          PS_OPTION_NORMALIZE_VECTORS, PS_OPTION_LIFT,
+                                          PS_NUM_OPTIONS};
+    for (const ps_option_id *id = on_sphere ? torus : sphere; *id != PS_NUM_OPTIONS; id++) {
+        if (request->is_given[*id]) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "%s is for points of the %s, and these are of the %s",
+                           ps_option_show(request, *id).text, on_sphere ? "torus" : "sphere",
+                           on_sphere ? "sphere" : "torus");
+        }
+    }
+    return PSPEC_OK;
+}
