@@ -3,7 +3,7 @@
  * A kind of answer is what can be asked for: a command of the same name prints one, a scene has
  * several, and both go the same way: check -> compute -> tabulate, with pictures and other files
  * made of what was computed, or of the table. A kind says which options belong to its question,
- * what planning it comes to, and what its tables mean to who draws, sums up or compares them. A new
+ * the work it would take, for `plan`, and what its tables mean to who draws or compares them. A new
  * kind is a new file, a name and the rows of its options in request/options.h and .c.
  */
 #ifndef PS_ANSWERS_KIND_H

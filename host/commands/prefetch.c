@@ -54,7 +54,7 @@ static pspec_status begin(prefetch *out, const ps_request *request, size_t quest
                       .num = request->num_realizations,
                       .options = ps_limits_sets(&request->limits, false)};
     PS_TRY(ps_sampler_request_make(&out->sampler, request, question, error));
-    if (!ps_sets_are_dear(&out->sampler)) {
+    if (!ps_sets_are_expensive(&out->sampler)) {
         return fail_cheap(out, error);
     }
     PS_TRY(

@@ -25,12 +25,12 @@ struct ps_set_store {
     ps_error trouble; /* of the thread that was the first to have some */
 };
 
-bool ps_sets_are_dear(const ps_sampler_request *request) {
+bool ps_sets_are_expensive(const ps_sampler_request *request) {
     return request->sampler->version > 0 && ps_sampler_seconds(request) >= LEAST_SECONDS;
 }
 
 bool ps_set_place_takes(const ps_set_place *place, const ps_sampler_request *request) {
-    return place->cache_folder != NULL && ps_sets_are_dear(request) &&
+    return place->cache_folder != NULL && ps_sets_are_expensive(request) &&
            ps_set_store_bytes(request) <= place->max_bytes;
 }
 

@@ -20,7 +20,7 @@ typedef struct ps_set_place {
 typedef struct ps_set_store ps_set_store;
 
 /* Does a set of the request take so long that it is worth keeping? */
-bool ps_sets_are_dear(const ps_sampler_request *request);
+bool ps_sets_are_expensive(const ps_sampler_request *request);
 /* Are sets of the request kept there? Not those that are cheap, or alone above the limit. */
 bool ps_set_place_takes(const ps_set_place *place, const ps_sampler_request *request);
 

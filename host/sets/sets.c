@@ -127,7 +127,7 @@ unsigned ps_sets_makers(const ps_sampler_request *request, const ps_sets_options
     return most > 0 && ps_sampler_seconds(request) >= LEAST_SECONDS ? most : 1;
 }
 
-/* Dear sets come one by one. */
+/* Expensive sets come one by one. */
 static uint64_t count_block(const ps_sets *sets, uint64_t fit) {
     const double seconds = ps_sampler_seconds(&sets->request);
     if (seconds >= LEAST_SECONDS) {

@@ -77,7 +77,7 @@ static int remove_folders(void **state) {
 
 /* ---- bits ---------------------------------------------------------------------------------- */
 
-/* Dear enough to be kept at N = 128, but for two. */
+/* Expensive enough to be kept at N = 128, but for two. */
 static const struct {
     const char *text;
     unsigned dimension;
@@ -95,7 +95,7 @@ static void kept_sets_are_those_of_the_sampler(void **state) {
     for (unsigned i = 0; i < NUM_SAMPLERS; i++) {
         const ps_sampler_request request = ask(samplers[i].text, samplers[i].dimension);
         const uint64_t num = samplers[i].is_kept ? NUM_SETS : 0;
-        if (ps_sets_are_dear(&request) != samplers[i].is_kept) {
+        if (ps_sets_are_expensive(&request) != samplers[i].is_kept) {
             fail_msg("%s takes %g s", samplers[i].text, ps_sampler_seconds(&request));
         }
         const ps_set_counts first = take(state, &request);

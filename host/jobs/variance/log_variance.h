@@ -13,7 +13,7 @@ typedef struct ps_log_variance {
     double points;     /* N */
     double value;      /* without the bias of a logarithm; not finite: there is none */
     double error;      /* nan: nobody knows; 0: of a sampler without randomness */
-    size_t num_blocks; /* that the error was found of; 0: it is exact, or 0 */
+    size_t num_blocks; /* from which the error was estimated; 0 if it is exact */
     double scatter;    /* the relative variance of a block */
     /* Sums of their products are covariances; 0 where there is no error */
     double deviations[PS_MOST_BLOCKS];

@@ -31,7 +31,7 @@ typedef struct ps_power_beyond {
 
 /* weights [frequencies->num] of the powers, so that N Var is their sum: those of both k and -k on
  * the torus, of all orders of a degree. Over shells, of a box, the corners beyond its rings have
- * none. *held is what they have of the energy of the integrand. The way is for
+ * none. *held: energy of the integrand at the frequencies summed. The way is for
  * integrands by points. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
                                  bool over_shells, const ps_point_way *way, double *weights,

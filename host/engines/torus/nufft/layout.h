@@ -33,7 +33,7 @@ typedef struct ps_nufft_layout {
     size_t grid_cells;       /* of a realization between two transforms, [..][re, im][lanes] */
     size_t grid_reals;       /* cells of the grid of a large set */
     ps_nufft_boxes boxes;    /* in which points are spread there */
-    bool has_pairs;          /* of numbers, in which chunks are added up there */
+    bool has_pairs;          /* chunks are accumulated in double-word arithmetic (high, low) */
     /* Cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
     uint32_t slab_rows;
     uint32_t num_slabs;

@@ -1,5 +1,5 @@
-/* Realizations whose places are there, into powers: tiles of frequencies of axis 0 by direct
- * phases, those of the other axes by spreading and transforms (kernels/nufft/tile.cl, rows.cl,
+/* Powers of realizations whose points are sorted into cells: tiles of frequencies of axis 0 are
+ * summed directly, those of the other axes by spreading and transforms (kernels/nufft/tile.cl, rows.cl,
  * columns.cl).
  */
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* Tiles of frequencies of axis 0 by direct phases: what they take (tiles.c does it). */
+/* What tiles of frequencies take, whose axis 0 is summed directly (tiles.c does it). */
 #include "base/round.h"
 #include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
