@@ -306,8 +306,6 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        ps_accumulator_destroy(self->accumulator); /* there is one where its kernels were refused */
-        self->accumulator = NULL;
         ps_estimator_halve_batch(self);
         PS_TRY(ps_estimator_make_engine(self, error));
     }
