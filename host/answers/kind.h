@@ -10,6 +10,7 @@
 #define PS_ANSWERS_KIND_H
 
 #include "answers/chart.h"
+#include "answers/field.h"
 #include "answers/plan_table.h"
 #include "base/watch.h"
 #include "device/device.h"
@@ -117,6 +118,7 @@ typedef struct ps_kind {
     void (*discard)(void *computed); /* NULL is allowed */
 
     /* What the tables mean. */
+    const ps_field_row *const *fields; /* lists of all that they have; ended by NULL */
     const char *const *summary;   /* header entries that are columns of a summary, ended by NULL */
     const ps_line_kind *spectrum; /* axes of the powers of spectra; NULL: it is none */
     const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */

@@ -47,6 +47,38 @@ pspec_status pspec_options_table(pspec_table **out, pspec_context *context, cons
     return ps_public_table(out, table, "", error);
 }
 
+/* ---- fields ------------------------------------------------------------------------------ */
+
+static ps_cell text_or_missing(const char *text) {
+    return text[0] != '\0' ? PS_TEXT(text) : PS_MISSING;
+}
+
+static pspec_status add_field(const ps_field_row *row, void *table, ps_error *error) {
+    const ps_cell cells[] = {PS_TEXT(row->name),         PS_TEXT(ps_field_groups[row->group]),
+                             text_or_missing(row->unit), PS_TEXT(row->is_repeated ? "yes" : "no"),
+                             text_or_missing(row->when), PS_TEXT(row->meaning)};
+    return ps_table_add_row(table, cells, error);
+}
+
+pspec_status pspec_fields_table(pspec_table **out, pspec_context *context, const char *kind) {
+    static const char *const columns[] = {"field", "group", "unit", "repeated", "when", "meaning"};
+    ps_table *table = NULL;
+    const ps_verb *verb = NULL;
+    if (out == NULL || context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    *out = NULL;
+    PS_TRY(ps_public_find_verb(&verb, kind, true, error));
+    PS_TRY(ps_table_create(&table, "fields", columns, sizeof columns / sizeof columns[0], error));
+    const pspec_status status = ps_kind_visit_fields(verb->kind, add_field, table, error);
+    if (status != PSPEC_OK) {
+        ps_table_destroy(table);
+        return status;
+    }
+    return ps_public_table(out, table, "", error);
+}
+
 /* ---- answers ----------------------------------------------------------------------------- */
 
 static pspec_status answer(pspec_table **out, pspec_context *context, const ps_kind *kind,

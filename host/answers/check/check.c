@@ -236,6 +236,44 @@ static const ps_line_kind lines[] = {
     {"-scores", "difference", "bin", "z_score", "ring", "in standard errors", false, false},
     {.suffix = NULL}};
 
+#define ENTRY PS_FIELD_ENTRY, false, 0
+#define COLUMN PS_FIELD_COLUMN, false, 0
+
+static const ps_field_row own_fields[] = {
+    {"against", "", ENTRY, "--against", "the saved spectrum"},
+    {"measured", "", ENTRY, "--against with a second one", "the other saved spectrum"},
+    {"saved_realizations", "", ENTRY, "--against", "how many the saved spectrum is the mean of"},
+    {"invariance", "", ENTRY, "--homogeneous", "what was tested, translations or rotations"},
+    {"different", "", ENTRY, "", "how many rings, degrees or phases differ, of how many"},
+    {"adjusted_p_value", "", ENTRY, "", "the smallest of that column"},
+    {"verdict", "", ENTRY, "", "same or different, of all rows together"},
+    {"bin", "", COLUMN, "on the torus", "number b of the ring; |k|^2 of shells"},
+    {"frequency", "cycles per cell", COLUMN, "--against, on the torus", "mean |k| of the ring"},
+    {"degree", "", COLUMN, "on the sphere", "l"},
+    {"saved", "", COLUMN, "--against", "power of the saved spectrum"},
+    {"saved_error", "", COLUMN, "--against", "its standard error"},
+    {"measured", "", COLUMN, "--against", "power of the points"},
+    {"measured_error", "", COLUMN, "--against", "its standard error"},
+    {"phases", "", COLUMN, "--homogeneous",
+     "how many quantities there are, amplitudes and sums of products"},
+    {"resultant", "", COLUMN, "--homogeneous",
+     "length of the mean of exp(i phase) over the realizations, of the one with the smallest "
+     "probability"},
+    {"z_score", "", COLUMN, "",
+     "normal score of the ratio, positive where more was measured; with --homogeneous of p_value"},
+    {"p_value", "", COLUMN, "",
+     "probability of a score as far from 0, of this row alone; with --homogeneous of its phases "
+     "together"},
+    {"adjusted_p_value", "", COLUMN, "", "the same for all rows together"},
+    {"detectable_change", "", COLUMN, "--against",
+     "relative change of power that would be found with probability 0.9"},
+    {"worst", "", COLUMN, "--homogeneous", "which quantity has the smallest probability"},
+    {"verdict", "", COLUMN, "", "same or different"},
+    {.name = NULL}};
+
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
+                                             ps_fields_computed, NULL};
+
 const ps_kind ps_kind_check = {
     .name = "check",
     .bit = PS_VERB_BIT(check),
@@ -249,6 +287,7 @@ const ps_kind ps_kind_check = {
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,
+    .fields = fields,
     .summary = summary,
     .lines = lines,
     .compare = ps_compare_verdicts,

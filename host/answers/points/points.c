@@ -239,6 +239,19 @@ static double compare(const ps_table *a, const ps_table *b) {
 static const char *const summary[] = {"points",    "realizations", "domain",
                                       "dimension", "seed",         NULL};
 
+#define COLUMN PS_FIELD_COLUMN, false, 0
+
+static const ps_field_row own_fields[] = {
+    {"realization", "", COLUMN, "", "its number, from 0 on"},
+    {"points", "", COLUMN, "", "N of the set"},
+    {"digest", "", COLUMN, "", "128 bits of its coordinates, as 32 hexadecimal digits"},
+    {"points", "", PS_FIELD_ARRAY, false, 0, "arrays of a scene",
+     "the points, float64 [M][N][D], as sample writes them"},
+    {.name = NULL}};
+
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
+                                             ps_fields_computed, NULL};
+
 const ps_kind ps_kind_points = {
     .name = "sample",
     .bit = PS_VERB_BIT(sample),
@@ -252,6 +265,7 @@ const ps_kind ps_kind_points = {
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,
+    .fields = fields,
     .summary = summary,
     .compare = compare,
 };

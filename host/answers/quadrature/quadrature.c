@@ -201,6 +201,46 @@ static const ps_line_kind lines[] = {
     {"-e2", "share of the squared error", "degree", "e2", "degree l", "{/*1.35 e_l^2}", false,
      true},
     {.suffix = NULL}};
+#define ENTRY PS_FIELD_ENTRY, false, 0
+#define ENTRIES PS_FIELD_ENTRY, true, 0
+#define COLUMN PS_FIELD_COLUMN, false, 0
+
+static const ps_field_row own_fields[] = {
+    {"weights", "", ENTRY, "", "equal, optimal, or where they come from"},
+    {"degrees", "", ENTRIES, "where there is something to say", "why the degrees end at L"},
+    {"dropped_below_horizon", "", ENTRIES, "--drop-below-horizon",
+     "points that were left out, in all sets"},
+    {"worst_case_error", "", ENTRIES, "", "E, of the mean of E^2"},
+    {"worst_case_error_standard_error", "", ENTRIES, "",
+     "its standard error over the realizations; missing for one"},
+    {"zonal_error", "", ENTRIES, "", "root of sum a_l d_l^2 up to L"},
+    {"anisotropic_error", "", ENTRIES, "", "root of sum a_l C_l^2 up to L"},
+    {"tail", "", ENTRIES, "", "E^2 beyond L"},
+    {"tail_model", "", ENTRIES, "",
+     "what independent points of the lobe's density have there in the mean"},
+    {"tail_bound", "", ENTRIES, "", "what the tail cannot exceed"},
+    {"weights_by", "", ENTRIES, "--weights optimal", "how they were found"},
+    {"condition", "", ENTRIES, "--weights optimal",
+     "largest condition number of a kernel matrix; of conjugate gradients a bound from below"},
+    {"duplicates", "", ENTRIES, "--weights optimal", "how many points are equal to others"},
+    {"warning", "", ENTRIES, "--weights optimal",
+     "that points lie too near each other for weights of four digits"},
+    {"degree", "", COLUMN, "", "l"},
+    {"b", "", COLUMN, "", "b_l, coefficient of the lobe"},
+    {"d2", "", COLUMN, "", "mean of d_l^2, what the heights of the points do wrong"},
+    {"d2_error", "", COLUMN, "", "its standard error"},
+    {"c2", "", COLUMN, "", "mean of C_l^2, what their azimuths do wrong"},
+    {"c2_error", "", COLUMN, "", "its standard error"},
+    {"a", "", COLUMN, "", "a_l, coefficient of the kernel"},
+    {"e2", "", COLUMN, "", "mean of e_l^2 = a_l (d_l^2 + C_l^2), of which E^2 is the sum"},
+    {"e2_error", "", COLUMN, "", "its standard error"},
+    {"weights", "", PS_FIELD_ARRAY, false, 0, "--weights-out",
+     "weights of the only rule, float64 [N]; points that were dropped have 0"},
+    {.name = NULL}};
+
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
+                                             ps_fields_computed, NULL};
+
 const ps_kind ps_kind_quadrature = {
     .name = "quadrature",
     .bit = PS_VERB_BIT(quadrature),
@@ -216,6 +256,7 @@ const ps_kind ps_kind_quadrature = {
     .write_others = write_others,
     .draw = draw,
     .discard = discard,
+    .fields = fields,
     .summary = summary,
     .lines = lines,
     .convergence = &convergence,

@@ -101,6 +101,14 @@ static pspec_status write_others(const void *computed, const ps_request *request
 static const ps_line_kind axes = {
     NULL, "", "normalized_degree", "power", "normalized degree l N^{-1/2}", "power", true, true};
 
+static const ps_field_row *const fields[] = {ps_fields_asked,
+                                             ps_fields_points,
+                                             ps_fields_powers,
+                                             ps_fields_shape,
+                                             ps_fields_profiles,
+                                             ps_fields_computed,
+                                             NULL};
+
 const ps_kind ps_kind_angular = {
     .name = "angular",
     .bit = PS_VERB_BIT(angular),
@@ -115,6 +123,7 @@ const ps_kind ps_kind_angular = {
     .write_others = write_others,
     .draw = ps_spectra_draw,
     .discard = ps_spectra_discard,
+    .fields = fields,
     .summary = ps_spectra_summary,
     .spectrum = &axes,
     .compare = ps_compare_powers,

@@ -59,6 +59,9 @@ static const ps_line_kind lines[] = {
      true},
     {.suffix = NULL}};
 
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, ps_fields_powers,
+                                             ps_fields_computed, NULL};
+
 const ps_kind ps_kind_pairs = {
     .name = "pairs",
     .bit = PS_VERB_BIT(pairs),
@@ -70,6 +73,7 @@ const ps_kind ps_kind_pairs = {
     .tabulate = tabulate,
     .draw = ps_spectra_draw,
     .discard = ps_spectra_discard,
+    .fields = fields,
     .summary = ps_spectra_summary,
     .lines = lines,
     .compare = ps_compare_pair_sums,

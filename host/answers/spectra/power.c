@@ -105,6 +105,14 @@ static const ps_line_kind axes = {NULL,
                                   false,
                                   false};
 
+static const ps_field_row *const fields[] = {ps_fields_asked,
+                                             ps_fields_points,
+                                             ps_fields_powers,
+                                             ps_fields_shape,
+                                             ps_fields_profiles,
+                                             ps_fields_computed,
+                                             NULL};
+
 const ps_kind ps_kind_power = {
     .name = "power",
     .bit = PS_VERB_BIT(power),
@@ -121,6 +129,7 @@ const ps_kind ps_kind_power = {
     .write_others = write_others,
     .draw = draw,
     .discard = ps_spectra_discard,
+    .fields = fields,
     .summary = ps_spectra_summary,
     .spectrum = &axes,
     .compare = ps_compare_powers,

@@ -66,6 +66,10 @@ void ps_spectrum_title(ps_text *title, const ps_request *arguments, const ps_pow
 /* Header entries that are columns of a summary of spectra. */
 extern const char *const ps_spectra_summary[];
 
+/* Columns, entries and arrays of power, angular and pairs; the shape of a spectrum (--fit);
+ * profiles of it, which variances have, too (--bounds). */
+extern const ps_field_row ps_fields_powers[], ps_fields_shape[], ps_fields_profiles[];
+
 /* The same of jobs of power and angular: curves of all jobs; the picture of the spectrum when there
  * is one 2-D job on the torus. */
 pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *const *jobs,

@@ -105,6 +105,23 @@ static const ps_line_kind lines[] = {
      "N", false, true},
     {.suffix = NULL}};
 
+#define ENTRY PS_FIELD_ENTRY, false, 0
+#define COLUMN PS_FIELD_COLUMN, false, 0
+
+static const ps_field_row own_fields[] = {
+    {"harmonics", "", ENTRY, "", "spherical or hemispherical"},
+    {"spherical_degrees", "", ENTRY, "",
+     "the last degree of the spherical harmonics that products are written in"},
+    {"kappa_0", "", ENTRY, "", "sum of a_l b_l^2, the square of the error of no term at all"},
+    {"equivalent_points", "", ENTRY, "", "what the column of that name is"},
+    {"degree", "", COLUMN, "", "L"},
+    {"error", "", COLUMN, "", "E(L), the error of products up to and including L"},
+    {"equivalent_points", "", COLUMN, "",
+     "N of spherical Fibonacci points with that error; missing above 32768 and for tables"},
+    {.name = NULL}};
+
+static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, ps_fields_computed, NULL};
+
 const ps_kind ps_kind_truncation = {
     .name = "truncation",
     .bit = PS_VERB_BIT(truncation),
@@ -117,6 +134,7 @@ const ps_kind ps_kind_truncation = {
     .tabulate = tabulate,
     .draw = draw,
     .discard = discard,
+    .fields = fields,
     .summary = summary,
     .lines = lines,
     .compare = ps_compare_verdicts,

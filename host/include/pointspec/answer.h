@@ -43,6 +43,15 @@ PSPEC_EXPORT const char *pspec_answer_kind(size_t i);
 PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *context,
                                               const char *command);
 
+/** What answers of a kind have, as a table with a row for every header entry, column and array that
+ * there may be, and the columns field (its name), group ("entry", "column" or "array", which is a
+ * file of its own), unit (missing: none), repeated ("yes" where the key of an entry may come
+ * several times, as for several samplers, else "no"), when (the options or cases in which it is
+ * there; missing: always) and meaning. kind: pspec_answer_kind() lists them.
+ * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest kind where there is no such one. */
+PSPEC_EXPORT pspec_status pspec_fields_table(pspec_table **out, pspec_context *context,
+                                             const char *kind);
+
 /** Answers a question of a kind of answer, as "power" or "check": pspec_answer_kind() lists them.
  * Rows and columns of *out are those of the table that the program's command of that name prints.
  *

@@ -1,0 +1,39 @@
+/* What answers have, declared once: a row for every header entry, column and array that any answer
+ * of a kind may have. pspec_fields_table is made of the rows, and a test
+ * (tests/api/test_fields.c) finds what answers have and no row declares, and the reverse. */
+#ifndef PS_ANSWERS_FIELD_H
+#define PS_ANSWERS_FIELD_H
+
+#include "request/options.h"
+
+typedef enum ps_field_group {
+    PS_FIELD_ENTRY = 0, /* of the header */
+    PS_FIELD_COLUMN,
+    PS_FIELD_ARRAY /* a file of its own */
+} ps_field_group;
+
+/* Their names, "entry", "column", "array". */
+extern const char *const ps_field_groups[];
+
+typedef struct ps_field_row {
+    const char *name; /* NULL ends a list */
+    const char *unit; /* "": none */
+    ps_field_group group;
+    bool is_repeated;    /* the key of an entry may come several times, as for several samplers */
+    ps_verb_set kinds;   /* 0: all that have the list */
+    const char *when;    /* options and cases in which it is there; "": always */
+    const char *meaning; /* one sentence */
+} ps_field_row;
+
+/* Of several kinds: the request's record, points, frequencies, device and engine. */
+extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[];
+
+typedef struct ps_kind ps_kind;
+
+/* Calls visit for every row of the kind, in the order of its lists, until it fails. */
+pspec_status ps_kind_visit_fields(const ps_kind *kind,
+                                  pspec_status (*visit)(const ps_field_row *row, void *payload,
+                                                        ps_error *error),
+                                  void *payload, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,127 @@
+/* Fields of several kinds of answers. */
+#include "answers/kind.h"
+
+#define OF(name) PS_VERB_BIT(name)
+#define TORUS (OF(power) | OF(check) | OF(variance))
+#define SPHERE (OF(angular) | OF(pairs) | OF(check) | OF(variance))
+#define SPECTRA (TORUS | SPHERE)
+#define ENTRY PS_FIELD_ENTRY, false
+#define ENTRIES PS_FIELD_ENTRY, true
+#define COLUMN PS_FIELD_COLUMN, false
+
+const char *const ps_field_groups[] = {
+    [PS_FIELD_ENTRY] = "entry", [PS_FIELD_COLUMN] = "column", [PS_FIELD_ARRAY] = "array"};
+
+const ps_field_row ps_fields_asked[] = {
+    {"pointspec_version", "", ENTRY, 0, "", "version of the program"},
+    {"schema", "", ENTRY, 0, "", "number of the format of the table"},
+    {"command", "", ENTRY, 0, "", "the command line"},
+    {"normalization", "", ENTRY, SPECTRA | OF(quadrature), "",
+     "what power means, and how weights and numbers of points count in it"},
+    {"seed", "", ENTRY, SPECTRA | OF(quadrature) | OF(sample), "samplers, --per-ring",
+     "seed of the random numbers"},
+    {"homogenize", "", ENTRY, SPECTRA, "samplers",
+     "yes or no: was every realization moved at random?"},
+    {"false_alarm_rate", "", ENTRY, OF(check) | OF(variance), "check, --rates, --rank",
+     "probability that anything differs by chance"},
+    {"brdf", "", ENTRY, OF(quadrature) | OF(truncation), "", "the lobe"},
+    {"smoothness", "", ENTRY, OF(quadrature) | OF(truncation), "", "s of the space of integrands"},
+    {"note", "", ENTRY, OF(quadrature) | OF(truncation) | OF(check), "where there is one",
+     "what else there is to know: of a lobe, or of a seed that both sides of a check have"},
+    {.name = NULL}};
+
+const ps_field_row ps_fields_points[] = {
+    {"sampler", "", ENTRIES, SPECTRA | OF(quadrature) | OF(sample), "samplers, --set",
+     "the sampler, or the name of the set of files"},
+    {"sampler_note", "", ENTRIES, SPECTRA | OF(sample), "some samplers",
+     "what else there is to know of its points"},
+    {"input", "", ENTRIES, SPECTRA | OF(quadrature), "several files",
+     "how many files, and how many realizations make the one average; of variance how many of them "
+     "predict"},
+    {"input_format", "", ENTRIES, SPECTRA, "files", "the format that files were read as"},
+    {"input_columns", "", ENTRIES, SPECTRA, "files", "what their columns were taken for"},
+    {"box", "", ENTRIES, SPECTRA | OF(quadrature), "files in a box",
+     "the box of the first set, as --box has it, where it is not [0,1)^d"},
+    {"box_changes", "", ENTRIES, TORUS, "files in boxes that differ",
+     "edges of the boxes of the sets, from the shortest to the longest of each axis"},
+    {"lift", "", ENTRIES, SPHERE | OF(quadrature), "files, --lift",
+     "where points of the plane were lifted to, sphere or hemisphere"},
+    {"morph", "", ENTRIES, SPHERE | OF(quadrature), "files, --lift hemisphere",
+     "the lobe whose density the lifted points have"},
+    {"points", "", ENTRIES, SPECTRA | OF(quadrature) | OF(sample), "",
+     "N; of sets with different N their mean"},
+    {"points_smallest", "", ENTRIES, SPECTRA | OF(quadrature), "sets with different N",
+     "N of the smallest set"},
+    {"points_largest", "", ENTRIES, SPECTRA | OF(quadrature), "sets with different N",
+     "N of the largest set"},
+    {"realizations", "", ENTRIES, SPECTRA | OF(quadrature) | OF(sample), "",
+     "M, how many sets were averaged"},
+    {"standard_error", "", ENTRIES, SPECTRA, "one realization",
+     "that there is none, or of what it is with --per-ring"},
+    {"noise_level_db", "dB", ENTRIES, TORUS, "several realizations",
+     "-10 log10(M), the anisotropy that M random sets leave"},
+    {"weight_sum", "", ENTRIES, SPECTRA | OF(quadrature), "",
+     "sum of the weights, mean over the realizations"},
+    {"different_points", "", ENTRIES, SPECTRA & ~OF(pairs), "N that differ by more than a tenth",
+     "how sets of different N count"},
+    {"relative_standard_error", "", ENTRIES, OF(power) | OF(angular) | OF(pairs) | OF(quadrature),
+     "--standard-error",
+     "asked for, reached or not, and the largest, with and without the correction"},
+    {"empty", "", ENTRIES, TORUS, "files with a gap",
+     "a piece of an axis where the first set has no point: points of a smaller box"},
+    {"vectors", "", ENTRIES, SPHERE, "files of vectors",
+     "how far from 1 the lengths were that vectors were divided by"},
+    {"domain", "", ENTRIES, SPHERE | OF(sample), "on the sphere",
+     "sphere, or hemisphere, even degrees; of points also torus"},
+    {"max_degree", "", ENTRIES, SPHERE | OF(quadrature), "on the sphere",
+     "L, the last degree; on the hemisphere the last even one"},
+    {"dimension", "", ENTRIES, TORUS | OF(sample), "on the torus", "d"},
+    {"max_frequency", "", ENTRIES, TORUS, "on the torus",
+     "K; of a list of frequencies its largest |k_i|"},
+    {"rings", "", ENTRIES, OF(power) | OF(check), "boxes that are no cubes",
+     "what |k| is there, and how large single |k_i| are"},
+    {"bins", "", ENTRIES, OF(power) | OF(check), "--bins",
+     "the rule of the rings, where it is not rounding"},
+    {"per_ring", "", ENTRIES, OF(power) | OF(check), "--per-ring",
+     "most frequencies of the half lattice that were computed of a ring"},
+    {"computed", "", ENTRIES, OF(power) | OF(check), "--per-ring",
+     "how many frequencies were computed, of how many"},
+    {"sampler", "", COLUMN, (SPECTRA & ~OF(check)) | OF(quadrature), "several samplers, --set",
+     "the sampler, or the name of the set of files"},
+    {"integrand", "", COLUMN, OF(variance), "several integrands", "the integrand"},
+    {"points", "", COLUMN, (SPECTRA & ~OF(check)) | OF(quadrature), "several numbers of points",
+     "N as it was asked for; of variance, where it is always there, the mean where sets differ"},
+    {.name = NULL}};
+
+const ps_field_row ps_fields_computed[] = {
+    {"device", "", ENTRIES, 0, "", "what computed it; host or none without OpenCL"},
+    {"engine", "", ENTRIES, 0, "", "the engine, and how it was set up"},
+    {"precision", "", ENTRIES, 0, "", "arithmetic of the engine, single or double"},
+    {"tolerance", "", ENTRIES, SPECTRA | OF(quadrature) | OF(truncation), "",
+     "largest numerical error that was allowed (--tol)"},
+    {"predicted_error", "", ENTRIES, SPECTRA | OF(quadrature) | OF(truncation), "",
+     "bound on the numerical error, in the same unit"},
+    {"planned_twice", "", ENTRIES, SPECTRA, "large powers",
+     "that a more exact engine was needed after the first run"},
+    {"self_check", "", ENTRIES, SPECTRA | OF(quadrature) | OF(truncation), "",
+     "how far a part of it is from what another algorithm gives"},
+    {"skipped", "", ENTRIES, 0, "", "what was not computed because the question does not need it"},
+    {.name = NULL}};
+
+static bool belongs(const ps_field_row *row, const ps_kind *kind) {
+    return row->kinds == 0 || (row->kinds & kind->bit) != 0;
+}
+
+pspec_status ps_kind_visit_fields(const ps_kind *kind,
+                                  pspec_status (*visit)(const ps_field_row *row, void *payload,
+                                                        ps_error *error),
+                                  void *payload, ps_error *error) {
+    for (const ps_field_row *const *list = kind->fields; *list != NULL; list++) {
+        for (const ps_field_row *row = *list; row->name != NULL; row++) {
+            if (belongs(row, kind)) {
+                PS_TRY(visit(row, payload, error));
+            }
+        }
+    }
+    return PSPEC_OK;
+}

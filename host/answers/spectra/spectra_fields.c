@@ -1,0 +1,107 @@
+/* Fields of spectra. */
+#include "answers/spectra/spectra.h"
+
+#define OF(name) PS_VERB_BIT(name)
+#define ENTRIES PS_FIELD_ENTRY, true
+#define COLUMN PS_FIELD_COLUMN, false
+#define ARRAY PS_FIELD_ARRAY, false
+static const char *const of_list = "--frequencies";
+
+const ps_field_row ps_fields_powers[] = {
+    {"scatter_frequency", "", ENTRIES, OF(power), "--scatter", "k"},
+    {"scatter_real", "", ENTRIES, OF(power), "--scatter", "mean of S(k), real part"},
+    {"scatter_imaginary", "", ENTRIES, OF(power), "--scatter", "mean of S(k), imaginary part"},
+    {"scatter_error", "", ENTRIES, OF(power), "--scatter", "standard error of either part"},
+    {"scatter_phase_p_value", "", ENTRIES, OF(power), "--scatter",
+     "probability that uniform phases have so long a mean (Rayleigh's test)"},
+    {"k1", "cycles per cell", COLUMN, OF(power), of_list, "k on axis 1"},
+    {"k2", "cycles per cell", COLUMN, OF(power), of_list, "k on axis 2"},
+    {"k3", "cycles per cell", COLUMN, OF(power), of_list, "k on axis 3"},
+    {"k4", "cycles per cell", COLUMN, OF(power), of_list, "k on axis 4"},
+    {"k5", "cycles per cell", COLUMN, OF(power), of_list, "k on axis 5"},
+    {"k6", "cycles per cell", COLUMN, OF(power), of_list, "k on axis 6"},
+    {"bin", "", COLUMN, OF(power), "rings",
+     "number b of the ring; |k|^2 with --bins shells, or the number of the shell in a box that is "
+     "no cube"},
+    {"frequency", "cycles per cell", COLUMN, OF(power), "rings", "mean |k| of the ring"},
+    {"normalized_frequency", "", COLUMN, OF(power), "rings", "mean |k| / N^(1/d)"},
+    {"count", "", COLUMN, OF(power), "rings",
+     "frequencies of the ring, both signs; with --per-ring all that it has, not only those "
+     "computed"},
+    {"degree", "", COLUMN, OF(angular) | OF(pairs), "", "l"},
+    {"normalized_degree", "", COLUMN, OF(angular), "", "l / sqrt(N)"},
+    {"power", "", COLUMN, OF(power) | OF(angular), "",
+     "mean power over the ring or degree and all realizations; white noise is 1"},
+    {"standard_error", "", COLUMN, OF(power) | OF(angular), "",
+     "standard error of power over realizations; missing for one realization"},
+    {"anisotropy_db", "dB", COLUMN, OF(power), "rings",
+     "10 log10(s^2/P^2), s^2 the variance of the mean power within the ring and P its mean"},
+    {"legendre_sum", "", COLUMN, OF(pairs), "", "mean of Q(l) over realizations"},
+    {"legendre_sum_error", "", COLUMN, OF(pairs), "",
+     "its standard error; missing for one realization"},
+    {"c2", "", COLUMN, OF(pairs), "", "mean of C_l^2; a rounding below 0 where it is 0"},
+    {"c2_error", "", COLUMN, OF(pairs), "", "its standard error"},
+    {"full", "", ARRAY, OF(power), "--full",
+     "averaged periodogram, float64 [2K+1]^d, index k_i + K on axis i; its standard error is in "
+     "another file of that shape"},
+    {"coefficients", "", ARRAY, OF(power) | OF(angular), "--coefficients",
+     "S(k) of each set, complex128 in the places of full; on the sphere c_lm of the only set at "
+     "index m(2L+1-m)/2 + l"},
+    {.name = NULL}};
+
+const ps_field_row ps_fields_shape[] = {
+    {"fit", "", ENTRIES, 0, "--fit", "how power behaves at frequency 0, a sentence"},
+    {"fit_shape", "", ENTRIES, 0, "--fit",
+     "power law, plateau, undecided, neither, or none, where fit says why"},
+    {"fit_reach", "", ENTRIES, 0, "--fit", "the largest normalized frequency nu that was fitted"},
+    {"exponent", "", ENTRIES, 0, "--fit", "b of the law P = C nu^b exp(e nu^2)"},
+    {"exponent_error", "", ENTRIES, 0, "--fit", "its standard error"},
+    {"exponent_chi2", "", ENTRIES, 0, "--fit", "chi^2 of the law"},
+    {"plateau", "", ENTRIES, 0, "--fit", "p of P = p + q nu^2 + r nu^4"},
+    {"plateau_error", "", ENTRIES, 0, "--fit", "its standard error"},
+    {"plateau_score", "", ENTRIES, 0, "--fit", "standard errors between the plateau and 0"},
+    {"plateau_chi2", "", ENTRIES, 0, "--fit", "chi^2 of the plateau"},
+    {"degrees_of_freedom", "", ENTRIES, 0, "--fit", "of either chi^2"},
+    {"convergence", "", ENTRIES, 0, "--fit",
+     "how fast variances of integration fall as N grows, if larger N have the same spectrum, and "
+     "why; or unknown and why"},
+    {"smooth_rate", "", ENTRIES, 0, "--fit",
+     "r of N^-r for integrands whose frequencies end somewhere, 1 + b/d"},
+    {"smooth_rate_error", "", ENTRIES, 0, "--fit",
+     "its standard error; 0 where it does not depend on b"},
+    {"jump_rate", "", ENTRIES, 0, "--fit",
+     "r of N^-r for discontinuous integrands, 1 + min(b, 1)/d"},
+    {"jump_rate_error", "", ENTRIES, 0, "--fit",
+     "its standard error; 0 where it does not depend on b"},
+    {"features", "", ENTRIES, 0, "--fit", "peak, effective Nyquist frequency and anisotropy"},
+    {"peak", "", ENTRIES, 0, "--fit", "the largest power"},
+    {"peak_error", "", ENTRIES, 0, "--fit", "its standard error"},
+    {"peak_frequency", "", ENTRIES, 0, "--fit", "the normalized frequency where it is"},
+    {"effective_nyquist", "", ENTRIES, 0, "--fit",
+     "half of the nu up to which the mean of P over all frequencies is 0.1; 1/2 of a square grid, "
+     "0 of white noise, missing where the cut-off comes before"},
+    {"mean_anisotropy_db", "dB", ENTRIES, 0, "--fit",
+     "of the mean of s^2/P^2 over rings by their count, beside noise_level_db"},
+    {"lower", "", COLUMN, 0, "--fit", "profile below the power"},
+    {"upper", "", COLUMN, 0, "--fit", "profile above the power"},
+    {"fit", "", COLUMN, 0, "--fit", "the curve that was fitted, law or plateau"},
+    {.name = NULL}};
+
+static const char *const found = "--fit, --bounds";
+
+const ps_field_row ps_fields_profiles[] = {
+    {"upper_profile", "", ENTRIES, 0, found, "the profile above the power, a sentence"},
+    {"upper_gamma", "", ENTRIES, 0, found,
+     "P <= gamma (nu/alpha)^B below alpha, P <= gamma above, for P plus three standard errors"},
+    {"upper_alpha", "", ENTRIES, 0, found, "alpha of that"},
+    {"upper_exponent", "", ENTRIES, 0, found,
+     "B of that: as given, or the whole number nearest to the exponent that was fitted"},
+    {"best_case_rate", "", ENTRIES, 0, found,
+     "variances fall like N^-rate by the upper profile, 1 + B/d of integrands whose frequencies "
+     "end somewhere"},
+    {"worst_case_rate", "", ENTRIES, 0, found, "the same of those with a jump, 1 + min(B, 1)/d"},
+    {"lower_profile", "", ENTRIES, 0, found, "the profile below the power, a sentence"},
+    {"lower_gamma", "", ENTRIES, 0, found, "as upper_gamma, with >= and minus three errors"},
+    {"lower_alpha", "", ENTRIES, 0, found, "alpha of that"},
+    {"lower_exponent", "", ENTRIES, 0, found, "B of that"},
+    {.name = NULL}};
