@@ -140,6 +140,7 @@ double bench_job_run(bench_job *job, ps_rows *rows) {
                                 .scales = job->scales + done};
         BENCH_TRY(job->engine->run(job->state, &batch, rows, error));
     }
+    BENCH_TRY(ps_rows_wait(rows, error));
     BENCH_TRY(ps_device_finish(job->device, error));
     return bench_seconds() - begin;
 }

@@ -153,6 +153,7 @@ static double measure_error(bench_job *job) {
     ps_rows rows = {0};
     double worst = 0;
     BENCH_TRY(job->engine->run(job->state, &batch, &rows, error));
+    BENCH_TRY(ps_rows_wait(&rows, error));
     double *powers = read_rows(job, &rows);
     for (int32_t i = 1; i <= REFEREE_DEGREES; i++) {
         const int32_t degree = (int32_t)(job->frequencies.num * (size_t)i / REFEREE_DEGREES);

@@ -122,13 +122,20 @@ ps_batch ps_batch_part(const ps_batch *batch, size_t first, size_t most);
 /* Points of the largest pattern, 1 at least. */
 size_t ps_batch_longest(const ps_batch *batch);
 
-/* Rows of powers, borrowed from the engine until its next run. */
+/* Rows of powers, borrowed from the engine until its next run, or, if they are late, until the one
+ * behind it. */
+typedef struct ps_late_rows ps_late_rows;
 typedef struct ps_rows {
     size_t num_rows, stride; /* realizations; entries from row to row */
     ps_precision precision;  /* of the entries: single -> float, else double */
     const double *host;      /* rows in host memory, or NULL */
     ps_buffer device;        /* else rows in device memory, padded to a multiple of the lanes */
+    ps_late_rows *late;      /* or these (engines/late_rows.h): ps_rows_wait brings them to host */
+    uint64_t run;
 } ps_rows;
+
+/* Waits for late rows, which is sooner than for the device where the engine has run again. */
+pspec_status ps_rows_wait(ps_rows *rows, ps_error *error) PS_MUST_CHECK;
 
 /* One realization whose points come in blocks, for sets larger than memory: begin, add any number
  * of times, finish. Bits are those of run. */

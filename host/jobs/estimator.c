@@ -281,6 +281,9 @@ pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_patter
     const ps_batch batch = ps_estimator_make_batch(self, &pattern, 1);
     pspec_status status = self->options.engine->run(self->engine_state, &batch, &rows, error);
     if (status == PSPEC_OK) {
+        status = ps_rows_wait(&rows, error);
+    }
+    if (status == PSPEC_OK) {
         status = compare_with_referee(self, &rows, &pattern, error);
     }
     self->scales[0] = scale;
@@ -311,16 +314,24 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
     }
 }
 
+/* Memory is taken before anything is added, so that what is pending is not lost where it is
+ * refused. */
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) {
+    PS_TRY(ps_accumulator_reserve(self->accumulator, self->totals.num_realizations + num_patterns,
+                                  error));
+    PS_TRY(ps_estimator_add_pending(self, error));
     for (size_t r = 0; r < num_patterns; r++) { /* the error formula needs effective powers */
         self->units[r] = self->scales[r] * self->sums[r].weight_square_sum;
     }
-    PS_TRY(ps_accumulator_add(self->accumulator, rows, self->units, error));
     if (self->options.want_c2) {
         const ps_batch batch = ps_estimator_make_batch(self, patterns, num_patterns);
-        ps_pair_sums_add(&self->c2, &batch, rows, self->slots);
+        ps_pair_sums_begin(&self->c2, &batch);
+    }
+    self->pending = *rows;
+    if (rows->late == NULL || self->options.observer.tell != NULL) {
+        PS_TRY(ps_estimator_add_pending(self, error));
     }
     count_patterns(self, patterns, num_patterns);
     return PSPEC_OK;
@@ -334,13 +345,14 @@ static bool is_check_due(const ps_estimator *self, const pspec_pattern *patterns
 }
 
 /* Compares what is due of a batch: before it runs, when rows is NULL, and after it. */
-static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patterns,
-                                 const ps_rows *rows, ps_error *error) {
+static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patterns, ps_rows *rows,
+                                 ps_error *error) {
     if (!is_check_due(self, patterns, rows == NULL)) {
         return PSPEC_OK;
     }
     pspec_pattern first = patterns[0];
     first.points = are_made(self, patterns) ? self->beginning : first.points;
+    PS_TRY(rows != NULL ? ps_rows_wait(rows, error) : PSPEC_OK);
     PS_TRY(rows == NULL ? ps_estimator_check_beginning(self, &first, error)
                         : compare_with_referee(self, rows, &first, error));
     self->accuracy.was_checked = true;
@@ -373,6 +385,7 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
 }
 
 void ps_estimator_reset(ps_estimator *estimator) {
+    estimator->pending = (ps_rows){0};
     estimator->totals = (ps_pattern_totals){0};
     estimator->accuracy = (ps_accuracy){0};
     if (estimator->options.want_c2) {

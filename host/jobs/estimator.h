@@ -137,7 +137,7 @@ pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means,
 const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator);
 /* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */
 void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
-/* Waits until all that was added is in the averages; ps_estimator_accuracy and
+/* Waits until all that was added is in the averages; ps_estimator_accuracy, ps_estimator_c2 and
  * ps_estimator_weighted_blocks want that before, and whatever has a status does it. */
 pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator);

@@ -20,6 +20,7 @@ void ps_estimator_halve_batch(ps_estimator *self) {
 }
 
 pspec_status ps_estimator_make_engine(ps_estimator *self, ps_error *error) {
+    PS_TRY(ps_estimator_add_pending(self, error)); /* they are the engine's */
     for (;;) {
         const pspec_status status = create_engine(self, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {

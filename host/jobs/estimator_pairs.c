@@ -16,6 +16,7 @@ pspec_status ps_pair_sums_create(ps_pair_sums *out, const ps_frequencies *freque
                                  ps_pair_observer observer, ps_error *error) {
     const size_t degrees = (size_t)frequencies->max_frequency + 1;
     *out = (ps_pair_sums){.frequencies = frequencies, .batch = batch, .observer = observer};
+    PS_TRY(PS_NEW(&out->scales, batch, "scales", error));
     PS_TRY(ps_allocate_for(&out->zonal, batch, degrees * sizeof(double), "zonal sums", error));
     PS_TRY(ps_allocate_for(&out->c2, degrees, 2 * sizeof(double), "C_l^2", error));
     PS_TRY(ps_allocate(&out->scratch, batch < MOST_THREADS ? batch : MOST_THREADS,
@@ -26,6 +27,7 @@ pspec_status ps_pair_sums_create(ps_pair_sums *out, const ps_frequencies *freque
 }
 
 void ps_pair_sums_free(ps_pair_sums *self) {
+    free(self->scales);
     free(self->zonal);
     free(self->c2);
     free(self->scratch);
@@ -83,27 +85,31 @@ static void tell_observer(ps_pair_sums *self, const double *zonal, double scale)
     self->observer.tell(self->observer.payload, scaled, self->c2);
 }
 
-void ps_pair_sums_add(ps_pair_sums *self, const ps_batch *batch, const ps_rows *rows,
-                      const uint32_t *slots) {
-    const ps_frequencies *set = self->frequencies;
-    const size_t degrees = (size_t)set->max_frequency + 1;
+void ps_pair_sums_begin(ps_pair_sums *self, const ps_batch *batch) {
+    const size_t degrees = (size_t)self->frequencies->max_frequency + 1;
     size_t work = 0;
     task all = {self, batch};
+    memcpy(self->scales, batch->scales, batch->num_patterns * sizeof *self->scales);
     for (size_t r = 0; r < batch->num_patterns; r++) {
         work += batch->patterns[r].num_points * degrees;
     }
     ps_workers_share(work, sum_some, &all);
-    for (size_t r = 0; r < batch->num_patterns; r++) {
+}
+
+void ps_pair_sums_add(ps_pair_sums *self, const ps_rows *rows, const uint32_t *slots) {
+    const ps_frequencies *set = self->frequencies;
+    const size_t degrees = (size_t)set->max_frequency + 1;
+    for (size_t r = 0; r < rows->num_rows; r++) {
         const double *const zonal = self->zonal + r * degrees;
-        find_c2(self, rows->host + r * rows->stride, slots, zonal, batch->scales[r]);
+        find_c2(self, rows->host + r * rows->stride, slots, zonal, self->scales[r]);
         for (size_t i = 0; i < set->num; i++) {
             ps_sums_add(&self->sums[i], self->c2[set->vectors[i]]);
         }
         if (self->observer.tell != NULL) {
-            tell_observer(self, zonal, batch->scales[r]);
+            tell_observer(self, zonal, self->scales[r]);
         }
     }
-    self->num_realizations += batch->num_patterns;
+    self->num_realizations += rows->num_rows;
 }
 
 void ps_pair_sums_finish(const ps_pair_sums *self, ps_mean *means) {

@@ -19,6 +19,7 @@ struct ps_estimator {
     int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
     ps_pair_sums c2;         /* with options.want_c2 */
+    ps_rows pending;         /* of the batch before, which are not added yet; else num_rows is 0 */
     ps_device_sets *sets;    /* of patterns without points; NULL: there are none */
     double *beginning;       /* points of the first of them, for the self-check; else NULL */
     bool leaves_checks;      /* of this batch's coordinates to the engine */
@@ -26,6 +27,9 @@ struct ps_estimator {
     ps_accuracy accuracy;
     ps_spares *spares; /* of spectra */
 };
+
+/* Adds rows that are pending. */
+pspec_status ps_estimator_add_pending(ps_estimator *self, ps_error *error) PS_MUST_CHECK;
 
 /* Makes the engine anew, for half as many realizations as long as memory is refused. */
 pspec_status ps_estimator_make_engine(ps_estimator *self, ps_error *error) PS_MUST_CHECK;
@@ -62,8 +66,8 @@ pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_patter
 pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_batch *one,
                                                 ps_rows *rows, ps_error *error) PS_MUST_CHECK;
 
-/* Adds the rows of a batch to the averages; of the patterns only their numbers of points are looked
- * at. */
+/* Adds the rows of a batch to the averages, late ones when the next batch has been launched; of the
+ * patterns only their numbers of points are looked at, and for C_l^2 their points. */
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) PS_MUST_CHECK;

@@ -47,6 +47,7 @@ static double find_factor(const ps_estimator *self) {
 
 pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
     PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_estimator_settle(estimator, error));
     return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
                               estimator->accumulator, find_factor(estimator), &estimator->totals,
                               estimator->options.want_frequencies, error);
@@ -62,6 +63,7 @@ static void bring_to_units(const ps_estimator *self, ps_mean *means, size_t num)
 
 pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means, ps_error *error) {
     PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_estimator_settle(estimator, error));
     PS_TRY(ps_accumulator_bins(estimator->accumulator, means, error));
     bring_to_units(estimator, means, estimator->bins.num);
     return PSPEC_OK;
@@ -106,6 +108,7 @@ const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
 }
 
 pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) {
+    PS_TRY(ps_estimator_add_pending(estimator, error));
     return ps_accumulator_settle(estimator->accumulator, error);
 }
 

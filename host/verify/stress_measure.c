@@ -59,6 +59,7 @@ static pspec_status run_engine(measurement *self, ps_error *error) {
     ps_rows rows = {0};
     uint32_t *slots = NULL;
     PS_TRY(self->engine->run(self->state, &batch, &rows, error));
+    PS_TRY(ps_rows_wait(&rows, error));
     PS_TRY(PS_NEW(&slots, sample->frequencies.num, "slots", error));
     ps_engine_slots(self->engine, self->state, sample->frequencies.num, slots);
     const pspec_status status = read_rows(self, &rows, slots, error);

@@ -124,12 +124,15 @@ void test_run_batch(const ps_engine *engine, void *state, const ps_frequencies *
 }
 
 void test_read_rows(const ps_engine *engine, const void *state, const ps_frequencies *frequencies,
-                    ps_device *device, const ps_rows *rows, double *powers) {
+                    ps_device *device, const ps_rows *given, double *powers) {
+    ps_rows there = *given;
+    ps_rows *const rows = &there;
     const size_t real_bytes = rows->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
     const size_t bytes = rows->stride * rows->num_rows * real_bytes;
     uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
     void *data = NULL;
     ps_engine_slots(engine, state, frequencies->num, slots);
+    assert_ok(ps_rows_wait(rows, error));
     if (rows->host == NULL) {
         data = calloc(bytes, 1);
         assert_ok(ps_buffer_read(device, &rows->device, 0, data, bytes, error));

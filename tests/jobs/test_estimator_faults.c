@@ -2,9 +2,10 @@
  * computes wrongly.
  */
 #include "harness_estimator.h"
+#include "harness_sphere.h"
 
-#include "engines/host/host_direct.h"
 #include "engines/engine.h"
+#include "engines/host/host_direct.h"
 
 #include <math.h>
 #include <string.h>
@@ -213,9 +214,12 @@ static void refused_sums_lose_nothing(void **state) {
 
 /* ---- queues ------------------------------------------------------------------------------ */
 
-/* How often nothing was left for the device to do while the host waited, and the spectrum. */
+enum { DEGREE = 20 };
+
+/* How often nothing was left for the device to do while the host waited, and the spectrum (and
+ * C_l^2, where it is wanted). */
 static uint64_t count_waits(const ps_estimator_options *options, const test_sample *what,
-                            size_t num, ps_spectrum *out) {
+                            size_t num, ps_spectrum *out, ps_mean *c2) {
     ps_estimator *estimator = NULL;
     assert_ok(ps_estimator_create(&estimator, options, device, error));
     const uint64_t before = ps_device_num_waits(device);
@@ -223,29 +227,56 @@ static uint64_t count_waits(const ps_estimator_options *options, const test_samp
         assert_ok(ps_estimator_add(estimator, what->patterns + r, NULL, options->batch, error));
     }
     assert_ok(ps_estimator_spectrum(estimator, out, error));
+    if (options->want_c2) {
+        ps_estimator_c2(estimator, c2);
+    }
     ps_estimator_destroy(estimator);
     return ps_device_num_waits(device) - before;
 }
 
+/* Points of a sample to the sphere. */
+static void scale_to_sphere(test_sample *what) {
+    for (size_t r = 0; r < what->num; r++) {
+        double *u = (double *)what->patterns[r].points;
+        for (size_t j = 0; j < what->patterns[r].num_points; j++, u += 3) {
+            const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+            for (unsigned axis = 0; axis < 3; axis++) {
+                u[axis] /= length;
+            }
+        }
+    }
+}
+
 /* On a device with memory of its own the host waits as often for many batches as for few, and bits
- * are those of one memory. */
-static void check_waits(const ps_engine *engine, bool weighted) {
-    enum { SETS = 24, BATCH = 2, POINTS = 40 };
-    ps_frequencies grid = test_make_lattice(2, 9, false);
-    test_sample what = test_make_sample(SETS, 2, POINTS, 0, weighted);
-    const ps_estimator_options options = test_make_options(&grid, engine, PS_SINGLE, POINTS, BATCH);
+ * are those of one memory and of other batches. */
+static void check_waits(const ps_engine *engine, size_t batch, bool weighted) {
+    enum { POINTS = 40, OTHER_BATCH = 6 };
+    const size_t sets = 12 * batch;
+    const bool on_sphere = engine->domains == PS_ON_SPHERE;
+    ps_frequencies grid = on_sphere ? test_degrees(DEGREE, false) : test_make_lattice(2, 9, false);
+    test_sample what = test_make_sample(sets, on_sphere ? 3 : 2, POINTS, 0, weighted);
+    ps_estimator_options options = test_make_options(&grid, engine, PS_SINGLE, POINTS, batch);
+    options.problem.measure = engine->sums_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES;
+    options.want_c2 = engine->sums_pairs;
+    if (on_sphere) {
+        scale_to_sphere(&what);
+    }
+    ps_estimator_options other = options;
+    other.batch = OTHER_BATCH;
     ps_spectrum expected = {0};
     ps_spectrum few = {0};
     ps_spectrum many = {0};
+    ps_mean c2[2][DEGREE] = {0};
     ps_device_set_dedicated_local_memory(device, true);
-    (void)count_waits(&options, &what, SETS, &expected);
+    (void)count_waits(&other, &what, sets, &expected, c2[0]);
     ps_device_set_unified_memory(device, false);
-    const uint64_t waits_of_few = count_waits(&options, &what, 6, &few);
-    const uint64_t waits_of_many = count_waits(&options, &what, SETS, &many);
+    const uint64_t waits_of_few = count_waits(&options, &what, 3 * batch, &few, c2[1]);
+    const uint64_t waits_of_many = count_waits(&options, &what, sets, &many, c2[1]);
     ps_device_set_unified_memory(device, true);
     ps_device_set_dedicated_local_memory(device, false);
     assert_int_equal(waits_of_few, waits_of_many);
     assert_true(test_is_same_bits(&expected, &many));
+    assert_memory_equal(c2[0], c2[1], sizeof c2[0]);
     ps_spectrum_free(&expected);
     ps_spectrum_free(&few);
     ps_spectrum_free(&many);
@@ -255,9 +286,14 @@ static void check_waits(const ps_engine *engine, bool weighted) {
 
 static void batches_follow_without_waiting(void **state) {
     (void)state;
-    check_waits(&ps_torus_direct, false);
-    check_waits(&ps_torus_direct, true);
-    check_waits(&ps_torus_nufft, false);
+    check_waits(&ps_torus_direct, 2, false);
+    check_waits(&ps_torus_direct, 2, true);
+    check_waits(&ps_torus_nufft, 2, false);
+    check_waits(&ps_sphere_direct, 2, true);
+    check_waits(&ps_sphere_grid, 70, false); /* more than it does at once */
+    check_waits(&ps_sphere_nufft, 2, true);
+    check_waits(&ps_pairs_direct, 2, true);
+    check_waits(&ps_pairs_histogram, 2, false);
 }
 
 /* A driver whose sums are too large by this share. */

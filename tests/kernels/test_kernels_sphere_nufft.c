@@ -91,6 +91,7 @@ static void check_case(const ps_engine *engine, const sphere_case *what) {
                             .exponents = exponents};
     assert_ok(engine->create(&state, &problem, what->precision, REALIZATIONS, device, error));
     assert_ok(engine->run(state, &batch, &rows, error));
+    assert_ok(ps_rows_wait(&rows, error));
     for (size_t r = 0; r < REALIZATIONS; r++) {
         const double limit = what->tolerance * white_noise(&patterns[r], &degrees);
         const double off =

@@ -50,6 +50,18 @@ static pspec_status upload_inverses(ps_pairs_degrees *self, ps_error *error) {
     return status;
 }
 
+static void make_row(const void *engine, const void *sums, double scale, double square,
+                     double *row) {
+    const ps_pairs_degrees *self = engine;
+    const ps_frequencies *set = self->frequencies;
+    for (size_t i = 0; i < set->num; i++) {
+        const size_t high = (size_t)set->vectors[i] - 1;
+        const double sum = ps_real_at(self->precision, sums, high) +
+                           ps_real_at(self->precision, sums, high + self->num_degrees);
+        row[i] = (square + 2 * sum) * scale;
+    }
+}
+
 pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *problem,
                                      ps_precision precision, unsigned lanes, size_t batch,
                                      ps_device *device, ps_error *error) {
@@ -62,14 +74,18 @@ pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *pr
                               .row_bytes = PS_PAIRS_PARTS * num_degrees * ps_real_bytes(precision)};
     PS_TRY(create_fold(out, problem, error));
     PS_TRY(upload_inverses(out, error));
-    PS_TRY(ps_allocate(&out->host_sums, batch, out->row_bytes, "sums of pairs", error));
-    PS_TRY(PS_NEW(&out->power, batch * problem->frequencies->num, "the powers of a batch", error));
+    out->rows = (ps_late_rows){.engine = out,
+                               .make = make_row,
+                               .num = problem->frequencies->num,
+                               .batch = batch,
+                               .most = batch,
+                               .sum_bytes = out->row_bytes};
+    PS_TRY(ps_late_rows_create(&out->rows, device, error));
     return ps_buffer_create(device, &out->sums, batch * out->row_bytes, "sums of pairs", error);
 }
 
 void ps_pairs_degrees_free(ps_pairs_degrees *self) {
-    free(self->power);
-    free(self->host_sums);
+    ps_late_rows_free(&self->rows);
     ps_buffer_release(&self->inverses);
     ps_buffer_release(&self->sums);
     *self = (ps_pairs_degrees){0};
@@ -88,31 +104,10 @@ pspec_status ps_pairs_degrees_fold(ps_pairs_degrees *self, const ps_buffer *part
                      PS_U32(is_first));
 }
 
-static double sum_at(const ps_pairs_degrees *self, size_t realization, int32_t degree) {
-    const size_t high = PS_PAIRS_PARTS * self->num_degrees * realization + (size_t)degree - 1;
-    const size_t low = high + self->num_degrees;
-    if (self->precision == PS_SINGLE) {
-        const float *sums = self->host_sums;
-        return (double)sums[high] + sums[low];
-    }
-    const double *sums = self->host_sums;
-    return sums[high] + sums[low];
-}
-
 pspec_status ps_pairs_degrees_read(ps_pairs_degrees *self, const ps_pairs_points *points,
                                    const ps_batch *batch, ps_rows *rows, ps_error *error) {
-    const ps_frequencies *set = self->frequencies;
-    PS_TRY(ps_buffer_read(self->device, &self->sums, 0, self->host_sums,
-                          batch->num_patterns * self->row_bytes, error));
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        for (size_t i = 0; i < set->num; i++) {
-            const double sum = sum_at(self, r, set->vectors[i]);
-            self->power[r * set->num + i] = (points->squares[r] + 2 * sum) * batch->scales[r];
-        }
-    }
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = set->num,
-                      .precision = PS_DOUBLE,
-                      .host = self->power};
+    PS_TRY(ps_late_rows_read(&self->rows, &self->sums, 0, batch->num_patterns, batch->scales,
+                             points->squares, error));
+    *rows = ps_late_rows_give(&self->rows, batch->num_patterns);
     return PSPEC_OK;
 }

@@ -4,6 +4,7 @@
 #ifndef PS_ENGINES_PAIRS_PAIRS_DEGREES_H
 #define PS_ENGINES_PAIRS_PAIRS_DEGREES_H
 
+#include "engines/late_rows.h"
 #include "engines/pairs/pairs_points.h"
 
 /* The sizes are those of kernels/pairs/walk.h. Vectors of a chunk: their state, four numbers each,
@@ -33,9 +34,8 @@ typedef struct ps_pairs_degrees {
     unsigned lanes;
     size_t num_degrees, row_bytes; /* rounded up; of both parts */
     ps_kernel *fold;
-    double *power;   /* [batch][frequencies->num] */
-    void *host_sums; /* [batch][PS_PAIRS_PARTS][num_degrees] */
-    ps_buffer inverses, sums;
+    ps_late_rows rows;
+    ps_buffer inverses, sums; /* [batch][PS_PAIRS_PARTS][num_degrees] */
 } ps_pairs_degrees;
 
 /* Degrees of a row for degrees to max_degree. */
@@ -43,7 +43,7 @@ size_t ps_pairs_num_degrees(int32_t max_degree);
 /* What all kernels of pairs are compiled with. */
 ps_defines ps_pairs_defines(const ps_problem *problem, ps_precision precision, unsigned lanes);
 
-/* Zeroed memory must be given; free it also after a failure. */
+/* Zeroed memory must be given, which stays where it is; free it also after a failure. */
 pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *problem,
                                      ps_precision precision, unsigned lanes, size_t batch,
                                      ps_device *device, ps_error *error) PS_MUST_CHECK;

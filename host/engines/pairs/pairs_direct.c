@@ -70,9 +70,10 @@ static ps_work work_of(const run_layout *layout, const ps_problem *problem) {
                      .launches = 2 * slabs,
                      .fixed_bytes = layout->row_bytes,
                      .bytes_per_realization =
-                         layout->points_bytes + ((double)layout->slab + 1) * layout->row_bytes,
+                         ((double)layout->slab + 1 + PS_READINGS) * layout->row_bytes,
                      .row_bytes = (double)problem->frequencies->num * sizeof(double),
-                     .point_bytes = layout->points_bytes + layout->row_bytes,
+                     .point_bytes = layout->points_bytes,
+                     .coordinate_bytes = layout->points_bytes,
                      .largest_buffer_per_realization = largest_buffer(layout)};
 }
 
@@ -165,10 +166,10 @@ static pspec_status add_slab(pairs_direct *self, size_t num_patterns, uint64_t f
                             .global = {num_runs, num_patterns, 1},
                             .local = {1, 1, 1},
                             .flops = flops_per_degree * pairs * (double)layout->num_degrees};
-    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error, PS_BUFFER(self->points.points),
-                     PS_BUFFER(self->points.counts), PS_BUFFER(self->degrees.inverses),
-                     PS_BUFFER(self->partials), PS_U64(layout->stride), PS_U64(first),
-                     PS_U32(layout->num_degrees)));
+    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error,
+                     PS_BUFFER(self->points.points.filled), PS_BUFFER(self->points.counts),
+                     PS_BUFFER(self->degrees.inverses), PS_BUFFER(self->partials),
+                     PS_U64(layout->stride), PS_U64(first), PS_U32(layout->num_degrees)));
     return ps_pairs_degrees_fold(&self->degrees, &self->partials, num_patterns, num_runs,
                                  first == 0, error);
 }
@@ -179,7 +180,8 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     PS_TRY(ps_pairs_points_upload(&self->points, batch, error));
     for (uint64_t first = 0; first < num_runs; first += self->layout.slab) {
         const uint64_t rest = num_runs - first;
-        PS_TRY(ps_batch_go_on_after(batch, self->device, error));
+        PS_TRY(first == 0 ? ps_batch_go_on(batch, error)
+                          : ps_batch_go_on_after(batch, self->device, error));
         PS_TRY(add_slab(self, batch->num_patterns, first,
                         rest < self->layout.slab ? (size_t)rest : self->layout.slab, error));
     }

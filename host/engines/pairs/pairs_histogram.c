@@ -98,9 +98,10 @@ static ps_work work_of(const histogram_layout *layout, const ps_problem *problem
     const double pairs =
         (double)ps_pairs_vectors(problem->num_points, layout->lanes) * layout->lanes;
     const double slabs = ceil((double)layout->num_runs / (double)layout->slab);
-    const double tables = 3 * layout->histogram_bytes / 2 + layout->row_bytes;
+    const double tables =
+        2 * layout->histogram_bytes + layout->row_bytes; /* nodes have two numbers */
     const double histograms = ((double)layout->slab + 3) * layout->histogram_bytes;
-    const double rows = ((double)layout->node_runs + 1) * layout->row_bytes;
+    const double rows = ((double)layout->node_runs + 1 + PS_READINGS) * layout->row_bytes;
     const double kernels = 5; /* histogram, nodes, their sums, two folds */
     return (ps_work){
         .kernels = kernels,
@@ -112,9 +113,10 @@ static ps_work work_of(const histogram_layout *layout, const ps_problem *problem
         .launches = 2 * slabs + 3,
         .fixed_bytes = 2 * tables,
         .host_bytes = tables,
-        .bytes_per_realization = layout->points_bytes + histograms + rows,
+        .bytes_per_realization = histograms + rows,
         .row_bytes = (double)problem->frequencies->num * sizeof(double),
-        .point_bytes = layout->points_bytes + layout->row_bytes,
+        .point_bytes = layout->points_bytes,
+        .coordinate_bytes = layout->points_bytes,
         .largest_buffer_per_realization = largest_buffer(layout)};
 }
 
@@ -276,7 +278,7 @@ static pspec_status add_slab(pairs_histogram *self, size_t num_patterns, uint64_
         self->device, layout->num_nodes / layout->lanes, num_patterns, 1,
         flops_per_number * rows * (double)layout->num_nodes, rows * layout->histogram_bytes);
     PS_TRY(PS_LAUNCH(self->device, self->histogram_kernel, &range, error,
-                     PS_BUFFER(self->points.points), PS_BUFFER(self->points.counts),
+                     PS_BUFFER(self->points.points.filled), PS_BUFFER(self->points.counts),
                      PS_BUFFER(self->partials), PS_U64(layout->stride), PS_U64(first),
                      PS_U64(layout->run_vectors), PS_U32(layout->num_bins),
                      PS_BUFFER(self->scale)));
@@ -316,7 +318,8 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     PS_TRY(ps_pairs_points_upload(&self->points, batch, error));
     for (uint64_t first = 0; first < num_runs; first += slab) {
         const uint64_t rest = num_runs - first;
-        PS_TRY(ps_batch_go_on_after(batch, self->device, error));
+        PS_TRY(first == 0 ? ps_batch_go_on(batch, error)
+                          : ps_batch_go_on_after(batch, self->device, error));
         PS_TRY(
             add_slab(self, batch->num_patterns, first, rest < slab ? (size_t)rest : slab, error));
     }

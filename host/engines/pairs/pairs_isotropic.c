@@ -116,7 +116,9 @@ static pspec_status run_engine(sums_of_pairs *self, void *state, ps_precision pr
     ps_rows rows;
     self->num_bins = ps_pairs_histogram_num_bins(state);
     PS_TRY(allocate(self, error));
-    status = ps_pairs_histogram.run(state, &batch, &rows, error);
+    PS_TRY_OUT(status, ps_pairs_histogram.run(state, &batch, &rows, error));
+    PS_TRY_OUT(status, ps_rows_wait(&rows, error));
+out:
     if (status == PSPEC_ERROR_CANCELLED) {
         return ps_fail(error, status, "interrupted after %llu slabs of pairs of points",
                        (unsigned long long)self->num_slabs);

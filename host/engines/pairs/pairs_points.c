@@ -33,12 +33,11 @@ static pspec_status allocate(ps_pairs_points *self, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu points are too many",
                        self->batch, self->stride);
     }
-    PS_TRY(ps_allocate(&self->host_points, num, ps_real_bytes(self->precision), "points", error));
     PS_TRY(PS_NEW(&self->host_counts, self->batch, "numbers of points", error));
     PS_TRY(PS_NEW(&self->squares, self->batch * 2, "sums of weights", error));
     self->sizes = self->squares + self->batch;
-    PS_TRY(ps_buffer_create(self->device, &self->points, num * ps_real_bytes(self->precision),
-                            "points", error));
+    PS_TRY(ps_feed_create(&self->points, num * ps_real_bytes(self->precision), "points",
+                          self->device, error));
     return ps_buffer_create(self->device, &self->counts, self->batch * sizeof(uint64_t),
                             "numbers of points", error);
 }
@@ -55,41 +54,49 @@ pspec_status ps_pairs_points_create(ps_pairs_points *out, uint64_t num_points, s
 }
 
 void ps_pairs_points_free(ps_pairs_points *self) {
-    free(self->host_points);
     free(self->host_counts);
     free(self->squares);
-    ps_buffer_release(&self->points);
+    ps_feed_free(&self->points);
     ps_buffer_release(&self->counts);
     *self = (ps_pairs_points){0};
 }
 
-static void put(const ps_pairs_points *self, size_t at, double value) {
-    if (self->precision == PS_SINGLE) {
-        ((float *)self->host_points)[at] = (float)value;
+/* What is filled. */
+typedef struct task {
+    ps_pairs_points *points;
+    const ps_batch *batch;
+    void *out;
+} task;
+
+static void put(const task *shared, size_t at, double value) {
+    if (shared->points->precision == PS_SINGLE) {
+        ((float *)shared->out)[at] = (float)value;
     } else {
-        ((double *)self->host_points)[at] = value;
+        ((double *)shared->out)[at] = value;
     }
 }
 
 /* A number as working precision has it, and what that leaves. */
-static void put_parts(const ps_pairs_points *self, size_t at, long double value) {
+static void put_parts(const task *shared, size_t at, long double value) {
+    const ps_pairs_points *self = shared->points;
     const double high = self->precision == PS_SINGLE ? (double)(float)value : (double)value;
-    put(self, at, high);
-    put(self, at + LOW * self->stride, (double)(value - high));
+    put(shared, at, high);
+    put(shared, at + LOW * self->stride, (double)(value - high));
 }
 
 /* Point j of a pattern to place `at` of its arrays. */
-static void put_point(const ps_pairs_points *self, size_t first, size_t at,
-                      const pspec_pattern *pattern, size_t j, int exponent) {
+static void put_point(const task *shared, size_t first, size_t at, const pspec_pattern *pattern,
+                      size_t j, int exponent) {
+    const size_t stride = shared->points->stride;
     const double *u = pattern->points + j * PS_SPHERE_DIMENSION;
     const long double x = u[0], y = u[1], z = u[2];
     const long double length = sqrtl(x * x + y * y + z * z);
     const double weight = ldexp(pattern->weights != NULL ? pattern->weights[j] : 1, -exponent);
-    put_parts(self, first + at, x / length);
-    put_parts(self, first + self->stride + at, y / length);
-    put_parts(self, first + 2 * self->stride + at, z / length);
-    put(self, first + WEIGHT * self->stride + at, weight);
-    put(self, first + OWN_WEIGHT * self->stride + at, at < pattern->num_points ? weight : 0);
+    put_parts(shared, first + at, x / length);
+    put_parts(shared, first + stride + at, y / length);
+    put_parts(shared, first + 2 * stride + at, z / length);
+    put(shared, first + WEIGHT * stride + at, weight);
+    put(shared, first + OWN_WEIGHT * stride + at, at < pattern->num_points ? weight : 0);
 }
 
 static void count_weights(ps_pairs_points *self, size_t r, const pspec_pattern *pattern,
@@ -106,11 +113,6 @@ static void count_weights(ps_pairs_points *self, size_t r, const pspec_pattern *
     self->sizes[r] = (double)sizes;
 }
 
-typedef struct task {
-    ps_pairs_points *points;
-    const ps_batch *batch;
-} task;
-
 /* The points of some realizations, which go on with the first ones again. */
 static void put_some(void *payload, unsigned index, unsigned count) {
     const task *shared = payload;
@@ -121,7 +123,7 @@ static void put_some(void *payload, unsigned index, unsigned count) {
         const size_t first = r * PS_PAIRS_ARRAYS * self->stride;
         const size_t num = ps_pairs_stride(pattern->num_points, self->lanes);
         for (size_t at = 0; at < num; at++) {
-            put_point(self, first, at, pattern, at % pattern->num_points, exponent);
+            put_point(shared, first, at, pattern, at % pattern->num_points, exponent);
         }
         self->host_counts[r] = pattern->num_points;
         count_weights(self, r, pattern, exponent);
@@ -131,9 +133,10 @@ static void put_some(void *payload, unsigned index, unsigned count) {
 pspec_status ps_pairs_points_upload(ps_pairs_points *self, const ps_batch *batch, ps_error *error) {
     const size_t bytes =
         batch->num_patterns * PS_PAIRS_ARRAYS * self->stride * ps_real_bytes(self->precision);
-    task shared = {self, batch};
+    task shared = {self, batch, NULL};
+    PS_TRY(ps_feed_begin(&self->points, &shared.out, error));
     ps_workers_share(batch->num_patterns * self->stride, put_some, &shared);
-    PS_TRY(ps_buffer_write(self->device, &self->points, 0, self->host_points, bytes, error));
+    PS_TRY(ps_feed_end(&self->points, bytes, error));
     return ps_buffer_write(self->device, &self->counts, 0, self->host_counts,
                            batch->num_patterns * sizeof(uint64_t), error);
 }

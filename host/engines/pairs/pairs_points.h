@@ -4,6 +4,7 @@
 #define PS_ENGINES_PAIRS_PAIRS_POINTS_H
 
 #include "engines/engine.h"
+#include "engines/feed.h"
 
 /* The arrays are those of kernels/pairs/layout.h. */
 enum { PS_PAIRS_ARRAYS = 8 };
@@ -14,10 +15,10 @@ typedef struct ps_pairs_points {
     unsigned lanes;
     size_t stride; /* numbers of an array of a realization */
     size_t batch;
-    void *host_points;       /* [batch][PS_PAIRS_ARRAYS][stride] */
     uint64_t *host_counts;   /* [batch] */
     double *squares, *sizes; /* [batch] sum w^2 and sum |w| of what was uploaded last */
-    ps_buffer points, counts;
+    ps_feed points;          /* [batch][PS_PAIRS_ARRAYS][stride] */
+    ps_buffer counts;
 } ps_pairs_points;
 
 /* Numbers of an array of a realization of so many points. */

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
+#include "engines/late_rows.h"
 #include "engines/sphere/sphere_cost.h"
 #include "engines/sphere/sphere_error.h"
 #include "engines/sphere/sphere_layout.h"
@@ -29,8 +30,8 @@ typedef struct sphere_direct {
     long double *constants; /* [L + 1] of the orders */
     double *host_table;     /* [pass_blocks][PS_SPHERE_BLOCK_REALS] */
     uint32_t *host_blocks;  /* [pass_orders] */
-    void *host_rows;        /* sums of an order, or powers of a batch, as the device has them */
-    double *power;          /* [batch][number of degrees] */
+    void *host_sums;        /* of an order, as the device has them */
+    ps_late_rows rows;
     ps_buffer table, blocks, sums, powers;
 } sphere_direct;
 
@@ -49,6 +50,7 @@ static ps_work work_of(const ps_sphere_layout *layout, const ps_problem *problem
                      .bytes_per_realization = layout->bytes_per_realization,
                      .row_bytes = (double)problem->frequencies->num * sizeof(double),
                      .point_bytes = layout->point_bytes,
+                     .coordinate_bytes = layout->coordinate_bytes,
                      .largest_buffer_per_realization = layout->largest_buffer_per_realization};
 }
 
@@ -85,8 +87,8 @@ static void destroy(void *state) {
     free(self->constants);
     free(self->host_table);
     free(self->host_blocks);
-    free(self->host_rows);
-    free(self->power);
+    free(self->host_sums);
+    ps_late_rows_free(&self->rows);
     ps_buffer_release(&self->table);
     ps_buffer_release(&self->blocks);
     ps_buffer_release(&self->sums);
@@ -107,17 +109,13 @@ static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
 
 static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
-    const size_t num = self->problem.frequencies->num;
-    const size_t powers = self->batch * PS_SPHERE_POWERS;
-    const size_t rows = powers > PS_SPHERE_SUMS ? powers : PS_SPHERE_SUMS;
     PS_TRY(
         PS_NEW(&self->constants, (size_t)layout->max_degree + 1, "constants of the orders", error));
     PS_TRY(PS_NEW(&self->host_table, layout->pass_blocks * PS_SPHERE_BLOCK_REALS,
                   "a table of Legendre functions", error));
     PS_TRY(PS_NEW(&self->host_blocks, layout->pass_orders, "places of orders", error));
-    PS_TRY(ps_allocate(&self->host_rows, rows * layout->stride, layout->real_bytes,
-                       "powers of a batch", error));
-    PS_TRY(PS_NEW(&self->power, self->batch * num, "the powers of a batch", error));
+    PS_TRY(ps_allocate(&self->host_sums, PS_SPHERE_SUMS * layout->stride, layout->real_bytes,
+                       "coefficients of an order", error));
     self->constants[0] = sqrtl(1 / PS_FOUR_PI_L);
     for (int32_t m = 1; m <= layout->max_degree; m++) {
         self->constants[m] = ps_sphere_next_constant(self->constants[m - 1], m);
@@ -140,6 +138,32 @@ static pspec_status create_buffers(sphere_direct *self, ps_error *error) {
                             "powers of a batch", error);
 }
 
+/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
+static void make_row(const void *engine, const void *powers, double scale, double square,
+                     double *row) {
+    const sphere_direct *self = engine;
+    const ps_frequencies *set = self->problem.frequencies;
+    const ps_sphere_layout *layout = &self->layout;
+    (void)square;
+    for (size_t i = 0; i < set->num; i++) {
+        const size_t l = (size_t)set->vectors[i];
+        const double half = ps_real_at(layout->precision, powers, l) +
+                            ps_real_at(layout->precision, powers, layout->stride + l);
+        row[i] = 2 * PS_FOUR_PI / (2 * (double)l + 1) * half * scale;
+    }
+}
+
+static pspec_status create_rows(sphere_direct *self, ps_error *error) {
+    self->rows = (ps_late_rows){.engine = self,
+                                .make = make_row,
+                                .num = self->problem.frequencies->num,
+                                .batch = self->batch,
+                                .most = self->batch,
+                                .sum_bytes = PS_SPHERE_POWERS * self->layout.stride *
+                                             self->layout.real_bytes};
+    return ps_late_rows_create(&self->rows, self->device, error);
+}
+
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
     *state = NULL;
@@ -156,6 +180,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     PS_TRY_OUT(status, create_kernels(self, error));
     PS_TRY_OUT(status, allocate_on_host(self, error));
     PS_TRY_OUT(status, create_buffers(self, error));
+    PS_TRY_OUT(status, create_rows(self, error));
     *state = self;
 out:
     if (status != PSPEC_OK) {
@@ -262,11 +287,6 @@ static pspec_status sum_pass(sphere_direct *self, const ps_batch *batch, size_t 
     return PSPEC_OK;
 }
 
-static double real_at(const sphere_direct *self, size_t i) {
-    return self->layout.precision == PS_SINGLE ? (double)((const float *)self->host_rows)[i]
-                                               : ((const double *)self->host_rows)[i];
-}
-
 /* c_lm of an order from the first realization's sums, times 2^exponent. */
 static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, bool has_low,
                                int exponent, double *out, ps_error *error) {
@@ -275,32 +295,15 @@ static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, boo
     const size_t bytes = PS_SPHERE_SUMS * stride * layout->real_bytes;
     const int64_t max_degree = layout->max_degree;
     double *to = out + m * (2 * max_degree + 1 - m);
-    PS_TRY(ps_buffer_read(self->device, &self->sums, order * bytes, self->host_rows, bytes, error));
+    PS_TRY(ps_buffer_read(self->device, &self->sums, order * bytes, self->host_sums, bytes, error));
     for (int64_t l = m; l <= max_degree; l++) {
         const bool is_there = !layout->only_even || l % 2 == 0;
         for (size_t part = 0; part < 2; part++) {
             const size_t at = part * stride + (size_t)l;
-            const double low = has_low ? real_at(self, 2 * stride + at) : 0;
-            to[2 * l + (int64_t)part] = is_there ? ldexp(real_at(self, at) + low, exponent) : 0;
-        }
-    }
-    return PSPEC_OK;
-}
-
-/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). Of the whole batch in one go: with
- * few degrees a read of every row took ten times as long as the sums. */
-static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
-    const ps_frequencies *set = self->problem.frequencies;
-    const size_t stride = self->layout.stride;
-    const size_t row = PS_SPHERE_POWERS * stride;
-    PS_TRY(ps_buffer_read(self->device, &self->powers, 0, self->host_rows,
-                          batch->num_patterns * row * self->layout.real_bytes, error));
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        for (size_t i = 0; i < set->num; i++) {
-            const size_t l = (size_t)set->vectors[i];
-            const double half = real_at(self, r * row + l) + real_at(self, r * row + stride + l);
-            self->power[r * set->num + i] =
-                2 * PS_FOUR_PI / (2 * (double)l + 1) * half * batch->scales[r];
+            const double low =
+                has_low ? ps_real_at(layout->precision, self->host_sums, 2 * stride + at) : 0;
+            const double sum = ps_real_at(layout->precision, self->host_sums, at) + low;
+            to[2 * l + (int64_t)part] = is_there ? ldexp(sum, exponent) : 0;
         }
     }
     return PSPEC_OK;
@@ -332,13 +335,13 @@ static pspec_status run_passes(sphere_direct *self, const ps_batch *batch, bool 
     return PSPEC_OK;
 }
 
+/* Of the whole batch in one go: with few degrees a read of every row took ten times as long as the
+ * sums. */
 static pspec_status give_rows(sphere_direct *self, const ps_batch *batch, ps_rows *rows,
                               ps_error *error) {
-    PS_TRY(read_powers(self, batch, error));
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = self->problem.frequencies->num,
-                      .precision = PS_DOUBLE,
-                      .host = self->power};
+    PS_TRY(ps_late_rows_read(&self->rows, &self->powers, 0, batch->num_patterns, batch->scales,
+                             NULL, error));
+    *rows = ps_late_rows_give(&self->rows, batch->num_patterns);
     return PSPEC_OK;
 }
 

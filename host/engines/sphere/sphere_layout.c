@@ -20,8 +20,7 @@ enum { SLAB_CHUNKS = 256 };
  * these take two cores about a second (3e9 to 9e9 in a second, docs/engines/sphere_direct.md). */
 static const double launch_harmonics = 4e9;
 
-/* Numbers of a point on the device: of its direction and its weight; besides, its azimuth and
- * coordinates, which the host keeps, too. */
+/* Numbers of a point on the device: of its direction and its weight; besides, its azimuth. */
 enum { REALS_PER_POINT = PS_SPHERE_ARRAYS + 1 };
 
 static size_t find_pass_orders(const ps_sphere_layout *layout) {
@@ -49,15 +48,15 @@ static void count_bytes(ps_sphere_layout *layout) {
     const double sums =
         (double)(layout->pass_orders * layout->stride * PS_SPHERE_SUMS) * real_bytes;
     const double powers = (double)(layout->stride * PS_SPHERE_POWERS) * real_bytes;
-    const double points = (double)layout->slab * (REALS_PER_POINT * real_bytes + sizeof(uint64_t) +
-                                                  PS_SPHERE_DIMENSION * sizeof(double));
+    const double points = (double)layout->slab * (REALS_PER_POINT * real_bytes + sizeof(uint64_t));
     const double table = (double)(layout->pass_blocks * PS_SPHERE_BLOCK_REALS) * real_bytes +
                          (double)(layout->pass_orders * sizeof(uint32_t));
     layout->largest_buffer = table;
-    layout->fixed_bytes = 2 * table;                            /* on the host, too */
-    layout->bytes_per_realization = sums + 2 * powers + points; /* powers on the host, too */
-    layout->point_bytes = (double)layout->slab * (PS_SPHERE_DIMENSION + 1) * sizeof(double);
-    layout->largest_buffer_per_realization = sums > points ? sums : points;
+    layout->fixed_bytes = 2 * table; /* on the host, too */
+    layout->bytes_per_realization = sums + (1 + PS_READINGS) * powers + points;
+    layout->coordinate_bytes = (double)layout->slab * PS_SPHERE_DIMENSION * sizeof(double);
+    layout->point_bytes = layout->coordinate_bytes + (double)layout->slab * sizeof(double);
+    layout->largest_buffer_per_realization = fmax(sums, points + layout->coordinate_bytes);
 }
 
 ps_sphere_layout ps_sphere_layout_make(const ps_problem *problem, const ps_device_limits *limits,

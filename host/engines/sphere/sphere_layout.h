@@ -25,7 +25,7 @@ typedef struct ps_sphere_layout {
     size_t num_passes;
     size_t pass_blocks; /* of the table, at most */
     size_t slab;        /* points of a realization on the device at a time */
-    double fixed_bytes, bytes_per_realization, point_bytes, largest_buffer,
+    double fixed_bytes, bytes_per_realization, point_bytes, coordinate_bytes, largest_buffer,
         largest_buffer_per_realization;
 } ps_sphere_layout;
 

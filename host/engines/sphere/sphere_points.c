@@ -19,7 +19,6 @@ static pspec_status create_prepare(ps_sphere_points *self, ps_error *error) {
 
 static pspec_status allocate_on_host(ps_sphere_points *self, ps_error *error) {
     const size_t capacity = self->capacity;
-    PS_TRY(PS_NEW(&self->host_points, capacity * PS_SPHERE_DIMENSION, "points", error));
     PS_TRY(PS_NEW(&self->host_weights, capacity, "weights", error));
     PS_TRY(PS_NEW(&self->host_offsets, self->batch + 1, "offsets", error));
     if (self->prepare == NULL) {
@@ -42,8 +41,8 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
         PS_TRY(create_prepare(out, error));
     }
     PS_TRY(allocate_on_host(out, error));
-    PS_TRY(ps_buffer_create(device, &out->points, capacity * PS_SPHERE_DIMENSION * sizeof(double),
-                            "points", error));
+    PS_TRY(ps_feed_create(&out->points, capacity * PS_SPHERE_DIMENSION * sizeof(double), "points",
+                          device, error));
     PS_TRY(ps_buffer_create(device, &out->values, capacity * PS_SPHERE_ARRAYS * layout->real_bytes,
                             "directions", error));
     PS_TRY(ps_buffer_create(device, &out->turns, capacity * sizeof(uint64_t), "azimuths", error));
@@ -54,12 +53,11 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
 }
 
 void ps_sphere_points_free(ps_sphere_points *self) {
-    free(self->host_points);
     free(self->host_weights);
     free(self->host_offsets);
     free(self->host_values);
     free(self->host_turns);
-    ps_buffer_release(&self->points);
+    ps_feed_free(&self->points);
     ps_buffer_release(&self->values);
     ps_buffer_release(&self->turns);
     ps_buffer_release(&self->weights);
@@ -67,15 +65,15 @@ void ps_sphere_points_free(ps_sphere_points *self) {
     *self = (ps_sphere_points){0};
 }
 
-/* Points of a pattern from first on, to the place given and filled up to whole vectors; returns how
- * many. */
-static size_t copy_pattern(ps_sphere_points *self, size_t at, const pspec_pattern *pattern,
-                           int exponent, size_t first) {
+/* Points of a pattern from first on, to place `at` of all and filled up to whole vectors; returns
+ * how many. */
+static size_t copy_pattern(ps_sphere_points *self, double *all, size_t at,
+                           const pspec_pattern *pattern, int exponent, size_t first) {
     static const double pole[PS_SPHERE_DIMENSION] = {0, 0, 1};
     const size_t rest = pattern->num_points > first ? pattern->num_points - first : 0;
     const size_t num = rest < self->layout->slab ? rest : self->layout->slab;
     const size_t padded = ps_round_up(num, self->layout->lanes);
-    double *points = self->host_points + at * PS_SPHERE_DIMENSION;
+    double *points = all + at * PS_SPHERE_DIMENSION;
     if (num > 0) {
         memcpy(points, pattern->points + first * PS_SPHERE_DIMENSION,
                num * PS_SPHERE_DIMENSION * sizeof(double));
@@ -92,9 +90,10 @@ static size_t copy_pattern(ps_sphere_points *self, size_t at, const pspec_patter
     return padded;
 }
 
-static pspec_status prepare_on_host(ps_sphere_points *self, size_t num, ps_error *error) {
+static pspec_status prepare_on_host(ps_sphere_points *self, const double *points, size_t num,
+                                    ps_error *error) {
     const ps_sphere_layout *layout = self->layout;
-    ps_sphere_prepare(self->host_points, num, layout->only_even, layout->precision, self->capacity,
+    ps_sphere_prepare(points, num, layout->only_even, layout->precision, self->capacity,
                       self->host_values, self->host_turns);
     PS_TRY(ps_buffer_write(self->device, &self->values, 0, self->host_values,
                            self->capacity * PS_SPHERE_ARRAYS * layout->real_bytes, error));
@@ -110,19 +109,20 @@ static pspec_status prepare_on_device(ps_sphere_points *self, size_t num, ps_err
     const ps_range range = ps_range_heavy(
         self->device, vectors, 1, 1, flops_per_point * (double)num,
         (double)num * (4 * sizeof(double) + PS_SPHERE_ARRAYS * (double)self->layout->real_bytes));
-    PS_TRY(ps_buffer_write(self->device, &self->points, 0, self->host_points,
-                           num * PS_SPHERE_DIMENSION * sizeof(double), error));
-    return PS_LAUNCH(self->device, self->prepare, &range, error, PS_BUFFER(self->points),
+    PS_TRY(ps_feed_end(&self->points, num * PS_SPHERE_DIMENSION * sizeof(double), error));
+    return PS_LAUNCH(self->device, self->prepare, &range, error, PS_BUFFER(self->points.filled),
                      PS_BUFFER(self->values), PS_BUFFER(self->turns), PS_U64(vectors),
                      PS_U64(self->capacity));
 }
 
 pspec_status ps_sphere_points_upload(ps_sphere_points *self, const ps_batch *batch, size_t first,
                                      ps_error *error) {
+    void *points = NULL;
     size_t at = 0;
+    PS_TRY(ps_feed_begin(&self->points, &points, error));
     for (size_t r = 0; r < batch->num_patterns; r++) {
         self->host_offsets[r] = at / self->layout->lanes;
-        at += copy_pattern(self, at, &batch->patterns[r],
+        at += copy_pattern(self, points, at, &batch->patterns[r],
                            batch->exponents != NULL ? batch->exponents[r] : 0, first);
     }
     self->host_offsets[batch->num_patterns] = self->num_vectors = at / self->layout->lanes;
@@ -131,5 +131,5 @@ pspec_status ps_sphere_points_upload(ps_sphere_points *self, const ps_batch *bat
     PS_TRY(ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error));
     return self->prepare != NULL ? prepare_on_device(self, at, error)
-                                 : prepare_on_host(self, at, error);
+                                 : prepare_on_host(self, points, at, error);
 }

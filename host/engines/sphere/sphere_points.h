@@ -4,20 +4,21 @@
 #ifndef PS_ENGINES_SPHERE_SPHERE_POINTS_H
 #define PS_ENGINES_SPHERE_SPHERE_POINTS_H
 
+#include "engines/feed.h"
 #include "engines/sphere/sphere_layout.h"
 
 typedef struct ps_sphere_points {
     const ps_sphere_layout *layout;
     ps_device *device;
     size_t batch, capacity; /* realizations; points of all of them on the device */
-    double *host_points;    /* [capacity][3] */
     double *host_weights;   /* [capacity] */
     uint64_t *host_offsets; /* [batch + 1] in vectors of lanes */
     size_t num_vectors;     /* of what was uploaded last, of all realizations */
     ps_kernel *prepare;     /* NULL: the device has no double precision, and the host does it */
     void *host_values;      /* [arrays][capacity], then */
     uint64_t *host_turns;   /* [capacity] */
-    ps_buffer points, values, turns, weights, offsets;
+    ps_feed points;         /* [capacity][3] */
+    ps_buffer values, turns, weights, offsets;
 } ps_sphere_points;
 
 /* layout outlives the points. */

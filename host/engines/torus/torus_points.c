@@ -57,28 +57,19 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
                              .precision = precision,
                              .far_apart = far_apart};
     PS_TRY(create_host(out, error));
-    for (unsigned i = 0; i < 2; i++) {
-        PS_TRY(ps_buffer_create(device, &out->buffers[i], count * dimension * sizeof(uint64_t),
-                                "points", error));
-        PS_TRY(ps_buffer_add_twin(device, &out->buffers[i], "points", error));
-    }
     PS_TRY(ps_buffer_create(device, &out->weights, count * ps_real_bytes(precision), "weights",
                             error));
     PS_TRY(
         ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets", error));
     PS_TRY(upload_unit_weights(out, device, error));
-    /* Before all launches, so that the first points do not wait for one, either. */
-    return ps_mapping_begin(device, &out->mapping, &out->buffers[0], error);
+    return ps_feed_create(&out->feed, count * dimension * sizeof(uint64_t), "points", device,
+                          error);
 }
 
 void ps_torus_points_free(ps_torus_points *points) {
-    if (points->mapping.data != NULL) {
-        ps_mapping_abandon(points->buffers[0].device, &points->mapping);
-    }
     free(points->host_weights);
     free(points->host_offsets);
-    ps_buffer_release(&points->buffers[0]);
-    ps_buffer_release(&points->buffers[1]);
+    ps_feed_free(&points->feed);
     ps_buffer_release(&points->weights);
     ps_buffer_release(&points->offsets);
     *points = (ps_torus_points){0};
@@ -224,20 +215,12 @@ static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_bat
                              : ps_fail(error, PSPEC_ERROR_INPUT, "a coordinate is outside [0,1)");
 }
 
-/* The host fills one buffer while the device reads the other. */
-static pspec_status fill(ps_torus_points *points, ps_device *device, const ps_batch *batch,
-                         size_t first, size_t *num_points, ps_error *error) {
-    const ps_buffer *buffer = &points->buffers[points->next];
-    if (points->mapping.data == NULL) {
-        PS_TRY(ps_mapping_begin(device, &points->mapping, buffer, error));
-    }
-    PS_TRY(ps_mapping_wait(&points->mapping, error));
-    PS_TRY(convert(points, points->mapping.data, batch, first, num_points, error));
-    PS_TRY(ps_mapping_end(device, &points->mapping,
-                          *num_points * points->dimension * sizeof(uint64_t), error));
-    points->points = *buffer;
-    points->next = 1 - points->next;
-    return PSPEC_OK;
+static pspec_status fill(ps_torus_points *points, const ps_batch *batch, size_t first,
+                         size_t *num_points, ps_error *error) {
+    void *data = NULL;
+    PS_TRY(ps_feed_begin(&points->feed, &data, error));
+    PS_TRY(convert(points, data, batch, first, num_points, error));
+    return ps_feed_end(&points->feed, *num_points * points->dimension * sizeof(uint64_t), error);
 }
 
 /* The device makes the points itself. */
@@ -252,30 +235,23 @@ static pspec_status make(ps_torus_points *points, ps_device *device, const ps_ba
                                  .begin = (uint64_t)((wide)(batch->first_point + first) * step % n),
                                  .step = step,
                                  .count = *num_points / num};
-    if (points->mapping.data != NULL) { /* nobody fills it now */
-        ps_mapping_abandon(device, &points->mapping);
-    }
+    ps_feed_leave(&points->feed);
     if (!points->has_unit_weights) {
         PS_TRY(upload_unit_weights(points, device, error));
     }
-    points->points = points->buffers[0];
-    return ps_device_sets_write(batch->sets, &range, &points->points, error);
+    return ps_device_sets_write(batch->sets, &range, &points->feed.filled, error);
 }
 
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                                     const ps_batch *batch, size_t first, size_t *num_points,
                                     ps_error *error) {
-    const bool is_made = batch->sets != NULL;
-    PS_TRY(is_made ? make(points, device, batch, first, num_points, error)
-                   : fill(points, device, batch, first, num_points, error));
+    PS_TRY(batch->sets != NULL ? make(points, device, batch, first, num_points, error)
+                               : fill(points, batch, first, num_points, error));
+    points->points = points->feed.filled;
     if (!points->has_unit_weights) {
         PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
                                *num_points * ps_real_bytes(points->precision), error));
     }
-    PS_TRY(ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
-                           (batch->num_patterns + 1) * sizeof(uint64_t), error));
-    /* This goes before the launch that reads the buffer, so that it need not be waited for. */
-    return is_made
-               ? PSPEC_OK
-               : ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error);
+    return ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
+                           (batch->num_patterns + 1) * sizeof(uint64_t), error);
 }

@@ -5,6 +5,7 @@
 #define PS_ENGINES_TORUS_TORUS_POINTS_H
 
 #include "engines/engine.h"
+#include "engines/feed.h"
 
 typedef struct ps_torus_points {
     unsigned dimension;
@@ -14,13 +15,9 @@ typedef struct ps_torus_points {
     bool has_unit_weights;  /* on the device; so it stays until a pattern has weights */
     void *host_weights;     /* [batch * slab] float or double */
     uint64_t *host_offsets; /* [batch + 1] */
-    ps_buffer points;       /* what was uploaded: one of the buffers below */
+    ps_buffer points;       /* what was uploaded, which the feed owns */
     ps_buffer weights, offsets;
-    /* [batch * slab][dimension], filled in turns: one by the host while the device reads the other
-     */
-    ps_buffer buffers[2];
-    ps_mapping mapping; /* of the next one */
-    unsigned next;
+    ps_feed feed; /* [batch * slab][dimension] */
 } ps_torus_points;
 
 pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,

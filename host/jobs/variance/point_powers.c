@@ -93,6 +93,7 @@ static pspec_status run(work *self, const ps_frequencies *frequencies, double *p
     ps_rows rows = {0};
     PS_TRY(start(self, frequencies, error));
     PS_TRY(self->engine->run(self->state, &batch, &rows, error));
+    PS_TRY(ps_rows_wait(&rows, error));
     return read_rows(self, &rows, powers, frequencies->num, error);
 }
 

@@ -74,10 +74,10 @@ static pspec_status sum_up(chords *self, double power, const ps_batch *batch, do
     const ps_range range = ps_range_heavy(
         self->device, self->num_runs, num, 1,
         flops_per_pair * (double)(self->num_runs * num * self->lanes) * RUN_VECTORS, 0);
-    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error, PS_BUFFER(self->points.points),
-                     PS_BUFFER(self->points.counts), PS_BUFFER(self->power),
-                     PS_BUFFER(self->partials), PS_U64(self->points.stride), PS_U64(RUN_VECTORS),
-                     PS_U64(self->num_runs)));
+    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error,
+                     PS_BUFFER(self->points.points.filled), PS_BUFFER(self->points.counts),
+                     PS_BUFFER(self->power), PS_BUFFER(self->partials), PS_U64(self->points.stride),
+                     PS_U64(RUN_VECTORS), PS_U64(self->num_runs)));
     PS_TRY(ps_buffer_read(self->device, &self->partials, 0, self->host_partials, num * row, error));
     add_up(self, sums);
     return PSPEC_OK;

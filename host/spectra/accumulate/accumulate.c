@@ -207,10 +207,10 @@ static void add_weighted(ps_accumulator *self, size_t num_rows) {
     }
 }
 
-static pspec_status reserve(ps_accumulator *self, uint64_t count, ps_error *error) {
-    PS_TRY(ps_running_sums_reserve(&self->bin_sums, count, error));
-    PS_TRY(ps_running_sums_reserve(&self->frequency_sums, count, error));
-    return ps_running_sums_reserve(&self->weighted_sums, count, error);
+pspec_status ps_accumulator_reserve(ps_accumulator *accumulator, uint64_t count, ps_error *error) {
+    PS_TRY(ps_running_sums_reserve(&accumulator->bin_sums, count, error));
+    PS_TRY(ps_running_sums_reserve(&accumulator->frequency_sums, count, error));
+    return ps_running_sums_reserve(&accumulator->weighted_sums, count, error);
 }
 
 /* Weighted sums first: those of frequencies change by what comes last. */
@@ -272,7 +272,8 @@ static pspec_status add_device_rows(ps_accumulator *self, const ps_rows *rows, c
 
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double *units, ps_error *error) {
-    PS_TRY(reserve(accumulator, accumulator->num_realizations + rows->num_rows, error));
+    PS_TRY(
+        ps_accumulator_reserve(accumulator, accumulator->num_realizations + rows->num_rows, error));
     if (accumulator->on_device != NULL) {
         PS_TRY(add_device_rows(accumulator, rows, units, error));
     } else {

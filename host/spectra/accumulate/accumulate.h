@@ -52,6 +52,9 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_accumulator_destroy(ps_accumulator *accumulator);
 
+/* Memory for so many realizations in all, which the next ones will not ask for then. */
+pspec_status ps_accumulator_reserve(ps_accumulator *accumulator, uint64_t count,
+                                    ps_error *error) PS_MUST_CHECK;
 /* Adds the rows of one batch; allocates nothing unless there are more realizations than were
  * expected. Nobody waits for rows on the device: what they come to on the host is added by the next
  * call, or by ps_accumulator_settle. units[num_rows], copied, are what powers of each realization

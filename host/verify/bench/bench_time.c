@@ -62,9 +62,9 @@ typedef struct timing {
 
 static pspec_status run_once(const timing *self, double *seconds, ps_error *error) {
     const double begin = ps_clock_seconds();
+    ps_rows rows = {0};
     for (size_t done = 0; done < self->num; done += self->batch) {
         const size_t rest = self->num - done;
-        ps_rows rows = {0};
         const ps_batch batch = {.num_patterns = rest < self->batch ? rest : self->batch,
                                 .patterns = self->sets->patterns + done,
                                 .scales = self->sets->scales + done,
@@ -72,6 +72,7 @@ static pspec_status run_once(const timing *self, double *seconds, ps_error *erro
                                 .payload = self->payload};
         PS_TRY(self->engine->run(self->state, &batch, &rows, error));
     }
+    PS_TRY(ps_rows_wait(&rows, error));
     PS_TRY(ps_device_finish(self->device, error));
     *seconds = ps_clock_seconds() - begin;
     return PSPEC_OK;

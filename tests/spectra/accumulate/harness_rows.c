@@ -54,7 +54,8 @@ uint32_t *rows_make_slots(const rows_fixture *what, const rows_layout *how) {
 static ps_rows make_rows(const rows_fixture *what, const rows_layout *how, const uint32_t *slots,
                          size_t first, size_t num) {
     double *places = calloc(num * how->stride, sizeof *places);
-    ps_rows rows = {num, how->stride, how->precision, places, {0}};
+    ps_rows rows = {
+        .num_rows = num, .stride = how->stride, .precision = how->precision, .host = places};
     for (size_t i = 0; i < num * how->stride; i++) {
         places[i] = NAN;
     }

@@ -112,10 +112,9 @@ static pspec_status sum_cells(void *stages, ps_kernel *kernel, const ps_buffer *
                      PS_U32(shape->half_pitch), PS_BUFFER(*to));
 }
 
-pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num, double *powers,
-                                ps_error *error) {
+pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num, ps_error *error) {
     PS_TRY(sum_cells(stages, stages->sum, &stages->powers.sums, num, error));
-    return ps_sphere_powers_read(&stages->powers, num, powers, error);
+    return ps_sphere_powers_fold(&stages->powers, num, error);
 }
 
 pspec_status ps_sphere_grid_keep(ps_sphere_grid_stages *stages, double *coefficients,

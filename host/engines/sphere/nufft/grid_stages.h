@@ -34,7 +34,7 @@ void ps_sphere_grid_stages_free(ps_sphere_grid_stages *stages);
 /* These do what those of stages.h do for rings. */
 pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *stages, size_t first_value,
                                         size_t num, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num, double *powers,
+pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num,
                                 ps_error *error) PS_MUST_CHECK;
 pspec_status ps_sphere_grid_keep(ps_sphere_grid_stages *stages, double *coefficients,
                                  ps_error *error) PS_MUST_CHECK;

@@ -156,14 +156,14 @@ void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     choose_at_once(shape, problem, limits, real_bytes);
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, real_bytes);
     const uint64_t sorted = shape->is_sorted ? bytes.turns + bytes.weights : 0;
-    const uint64_t host_each = 2 * shape->half_pitch * sizeof(double);
-    const uint64_t each = bytes.values + bytes.powers + bytes.sums + host_each;
+    const uint64_t read = PS_READINGS * 2 * shape->half_pitch * sizeof(double);
+    const uint64_t each = bytes.values + bytes.powers + bytes.sums + read;
     const uint64_t rest = bytes.grids + bytes.scratch + bytes.gaps + shape->at_once * each;
     const uint64_t making = routes[shape->route].making(shape);
     const bool is_fixed = (double)(each * shape->at_once) <= fixed_budget;
     shape->each_bytes = is_fixed ? 0 : each;
-    shape->host_bytes = bytes.weights + (is_fixed ? shape->at_once * host_each : 0);
-    shape->fixed_bytes = bytes.weights + bytes.vectors + bytes.turns + bytes.weights + sorted +
+    shape->host_bytes = bytes.weights;
+    shape->fixed_bytes = bytes.weights + 2 * bytes.vectors + bytes.turns + bytes.weights + sorted +
                          bytes.keys + bytes.starts + bytes.order + bytes.grids + bytes.rows +
                          bytes.scratch + bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +

@@ -27,7 +27,6 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
         const char *what;
         bool is_there;
     } wanted[] = {
-        {&self->vectors, bytes.vectors, "points", true},
         {&self->turns, bytes.turns, "angles of points", true},
         {&self->weights, bytes.weights, "weights", true},
         {&self->offsets, num_offsets(shape) * sizeof(uint64_t), "offsets", true},
@@ -42,7 +41,7 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
                                     error));
         }
     }
-    return ps_buffer_add_twin(self->device, &self->vectors, "points", error);
+    return ps_feed_create(&self->vectors, bytes.vectors, "points", self->device, error);
 }
 
 static void set_weight(ps_sphere_places *self, size_t at, double weight) {
@@ -103,7 +102,7 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
 
 void ps_sphere_places_free(ps_sphere_places *points) {
     ps_nufft_order_free(&points->order);
-    ps_buffer_release(&points->vectors);
+    ps_feed_free(&points->vectors);
     ps_buffer_release(&points->turns);
     ps_buffer_release(&points->weights);
     ps_buffer_release(&points->offsets);
@@ -133,16 +132,11 @@ static void copy_points(ps_sphere_places *self, double *vectors, const ps_batch 
 /* All patterns in one go: a write of its own for each woke a thread of the driver for each, which
  * took as long as the transforms of 256 points. */
 static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
-    ps_mapping mapping = {0};
-    PS_TRY(ps_mapping_begin(self->device, &mapping, &self->vectors, error));
-    const pspec_status status = ps_mapping_wait(&mapping, error);
-    if (status != PSPEC_OK) {
-        ps_mapping_abandon(self->device, &mapping);
-        return status;
-    }
-    copy_points(self, mapping.data, batch);
-    PS_TRY(ps_mapping_end(
-        self->device, &mapping,
+    void *vectors = NULL;
+    PS_TRY(ps_feed_begin(&self->vectors, &vectors, error));
+    copy_points(self, vectors, batch);
+    PS_TRY(ps_feed_end(
+        &self->vectors,
         self->host_offsets[batch->num_patterns] * PS_SPHERE_DIMENSION * sizeof(double), error));
     return ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);
@@ -190,7 +184,7 @@ static pspec_status order_points(ps_sphere_places *self, const orders_sort_numbe
     PS_TRY(ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (num_parts + 1) * sizeof(uint64_t), error));
     PS_TRY(PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(*numbers),
-                     PS_BUFFER(self->vectors), PS_BUFFER(self->turns),
+                     PS_BUFFER(self->vectors.filled), PS_BUFFER(self->turns),
                      PS_BUFFER(self->order.keys)));
     return ps_nufft_order_run(&self->order, &points, num_parts, error);
 }
@@ -213,9 +207,9 @@ static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
         return order_points(self, &numbers, parts, error);
     }
     return PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->vectors), PS_BUFFER(self->weights), PS_BUFFER(self->turns),
-                     PS_BUFFER(self->keys), PS_BUFFER(self->sorted), PS_BUFFER(self->heights),
-                     PS_BUFFER(self->starts));
+                     PS_BUFFER(self->vectors.filled), PS_BUFFER(self->weights),
+                     PS_BUFFER(self->turns), PS_BUFFER(self->keys), PS_BUFFER(self->sorted),
+                     PS_BUFFER(self->heights), PS_BUFFER(self->starts));
 }
 
 pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
@@ -230,6 +224,6 @@ pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *bat
     const uint64_t num = points->num_points;
     const ps_range range = ps_range_light(points->device, ps_divide_up(num, points->lanes), 1, 1,
                                           flops_per_point * (double)num, 0);
-    return PS_LAUNCH(points->device, points->turn, &range, error, PS_BUFFER(points->vectors),
+    return PS_LAUNCH(points->device, points->turn, &range, error, PS_BUFFER(points->vectors.filled),
                      PS_BUFFER(points->turns), PS_U64(num), PS_U64(points->shift));
 }

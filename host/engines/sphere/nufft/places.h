@@ -3,6 +3,7 @@
 #ifndef PS_ENGINES_SPHERE_NUFFT_PLACES_H
 #define PS_ENGINES_SPHERE_NUFFT_PLACES_H
 
+#include "engines/feed.h"
 #include "engines/sphere/nufft/shape.h"
 
 typedef struct ps_sphere_places {
@@ -18,7 +19,8 @@ typedef struct ps_sphere_places {
     ps_nufft_order order;   /* of parts, on GPUs */
     void *host_weights;     /* [most_points] float or double */
     uint64_t *host_offsets; /* [together + 1], where there is an order of the parts */
-    ps_buffer vectors, turns, weights, offsets;
+    ps_feed vectors;        /* [most_points][3] */
+    ps_buffer turns, weights, offsets;
     ps_buffer keys, sorted, heights, starts; /* of kernels/sphere/nufft/orders_sort.cl */
 } ps_sphere_places;
 

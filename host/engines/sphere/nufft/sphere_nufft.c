@@ -71,7 +71,7 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                      .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
                      .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
                      .host_bytes = (double)shape->host_bytes + kept,
-                     .twin_bytes = (double)shape->most_points * 3 * sizeof(double),
+                     .twin_bytes = 2.0 * (double)shape->most_points * 3 * sizeof(double),
                      .bytes_per_realization = row + (double)shape->each_bytes,
                      .row_bytes = row,
                      .wanted_batch = (double)shape->at_once,
@@ -123,18 +123,37 @@ static void destroy(void *state) {
     self->variant->free(self);
     ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
-    free(self->host_powers);
-    free(self->host_rows);
+    ps_late_rows_free(&self->rows);
     free(self);
+}
+
+static void make_row(const void *engine, const void *sums, double scale, double square,
+                     double *row) {
+    const ps_sphere_state *self = engine;
+    const ps_frequencies *set = self->problem.frequencies;
+    const size_t pitch = self->shape.half_pitch;
+    const double *const powers = sums;
+    (void)square;
+    for (size_t i = 0; i < set->num; i++) {
+        const size_t l = (size_t)set->vectors[i];
+        row[i] = scale * PS_FOUR_PI / (2 * (double)l + 1) * powers[l % 2 * pitch + l / 2];
+    }
+}
+
+static pspec_status create_rows(ps_sphere_state *self, size_t batch, ps_error *error) {
+    self->rows = (ps_late_rows){.engine = self,
+                                .make = make_row,
+                                .num = self->problem.frequencies->num,
+                                .batch = batch,
+                                .most = self->shape.at_once,
+                                .sum_bytes = 2 * self->shape.half_pitch * sizeof(double)};
+    return ps_late_rows_create(&self->rows, self->device, error);
 }
 
 static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const bool only_even = self->problem.frequencies->degree_step == 2;
-    PS_TRY(PS_NEW(&self->host_powers, shape->at_once * 2 * shape->half_pitch, "powers of degrees",
-                  error));
-    PS_TRY(PS_NEW(&self->host_rows, batch * self->problem.frequencies->num, "powers of a batch",
-                  error));
+    PS_TRY(create_rows(self, batch, error));
     PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
@@ -178,20 +197,6 @@ static size_t get_stride(const void *state) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-static void write_rows(ps_sphere_state *self, size_t first, const ps_batch *some) {
-    const ps_frequencies *set = self->problem.frequencies;
-    const size_t pitch = self->shape.half_pitch;
-    for (size_t r = 0; r < some->num_patterns; r++) {
-        const double *powers = self->host_powers + r * 2 * pitch;
-        double *row = self->host_rows + (first + r) * set->num;
-        for (size_t i = 0; i < set->num; i++) {
-            const size_t l = (size_t)set->vectors[i];
-            row[i] =
-                some->scales[r] * PS_FOUR_PI / (2 * (double)l + 1) * powers[l % 2 * pitch + l / 2];
-        }
-    }
-}
-
 static ps_batch part_of(const ps_batch *batch, size_t first, size_t most) {
     const size_t rest = batch->num_patterns - first;
     ps_batch some = *batch;
@@ -216,16 +221,15 @@ static pspec_status make_values(ps_sphere_state *self, const ps_batch *batch, ps
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     ps_sphere_state *self = state;
     const size_t at_once = self->shape.at_once;
+    const ps_buffer *powers = NULL;
     for (size_t first = 0; first < batch->num_patterns; first += at_once) {
         const ps_batch some = part_of(batch, first, at_once);
         PS_TRY(make_values(self, &some, error));
-        PS_TRY(self->variant->sum(self, some.num_patterns, error));
-        write_rows(self, first, &some);
+        PS_TRY(self->variant->sum(self, some.num_patterns, &powers, error));
+        PS_TRY(ps_late_rows_read(&self->rows, powers, first, some.num_patterns, some.scales, NULL,
+                                 error));
     }
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = self->problem.frequencies->num,
-                      .precision = PS_DOUBLE,
-                      .host = self->host_rows};
+    *rows = ps_late_rows_give(&self->rows, batch->num_patterns);
     return PSPEC_OK;
 }
 

@@ -44,14 +44,12 @@ ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t gr
                     : ps_range_heavy(device, 1, groups, 1, flops, 0);
 }
 
-pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, double *powers,
-                                   ps_error *error) {
+pspec_status ps_sphere_powers_fold(const ps_sphere_powers *self, size_t num, ps_error *error) {
     const size_t entries = num * 2 * self->shape->half_pitch;
     const ps_range range = ps_range_light(self->device, entries / self->shape->lanes, 1, 1,
                                           (double)(PS_SPHERE_GROUPS * entries), 0);
-    PS_TRY(PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->sums),
-                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(self->shape->half_pitch)));
-    return ps_buffer_read(self->device, &self->sums, 0, powers, entries * sizeof(double), error);
+    return PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->sums),
+                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(self->shape->half_pitch));
 }
 
 /* ---- coefficients ------------------------------------------------------------------------ */

@@ -35,9 +35,9 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_powers *self, ps_kernel **out,
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
 
-/* Reads what a kernel has left in `sums` for the groups of num realizations and writes their powers
+/* Of what a kernel has left in `sums` for the groups of num realizations makes their powers there,
  * [realization][even, odd degrees][half_pitch]. */
-pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, double *powers,
+pspec_status ps_sphere_powers_fold(const ps_sphere_powers *self, size_t num,
                                    ps_error *error) PS_MUST_CHECK;
 
 /* Launches a kernel of sums for the first num realizations. */

@@ -228,10 +228,9 @@ static pspec_status sum_rings(void *stages, ps_kernel *kernel, const ps_buffer *
         PS_LOCAL(local.begins));
 }
 
-pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
-                                  ps_error *error) {
+pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, ps_error *error) {
     PS_TRY(sum_rings(stages, stages->sum, &stages->powers.sums, num, error));
-    return ps_sphere_powers_read(&stages->powers, num, powers, error);
+    return ps_sphere_powers_fold(&stages->powers, num, error);
 }
 
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,

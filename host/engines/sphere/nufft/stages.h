@@ -41,9 +41,8 @@ pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first
 /* ... and their values on rings. */
 pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t value,
                                             ps_error *error) PS_MUST_CHECK;
-/* Sums |c_lm|^2 over m for these values and writes powers [realization][even, odd
- * degrees][half_pitch]. */
-pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
+/* Sums |c_lm|^2 over m for these values: their powers are in powers.sums then. */
+pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num,
                                   ps_error *error) PS_MUST_CHECK;
 /* Writes the conjugates of c_lm of a realization: [order][even, odd l - m][re, im][half_pitch]. */
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,

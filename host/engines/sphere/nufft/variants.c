@@ -20,8 +20,10 @@ static pspec_status make_rings(ps_sphere_state *self, size_t first_value, const 
     return ps_sphere_stages_make_values(&self->stages, first_value, some->num_patterns, error);
 }
 
-static pspec_status sum_rings(ps_sphere_state *self, size_t num, ps_error *error) {
-    return ps_sphere_stages_sum(&self->stages, num, self->host_powers, error);
+static pspec_status sum_rings(ps_sphere_state *self, size_t num, const ps_buffer **powers,
+                              ps_error *error) {
+    *powers = &self->stages.powers.sums;
+    return ps_sphere_stages_sum(&self->stages, num, error);
 }
 
 static pspec_status keep_rings(ps_sphere_state *self, double *coefficients, ps_error *error) {
@@ -74,8 +76,10 @@ static pspec_status make_cells(ps_sphere_state *self, size_t first_value, const 
     return ps_sphere_grid_make_values(&self->grid_stages, first_value, some->num_patterns, error);
 }
 
-static pspec_status sum_cells(ps_sphere_state *self, size_t num, ps_error *error) {
-    return ps_sphere_grid_sum(&self->grid_stages, num, self->host_powers, error);
+static pspec_status sum_cells(ps_sphere_state *self, size_t num, const ps_buffer **powers,
+                              ps_error *error) {
+    *powers = &self->grid_stages.powers.sums;
+    return ps_sphere_grid_sum(&self->grid_stages, num, error);
 }
 
 static pspec_status keep_cells(ps_sphere_state *self, double *coefficients, ps_error *error) {

@@ -4,6 +4,7 @@
 #ifndef PS_ENGINES_SPHERE_NUFFT_VARIANTS_H
 #define PS_ENGINES_SPHERE_NUFFT_VARIANTS_H
 
+#include "engines/late_rows.h"
 #include "engines/sphere/nufft/grid_stages.h"
 #include "engines/sphere/nufft/stages.h"
 
@@ -17,8 +18,8 @@ typedef struct ps_sphere_variant {
      */
     pspec_status (*make_values)(ps_sphere_state *, size_t first_value, const ps_batch *some,
                                 ps_error *);
-    /* Powers of the first num values, to host_powers; coefficients of the first one. */
-    pspec_status (*sum)(ps_sphere_state *, size_t num, ps_error *);
+    /* Powers of the first num values, and where they are; coefficients of the first one. */
+    pspec_status (*sum)(ps_sphere_state *, size_t num, const ps_buffer **powers, ps_error *);
     pspec_status (*keep)(ps_sphere_state *, double *coefficients, ps_error *);
     void (*describe)(const ps_sphere_state *, ps_text *);
     void (*free)(ps_sphere_state *); /* also what was created in part, or not at all */
@@ -36,8 +37,7 @@ struct ps_sphere_state {
     ps_sphere_tables tables;
     ps_sphere_stages stages;           /* by rings, */
     ps_sphere_grid_stages grid_stages; /* or by cells */
-    double *host_powers;               /* [at_once][2][half_pitch] */
-    double *host_rows;                 /* [batch][degrees] */
+    ps_late_rows rows;
 };
 
 #endif
