@@ -1,5 +1,6 @@
-/* Tiles of a problem with one fast transform: LANES frequencies of axis 0 are summed directly, those
- * of the transform by spreading. Launch: (work-items of one group, groups of tiles, realizations).
+/* Tiles of a problem with one fast transform: LANES frequencies of axis 0 are summed directly,
+ * those of the transform by spreading.
+ * Launch: (work-items of one group, groups of tiles, realizations).
  *
  *   places, sorted, heights  of nufft/sort.cl
  *   numbers    tile_numbers of nufft/numbers.h

@@ -14,8 +14,8 @@ typedef struct kind {
 } kind;
 
 /* Squares of few trials are skewed, and their error is small where they are: 400 sets have a score
- * below -4.6 in one of some thousand cases. So a thousand sets, or some dozen expensive ones that are
- * shifted often. */
+ * below -4.6 in one of some thousand cases. So a thousand sets, or some dozen
+ * expensive ones that are shifted often. */
 static const kind kinds[] = {
     {"white", "disk", {16, 64, 300}, 1000, 1},
     {"white", "gaussian", {16, 64}, 1000, 1},
