@@ -118,8 +118,8 @@ struct ps_sampler {
      * device. The member may be NULL: none worth counting. */
     double (*work_bytes)(const ps_sampler_request *);
 
-    /* Of the algorithm, raised by whoever changes the bits of a set, where sets are expensive enough to
-     * be kept on the disk; 0: they are made anew in less time. */
+    /* Of the algorithm, raised by whoever changes the bits of a set, where sets are expensive
+     * enough to be kept on the disk; 0: they are made anew in less time. */
     unsigned version;
 
     /* Where the number of points changes from realization to realization, about the request's; the

@@ -1,5 +1,5 @@
-/* The realizations of a sampler, one after the other: expensive ones from the store, or made and then
- * kept there (sets/set_store.h), by all processors ahead of who takes them.
+/* The realizations of a sampler, one after the other: expensive ones from the store, or made and
+ * then kept there (sets/set_store.h), by all processors ahead of who takes them.
  *
  * Every realization depends on its number alone, so that nothing of this can be seen in points.
  */

@@ -1,6 +1,6 @@
 /* Powers of realizations whose points are sorted into cells: tiles of frequencies of axis 0 are
- * summed directly, those of the other axes by spreading and transforms (kernels/nufft/tile.cl, rows.cl,
- * columns.cl).
+ * summed directly, those of the other axes by spreading and transforms (kernels/nufft/tile.cl,
+ * rows.cl, columns.cl).
  */
 #include "base/memory.h"
 #include "base/round.h"
