@@ -111,13 +111,22 @@ static inline uint64_t convert_points(uint64_t *out, const double *points, unsig
     return inside;
 }
 
+/* Numbers in their order, which the compiler makes vectors of. */
+static uint64_t convert_numbers(uint64_t *restrict out, const double *restrict x, size_t num) {
+    uint64_t inside = UINT64_MAX;
+    for (size_t i = 0; i < num; i++) {
+        out[i] = fixed_point(x[i]);
+        inside &= is_inside(x[i]);
+    }
+    return inside;
+}
+
 static uint64_t convert_coordinates(uint64_t *out, const pspec_pattern *pattern, size_t count,
                                     uint64_t j, uint64_t step) {
     const uint64_t n = pattern->num_points;
     const unsigned dimension = pattern->dimension;
     if (step == 1 && count <= n - j) {
-        return convert_points(out, pattern->points + j * dimension, 1, count * dimension, 0, 1,
-                              count * dimension);
+        return convert_numbers(out, pattern->points + j * dimension, count * dimension);
     }
     switch (dimension) {
     case 1:
