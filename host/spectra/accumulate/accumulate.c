@@ -232,13 +232,7 @@ static void forget(ps_accumulator *self) {
 }
 
 /* What the batch that is pending comes to. */
-pspec_status ps_accumulator_settle(ps_accumulator *accumulator, ps_error *error) {
-    ps_accumulator *self = accumulator;
-    const size_t num_rows = self->num_pending;
-    self->num_pending = 0;
-    if (num_rows == 0) {
-        return PSPEC_OK;
-    }
+static pspec_status take_pending(ps_accumulator *self, size_t num_rows, ps_error *error) {
     PS_TRY(ps_device_accumulator_take(self->on_device, num_rows, self->bin_powers, error));
     if (self->weighted != NULL) {
         PS_TRY(ps_device_weighted_take(self->weighted, num_rows, self->weighted_powers, error));
@@ -246,6 +240,15 @@ pspec_status ps_accumulator_settle(ps_accumulator *accumulator, ps_error *error)
     add_bins(self, num_rows, self->units);
     add_weighted(self, num_rows);
     return PSPEC_OK;
+}
+
+/* Rows that are pending have gone from the engine: nobody may try again with fewer realizations. */
+pspec_status ps_accumulator_settle(ps_accumulator *accumulator, ps_error *error) {
+    const size_t num_rows = accumulator->num_pending;
+    accumulator->num_pending = 0;
+    const pspec_status status =
+        num_rows > 0 ? take_pending(accumulator, num_rows, error) : PSPEC_OK;
+    return status == PSPEC_ERROR_MEMORY ? PSPEC_ERROR_DEVICE : status;
 }
 
 static void set_units(ps_accumulator *self, const double *units, size_t num) {
