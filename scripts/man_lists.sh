@@ -3,8 +3,45 @@
 #   .\" ./dev man: power --help, Options
 #   .\" end
 # which name the words that PROGRAM is given, and how the title of the list begins there.
+# Or docs/user/fields.md, whose tables are all of "help KIND fields" of every kind of answer.
 set -euo pipefail
 export POINTSPEC_PROGRAM=$1 LC_ALL=C
+
+print_fields() { # PAGE
+    local group kind kinds
+    # Commands that give no answers have none.
+    mapfile -t kinds < <("$POINTSPEC_PROGRAM" --help | awk '/^Commands:/ { on = 1; next } !NF { on = 0 } on { print $1 }')
+    sed '/^## /,$d' "$1" | sed '$d' # without the empty line before the first heading
+    for group in Columns Header Arrays; do
+        printf '\n## %s\n\n| name | of | |\n|---|---|---|\n' $group
+        for kind in "${kinds[@]}"; do
+            { "$POINTSPEC_PROGRAM" help "$kind" fields 2>/dev/null || true; } | awk -v kind="$kind" -v group="$group:" '
+                function flush() { if (name != "") print name "\t" kind "\t" text; name = text = "" }
+                /^[A-Z].*:$/ || /^$/ { flush(); inside = $0 == group; next }
+                inside && match($0, /[^ ]/) <= 20 { # a term, and what stands beside it
+                    flush()
+                    name = substr($0, 3)
+                    sub(/  .*/, "", name)
+                    text = substr($0, length(name) + 3)
+                    sub(/^ +/, "", text)
+                    next
+                }
+                inside { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0 }
+                END { flush() }'
+        done | awk -F '\t' '
+            !(($1, $3) in of) { row[++num] = $1 SUBSEP $3; of[$1, $3] = $2; next }
+            { of[$1, $3] = of[$1, $3] ", " $2 }
+            END {
+                for (i = 1; i <= num; i++) {
+                    split(row[i], part, SUBSEP)
+                    gsub(/\|/, "\\|", part[2])
+                    gsub(/</, "\\&lt;", part[2])
+                    print "| `" part[1] "` | " of[row[i]] " | " part[2] " |"
+                }
+            }'
+    done
+}
+[[ $2 != *.md ]] || { print_fields "$2" && exit; }
 
 awk '
 # A word of --help in roff: a hyphen stands between letters, all else is a minus sign.
@@ -54,7 +91,8 @@ function print_lists(arguments, name,   help, line, goes_on, title, term, text, 
         if (line ~ /^[A-Z].*:$/ && index(line, name) == 1) {
             title = line
             num++
-            if (name != "Options") print ".Pp\n" title
+            # These stand under a heading of the page.
+            if (name !~ /^(Options|Columns|Header|Arrays)$/) print ".Pp\n" title
             print ".Bl -tag -width Ds" (name == "Options" ? "" : " -compact")
         } else if (title != "" && goes_on) {
             text = text " " line
@@ -66,6 +104,8 @@ function print_lists(arguments, name,   help, line, goes_on, title, term, text, 
         }
     }
     close(help)
+    if (term != "") print_item(term, text, title)
+    if (title != "") print ".El" # the list was the last of the output
     if (num == 0) fail("no list " name " in the output of " arguments)
 }
 /^\.\\" end$/ { inside = 0 }

@@ -1,6 +1,7 @@
 /* What answers have, declared once: a row for every header entry, column and array that any answer
- * of a kind may have. pspec_fields_table is made of the rows, and a test
- * (tests/api/test_fields.c) finds what answers have and no row declares, and the reverse. */
+ * of a kind may have. pspec_fields_table, the manual pages and docs/user/fields.md are made of the
+ * rows, and a test (tests/api/test_fields.c) finds what answers have and no row declares, and the
+ * reverse. */
 #ifndef PS_ANSWERS_FIELD_H
 #define PS_ANSWERS_FIELD_H
 

@@ -78,6 +78,8 @@ int ps_exit_code(pspec_status status);
 /* --help: what the program does, and what one command does. */
 void ps_help_program(FILE *stream);
 void ps_help_command(FILE *stream, const ps_command *command);
+/* The columns, header entries and arrays of the answers that the command prints. */
+pspec_status ps_help_fields(FILE *stream, const ps_command *command, ps_error *error) PS_MUST_CHECK;
 
 /* A progress line on standard error, when that is a terminal and --quiet was not given: done, rate,
  * time left; updated at most ten times a second, erased at the end. total 0: unknown. what names

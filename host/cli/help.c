@@ -175,6 +175,55 @@ void ps_help_command(FILE *stream, const ps_command *command) {
     }
 }
 
+/* ---- fields ------------------------------------------------------------------------------ */
+
+typedef struct field_list {
+    FILE *stream;
+    ps_field_group group;
+    bool is_begun;
+} field_list;
+
+/* "points ...", whose key may come several times; its meaning, unit, and when it is there. */
+static pspec_status print_field(const ps_field_row *row, void *payload, ps_error *error) {
+    static const char *const titles[] = {
+        [PS_FIELD_ENTRY] = "Header", [PS_FIELD_COLUMN] = "Columns", [PS_FIELD_ARRAY] = "Arrays"};
+    field_list *const list = payload;
+    (void)error;
+    if (row->group != list->group) {
+        return PSPEC_OK;
+    }
+    if (!list->is_begun) {
+        fprintf(list->stream, "\n%s:\n", titles[row->group]);
+        list->is_begun = true;
+    }
+    char term[TEXT_BYTES];
+    char text[TEXT_BYTES];
+    snprintf(term, sizeof term, "%s%s", row->name, row->is_repeated ? " ..." : "");
+    snprintf(text, sizeof text, "%s%s%s%s%s%s", row->meaning, row->unit[0] != '\0' ? ", in " : "",
+             row->unit, row->when[0] != '\0' ? " (" : "", row->when,
+             row->when[0] != '\0' ? ")" : "");
+    print_item(list->stream, term, text);
+    return PSPEC_OK;
+}
+
+pspec_status ps_help_fields(FILE *stream, const ps_command *command, ps_error *error) {
+    static const ps_field_group order[] = {PS_FIELD_COLUMN, PS_FIELD_ENTRY, PS_FIELD_ARRAY};
+    if (command->result == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "fields are those of answers, and %s gives none: %sand no other command do",
+                       command->name, PS_KINDS_IN_SENTENCE);
+    }
+    fprintf(stream,
+            "What tables of pointspec %s have; keys of the header with ... may come\n"
+            "several times, as for several samplers.\n",
+            command->name);
+    for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
+        field_list list = {stream, order[i], false};
+        PS_TRY(ps_kind_visit_fields(command->result, print_field, &list, error));
+    }
+    return PSPEC_OK;
+}
+
 void ps_help_program(FILE *stream) {
     fputs("Usage: pointspec COMMAND [options] [FILE...]\n\n"
           "Power spectra of sampling patterns, with standard errors and error bounds.\n"
@@ -185,6 +234,7 @@ void ps_help_program(FILE *stream) {
     }
     fputs("\n"
           "pointspec COMMAND --help explains a command, its options and samplers.\n"
+          "pointspec help COMMAND fields explains the columns and the header of its tables.\n"
           "pointspec -V, --version prints the version.\n"
           "\n"
           "FILE may be - for standard input. Where an option is repeated the last one\n"

@@ -178,11 +178,16 @@ static int run_command(int num_words, char **words) {
                                 : report(command->name, status, &error);
 }
 
-static int run_help(const char *name) {
+/* name, topic: words that may be NULL. */
+static int run_help(const char *name, const char *topic) {
     ps_error error = {0};
     const ps_command *const command = name != NULL ? ps_command_find(name, &error) : NULL;
     if (name != NULL && command == NULL) {
         return report("help", error.status, &error);
+    }
+    if (topic != NULL && strcmp(topic, "fields") == 0) {
+        const pspec_status status = ps_help_fields(stdout, command, &error);
+        return status == PSPEC_OK ? finish_output() : report("help", status, &error);
     }
     if (command != NULL) {
         ps_help_command(stdout, command);
@@ -244,10 +249,10 @@ int main(int argc, char **argv) {
         return finish_output();
     }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
-        return run_help(NULL);
+        return run_help(NULL, NULL);
     }
     if (strcmp(first, "help") == 0) {
-        return run_help(argc > 2 ? argv[2] : NULL);
+        return run_help(argc > 2 ? argv[2] : NULL, argc > 3 ? argv[3] : NULL);
     }
     if (first[0] == '-') {
         return fail_program_option(first);

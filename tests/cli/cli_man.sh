@@ -30,6 +30,11 @@ for command in "${commands[@]}"; do
     page=$folder/pointspec-$command.1
     [[ -f $page ]] || { complain "$page is not there"; continue; }
     grep -qxF ".\\\" ./dev man: $command --help, Options" "$page" || complain "$page has no options made by ./dev man"
+    if "$program" help "$command" fields >"$scratch/fields" 2>&1; then
+        for list in Columns Header Arrays; do
+            ! grep -qx "$list:" "$scratch/fields" || grep -qxF ".\\\" ./dev man: help $command fields, $list" "$page" || complain "$page has no $list made by ./dev man"
+        done
+    fi
     missing=$("$program" "$command" --help | lacks_examples "$page")
     [[ -z $missing ]] || complain "$page lacks the example: $missing"
     # The tests run the two examples of --help, so a page must have no others.
@@ -52,4 +57,6 @@ for page in "$folder"/*.1; do
         [[ -z $said ]] || complain "$page: $said"
     fi
 done
+(cd "$root" && scripts/man_lists.sh "$program" docs/user/fields.md | diff -u docs/user/fields.md - >&2) ||
+    complain "docs/user/fields.md is not what ./dev man makes"
 exit $bad
