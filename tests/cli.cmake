@@ -47,6 +47,7 @@ add_program_test(cli_variance_rank)  # --rank: order, factors and their scores
 add_program_test(cli_variance_cutoff)  # --tail, what does not matter, shells, the formula of the paper
 add_program_test(cli_weights)   # weights at the ends of the range of doubles, sums that are 0
 add_program_test(cli_terminal)  # tables on a terminal, in files and in pipes
+add_program_test(cli_npz ${PROJECT_SOURCE_DIR}) # answers as NPZ, by NumPy where there is one
 add_program_test(cli_check)     # verdicts against saved spectra, exit codes, what is refused
 add_program_test(cli_homogeneous) # homogeneity of samplers, files and scenes
 add_program_test(cli_units)     # the number of compute units chooses nothing

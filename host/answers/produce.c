@@ -7,7 +7,7 @@
 
 const char *ps_kind_words(const ps_kind *kind, ps_option_id id) {
     if (id == PS_OPTION_FORMAT && kind->has_verdict) {
-        return "csv|json|jsonl|text"; /* verdicts are no numbers */
+        return "csv|json|npz|jsonl|text"; /* verdicts are no numbers */
     }
     return id == PS_OPTION_WEIGHTS && kind->weights != NULL ? kind->weights
                                                             : ps_options[id].metavar;
@@ -25,7 +25,7 @@ static pspec_status check(ps_table_format *format, const ps_kind *kind, const ps
     PS_TRY(ps_table_choose_format(format, request->format, request->output, error));
     if (kind->has_verdict && *format == PS_FORMAT_NPY) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "verdicts are no numbers: .csv and .json, not .npy");
+                       "verdicts are no numbers: .csv, .json and .npz, not .npy");
     }
     return PSPEC_OK;
 }

@@ -230,27 +230,28 @@ static size_t count_bytes(unsigned char first) {
                           : 0;
 }
 
-/* Neither the shortest form nor a half of a pair nor beyond Unicode nor one of its two last places
- * is a character. */
+/* Neither the shortest form nor a half of a pair nor beyond Unicode is a character. */
 static bool is_character(uint32_t code, size_t length) {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    return code >= least[length] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) &&
-           (code & 0xfffe) != 0xfffe;
+    return code >= least[length] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
 }
 
-size_t ps_text_character(const char *text) {
+size_t ps_text_decode(uint32_t *code, const char *text) {
     const unsigned char first = (unsigned char)text[0];
     const size_t length = count_bytes(first);
-    if (length <= 1) {
-        return length == 1 && first >= ' ' && first != 0x7f ? 1 : 0;
-    }
-    uint32_t code = first & (0xffU >> (length + 1));
+    *code = length > 1 ? first & (0xffU >> (length + 1)) : first;
     for (size_t i = 1; i < length; i++) {
         if (((unsigned char)text[i] & 0xc0U) != 0x80) {
             return 0;
         }
-        code = code << 6 | ((unsigned char)text[i] & 0x3fU);
+        *code = *code << 6 | ((unsigned char)text[i] & 0x3fU);
     }
-    const uint32_t last_control = 0x9f;
-    return is_character(code, length) && code > last_control ? length : 0;
+    return is_character(*code, length) ? length : 0;
+}
+
+size_t ps_text_character(const char *text) {
+    uint32_t code = 0;
+    const size_t length = ps_text_decode(&code, text);
+    const bool is_control = code < ' ' || (code >= 0x7f && code <= 0x9f);
+    return is_control || (code & 0xfffe) == 0xfffe ? 0 : length; /* the two last of a plane */
 }

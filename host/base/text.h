@@ -25,8 +25,11 @@ void ps_text_free(ps_text *text);
 /* PSPEC_ERROR_MEMORY when an append ran out of memory. */
 pspec_status ps_text_check(const ps_text *text, ps_error *error) PS_MUST_CHECK;
 
-/* Bytes of the character of UTF-8 that text begins with; 0: it begins with none that texts for
- * people, XML among them, may have. The end of a text is no character. */
+/* Bytes of the character of UTF-8 that text begins with, and its code; 0: it begins with none (RFC
+ * 3629). The end of a text is a byte of code 0. */
+size_t ps_text_decode(uint32_t *code, const char *text);
+/* The same for those alone that texts for people, XML among them, may have. The end of a text is no
+ * such character. */
 size_t ps_text_character(const char *text);
 #define PS_TEXT_UNKNOWN "\xef\xbf\xbd" /* U+FFFD, which stands for what is none */
 

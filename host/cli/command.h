@@ -29,7 +29,7 @@ typedef struct ps_command {
     ps_verb_set takes;       /* whose options: the command's bit in their table */
     const char *examples[2]; /* complete command lines, run by the tests */
     /* Words of --format, the default first, and of --weights, where neither result nor verb says
-     * so; NULL: csv|json|npy|jsonl|text, equal|column|FILE. */
+     * so; NULL: csv|json|npy|npz|jsonl|text, equal|column|FILE. */
     const char *formats, *weights;
     bool makes_folder; /* which --output names: it has no default */
     ps_domain samples; /* which samplers it takes, where no result says so, for --help */

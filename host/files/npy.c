@@ -271,28 +271,33 @@ pspec_status ps_npy_check_end(ps_input *input, ps_error *error) {
 
 /* ---- writing ---- */
 
-/* element: "f8" or "c16". */
-static void write_header(FILE *stream, const char *element, unsigned rank, const size_t *shape) {
-    enum { MAX_TEXT = 320, BEFORE_TEXT = MAGIC_BYTES + 4 }; /* 8 extents of 20 digits, and words */
-    char text[MAX_TEXT];
+size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, unsigned rank,
+                          const size_t *shape) {
+    enum { BEFORE_TEXT = MAGIC_BYTES + 4, MOST_TEXT = PS_NPY_HEADER_BYTES - BEFORE_TEXT };
+    char *const text = out + BEFORE_TEXT;
     size_t length =
-        (size_t)snprintf(text, sizeof text, "{'descr': '%c%s', 'fortran_order': False, 'shape': (",
+        (size_t)snprintf(text, MOST_TEXT, "{'descr': '%c%s', 'fortran_order': False, 'shape': (",
                          ps_host_is_big_endian() ? '>' : '<', element);
     for (unsigned axis = 0; axis < rank; axis++) {
-        length += (size_t)snprintf(text + length, sizeof text - length,
+        length += (size_t)snprintf(text + length, MOST_TEXT - length,
                                    axis + 1 == rank && rank > 1 ? "%zu" : "%zu,%s", shape[axis],
                                    axis + 1 == rank ? "" : " ");
     }
-    length += (size_t)snprintf(text + length, sizeof text - length, "), }");
+    length += (size_t)snprintf(text + length, MOST_TEXT - length, "), }");
     while ((BEFORE_TEXT + length + 1) % HEADER_ALIGNMENT != 0) {
         text[length++] = ' ';
     }
     text[length++] = '\n';
-    const unsigned char start[] = {1, 0, (unsigned char)(length & 0xff),
-                                   (unsigned char)(length >> 8)};
-    fwrite(magic, 1, MAGIC_BYTES, stream);
-    fwrite(start, 1, sizeof start, stream);
-    fwrite(text, 1, length, stream);
+    memcpy(out, magic, MAGIC_BYTES);
+    memcpy(out + MAGIC_BYTES, (const char[]){1, 0}, 2);
+    out[MAGIC_BYTES + 2] = (char)(length & 0xff);
+    out[MAGIC_BYTES + 3] = (char)(length >> 8);
+    return BEFORE_TEXT + length;
+}
+
+static void write_header(FILE *stream, const char *element, unsigned rank, const size_t *shape) {
+    char header[PS_NPY_HEADER_BYTES];
+    fwrite(header, 1, ps_npy_make_header(header, element, rank, shape), stream);
 }
 
 void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {

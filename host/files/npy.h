@@ -33,6 +33,11 @@ pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, 
 /* After the last element: the input must end here (a pipe does not tell its size in advance). */
 pspec_status ps_npy_check_end(ps_input *input, ps_error *error) PS_MUST_CHECK;
 
+/* Makes the header of an array in C order and in the byte order of this machine; element: "f8",
+ * "c16", or what else NumPy calls so. Returns how many bytes it has. */
+enum { PS_NPY_HEADER_BYTES = 384 }; /* 8 extents of 20 digits, words, and blanks up to 64 bytes */
+size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, unsigned rank,
+                          const size_t *shape);
 /* Writes the header of a float64 array in C order and in the byte order of this machine, so that
  * the elements follow by fwrite. Write errors show at commit. */
 void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape);

@@ -192,11 +192,9 @@ ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key) {
 
 /* ---- choosing ---- */
 
-static const char *const format_names[] = {[PS_FORMAT_CSV] = "csv",
-                                           [PS_FORMAT_JSON] = "json",
-                                           [PS_FORMAT_NPY] = "npy",
-                                           [PS_FORMAT_JSONL] = "jsonl",
-                                           [PS_FORMAT_TEXT] = "text"};
+static const char *const format_names[] = {
+    [PS_FORMAT_CSV] = "csv",     [PS_FORMAT_JSON] = "json", [PS_FORMAT_NPY] = "npy",
+    [PS_FORMAT_JSONL] = "jsonl", [PS_FORMAT_TEXT] = "text", [PS_FORMAT_NPZ] = "npz"};
 enum { NUM_FORMATS = sizeof format_names / sizeof format_names[0] };
 
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
@@ -213,16 +211,15 @@ pspec_status ps_table_choose_format(ps_table_format *out, const char *name, cons
     }
     if (name != NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "format \"%s\" is not known; there are csv, json, jsonl, npy and text",
+                       "format \"%s\" is not known; there are csv, json, jsonl, npy, npz and text",
                        name);
     }
     return ending[0] == '\0' ||
                    strcasecmp(ending, ".gz") == 0 /* refused with a reason of its own */
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "\"%s\": the ending %s is none of .csv, .json, .jsonl and .npy, by which "
-                         "the format "
-                         "is chosen; with --format the name is free",
+                         "\"%s\": the ending %s is none of .csv, .json, .jsonl, .npy and .npz, by "
+                         "which the format is chosen; with --format the name is free",
                          path, ending);
 }
 
@@ -233,16 +230,13 @@ static pspec_status to_numbers(const ps_table *table, double **out, ps_error *er
     for (size_t i = 0; i < num_cells; i++) {
         if (table->cells[i].kind == PS_CELL_TEXT) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "column \"%s\" holds text, which NPY cannot; use CSV or JSON",
+                           "column \"%s\" holds text, which NPY cannot; use NPZ, CSV or JSON",
                            table->columns[i % table->num_columns]);
         }
     }
     PS_TRY(PS_NEW(out, num_cells, "table", error));
     for (size_t i = 0; i < num_cells; i++) {
-        const ps_cell *const cell = &table->cells[i];
-        (*out)[i] = cell->kind == PS_CELL_NUMBER    ? cell->number
-                    : cell->kind == PS_CELL_INTEGER ? (double)cell->integer
-                                                    : (double)NAN;
+        (*out)[i] = ps_cell_number(table->cells[i]);
     }
     return PSPEC_OK;
 }
@@ -293,6 +287,9 @@ pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_fo
                             ps_error *error) {
     if (format == PS_FORMAT_NPY) {
         return write_npy(table, path, error);
+    }
+    if (format == PS_FORMAT_NPZ) {
+        return ps_table_write_npz(table, path, error);
     }
     ps_output_file *file = NULL;
     pspec_status status = PSPEC_OK;

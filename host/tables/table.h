@@ -1,17 +1,21 @@
-/* Result tables: header lines, named columns, rows; written as CSV, JSON, JSON lines, NPY or text.
+/* Result tables: header lines, named columns, rows; written as CSV, JSON, JSON lines, NPY, NPZ or
+ * text.
  *
  * CSV: "# key: value" header lines, one line of column names, one line per row, shortest digits; a
  * missing number is an empty field. JSON: {"schema": 2, "command", "meta", "columns", "rows"}, each
  * row an object by the names of the columns, each value of "meta" the array of all that its key
  * has; missing is null. JSON lines: a line with all but the rows, then a line for each row. NPY:
  * float64 [rows][columns], missing is nan, and a JSON file of the same name (out.npy: out.json)
- * holds the rest. A number that is nan counts as missing. JSON has no infinities: null. Text is for
+ * holds the rest. NPZ: each column a vector by its name, int64 where all of its cells are integers,
+ * text where one of them is, else float64 with nan for what is missing; and what that JSON file
+ * has, as the array "meta". A number that is nan counts as missing. JSON has no infinities: null. Text is for
  * people (table_text.c): few digits, units for seconds and bytes.
  */
 #ifndef PS_TABLES_TABLE_H
 #define PS_TABLES_TABLE_H
 
 #include "base/status.h"
+#include "files/packed/npz.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -47,7 +51,8 @@ typedef enum ps_table_format {
     PS_FORMAT_JSON,
     PS_FORMAT_NPY,
     PS_FORMAT_JSONL,
-    PS_FORMAT_TEXT
+    PS_FORMAT_TEXT,
+    PS_FORMAT_NPZ
 } ps_table_format;
 
 /* The names of the columns are copied. */
@@ -79,14 +84,18 @@ typedef struct ps_text_view {
     const char *rest; /* what shows the other lines, for a last line that counts them */
 } ps_text_view;
 void ps_table_set_view(ps_table *table, const ps_text_view *view);
-/* Format by its name (csv, json, jsonl, npy, text) or, with name NULL, by the ending of path (none:
- * CSV). Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
+/* Format by its name (csv, json, jsonl, npy, npz, text) or, with name NULL, by the ending of path
+ * (none: CSV). Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 /* Writes to path, "-" for standard output (NPY to standard output is refused: it needs two files).
  * NPY of a table with text columns is refused, with the column named. */
 pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_format format,
                             ps_error *error) PS_MUST_CHECK;
+/* The table as arrays of an NPZ file that may have others, none of the name of a column; the header
+ * is called so. */
+#define PS_TABLE_META "meta"
+pspec_status ps_table_add_to_npz(const ps_table *table, ps_npz *npz, ps_error *error) PS_MUST_CHECK;
 
 /* ---- reading: texts stay as long as the table does; indices must be below the numbers -------- */
 

@@ -56,6 +56,12 @@ bool ps_cell_show_unit(char out[PS_CELL_BYTES], const char *name, double value) 
 
 /* ---- cells ------------------------------------------------------------------------------- */
 
+double ps_cell_number(ps_cell cell) {
+    return cell.kind == PS_CELL_NUMBER    ? cell.number
+           : cell.kind == PS_CELL_INTEGER ? (double)cell.integer
+                                          : NAN;
+}
+
 const char *ps_cell_show(char out[PS_CELL_BYTES], const char *name, const ps_cell *cell,
                          int digits) {
     switch (cell->kind) {

@@ -15,12 +15,6 @@ ps_cell ps_table_find_meta(const ps_table *table, const char *key) {
     return PS_MISSING;
 }
 
-double ps_cell_number(ps_cell cell) {
-    return cell.kind == PS_CELL_NUMBER    ? cell.number
-           : cell.kind == PS_CELL_INTEGER ? (double)cell.integer
-                                          : NAN;
-}
-
 void ps_table_read_column(const ps_table *table, const char *name, double *out) {
     size_t column = 0;
     const bool is_there = ps_table_find_column(table, name, &column);

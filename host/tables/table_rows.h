@@ -42,5 +42,7 @@ pspec_status ps_table_write_columns(const ps_table *table, FILE *stream,
                                     ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
                                  ps_error *error) PS_MUST_CHECK;
+pspec_status ps_table_write_npz(const ps_table *table, const char *path,
+                                ps_error *error) PS_MUST_CHECK;
 
 #endif

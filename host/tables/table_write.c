@@ -1,5 +1,6 @@
 /* Tables as CSV (RFC 4180, after "# key: value" lines), as JSON (RFC 8259), one row per line, and as
  * JSON lines. */
+#include "base/text.h"
 #include "files/decimal.h"
 #include "tables/table_rows.h"
 
@@ -94,33 +95,15 @@ void ps_table_write_csv(const ps_table *table, FILE *stream) {
 
 /* ---- JSON ---- */
 
-/* Length of the UTF-8 character at text, 0 when it is none (RFC 3629, overlong forms included). */
-static size_t utf8_length(const char *text) {
-    const unsigned char *const b = (const unsigned char *)text;
-    const size_t length = b[0] < 0x80   ? 1
-                          : b[0] < 0xC2 ? 0
-                          : b[0] < 0xE0 ? 2
-                          : b[0] < 0xF0 ? 3
-                          : b[0] < 0xF5 ? 4
-                                        : 0;
-    for (size_t i = 1; i < length; i++) {
-        if ((b[i] & 0xC0) != 0x80) {
-            return 0;
-        }
-    }
-    const bool is_overlong = (b[0] == 0xE0 && b[1] < 0xA0) || (b[0] == 0xF0 && b[1] < 0x90);
-    const bool is_no_character = (b[0] == 0xED && b[1] >= 0xA0) || (b[0] == 0xF4 && b[1] >= 0x90);
-    return is_overlong || is_no_character ? 0 : length;
-}
-
 /* File names may hold any bytes, JSON only UTF-8: others become U+FFFD. NULL without memory. */
 static char *to_utf8(const char *text) {
-    static const char replacement[] = "\xEF\xBF\xBD";
+    static const char replacement[] = PS_TEXT_UNKNOWN;
     enum { REPLACEMENT_BYTES = sizeof replacement - 1 };
+    uint32_t code = 0;
     char *const copy = malloc(strlen(text) * REPLACEMENT_BYTES + 1);
     char *out = copy;
     while (copy != NULL && *text != '\0') {
-        const size_t length = utf8_length(text);
+        const size_t length = ps_text_decode(&code, text);
         memcpy(out, length > 0 ? text : replacement, length > 0 ? length : REPLACEMENT_BYTES);
         out += length > 0 ? length : REPLACEMENT_BYTES;
         text += length > 0 ? length : 1;

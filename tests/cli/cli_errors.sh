@@ -73,7 +73,7 @@ refuses 2 '-n needs a value' sample --sampler white -n
 refuses 2 'but the option --seed follows' sample -o --seed 1
 refuses 2 '--wrap takes no value' power --wrap=yes
 # An output whose ending no format has, before anything is computed; --format makes the name free.
-none='the ending .foo is none of .csv, .json, .jsonl and .npy'
+none='the ending .foo is none of .csv, .json, .jsonl, .npy and .npz'
 for command in 'power --sampler white -n 1e9 -k 4' 'angular --sampler fibonacci -n 1e9 -l 4' 'truncation --brdf diffuse' devices \
     'plan power --sampler white -n 16 -k 4' 'bench --quick'; do
     read -r -a words <<<"$command"

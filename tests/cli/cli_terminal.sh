@@ -84,7 +84,7 @@ on_terminal devices >shown
 "$program" power --sampler white -n 16 -k 2 --engine host_direct --format text >one.txt
 [[ $(tail -1 one.txt | awk '{ print $6 }') == - ]] || complain "a missing number is not shown: $(tail -1 one.txt)"
 runs 2 "${words[@]:1}" -o out.txt
-says 'none of .csv, .json, .jsonl and .npy'
+says 'none of .csv, .json, .jsonl, .npy and .npz'
 runs 0 "${words[@]:1}" --format text -o out.txt
 cmp -s <(grep -v '^command' out.txt) <(grep -v '^command' piped.txt) || complain "--format text into a file differs"
 finish

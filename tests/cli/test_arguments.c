@@ -221,9 +221,10 @@ static void words_are_checked(void **state) {
     static const bad_line bad[] = {
         {"--precision half", "--precision: \"half\" is not one of auto, single, double, extended"},
         {"--normalize Power", "--normalize: \"Power\" is not one of power, effective, integral"},
-        {"--format cs", "--format: \"cs\" is not one of csv, json, npy, jsonl, text"},
-        {"--format csv|json", "--format: \"csv|json\" is not one of csv, json, npy, jsonl, text"},
-        {"--format=", "--format: \"\" is not one of csv, json, npy, jsonl, text"},
+        {"--format cs", "--format: \"cs\" is not one of csv, json, npy, npz, jsonl, text"},
+        {"--format csv|json",
+         "--format: \"csv|json\" is not one of csv, json, npy, npz, jsonl, text"},
+        {"--format=", "--format: \"\" is not one of csv, json, npy, npz, jsonl, text"},
         {"--input-format exr",
          "--input-format: \"exr\" is not one of utk-text, csv, psa-text, gbn, "
          "edat, eps, utk-binary, rps, npy, openquad, utk1, lammps, xyz, ply, obj"},

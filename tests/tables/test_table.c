@@ -1,4 +1,6 @@
-/* Result tables in their three formats. */
+/* Result tables in their formats. */
+#include "base/text.h"
+#include "files/input_file.h"
 #include "tables/table.h"
 #include "test_folder.h"
 
@@ -122,6 +124,79 @@ static void writes_json_lines(void **state) {
     ps_table_destroy(table);
 }
 
+/* The bytes of an array of an NPZ file behind its header, which has `words`. */
+static void read_member(void *out, size_t num_bytes, void **state, const char *name,
+                        const char *words) {
+    char path[TEST_PATH_BYTES];
+    char header[129] = "";
+    size_t num = 0;
+    ps_input input = {0};
+    ps_error error = {0};
+    assert_int_equal(ps_input_open_array(&input, test_path(*state, "t.npz", path), name, &error),
+                     PSPEC_OK);
+    assert_int_equal(ps_input_read(&input, header, sizeof header - 1, &num, &error), PSPEC_OK);
+    if (strstr(header + 10, words) == NULL) {
+        fail_msg("%s is not %s: %s", name, words, header + 10);
+    }
+    assert_int_equal(ps_input_read(&input, out, num_bytes, &num, &error), PSPEC_OK);
+    assert_int_equal(num, num_bytes);
+    assert_int_equal(ps_input_read(&input, header, 1, &num, &error), PSPEC_OK);
+    assert_int_equal(num, 0);
+    ps_input_close(&input);
+}
+
+/* Columns to the bit: integers, numbers where one is missing, texts with what stands beside them;
+ * and the header, as the file beside NPY has it. */
+static void writes_npz(void **state) {
+    enum { NUM_ROWS = 3, NUM_KINDS = 4, MOST_META = 1000, WIDTH = 19 };
+    static const char *const names[NUM_KINDS] = {"whole", "some", "number", "text"};
+    const ps_cell rows[NUM_ROWS][NUM_KINDS] = {
+        {PS_INTEGER(INT64_MIN), PS_INTEGER(7), PS_NUMBER(-(double)INFINITY),
+         PS_TEXT("\xc3\xa9\xf0\x9f\x98\x80\xff")},
+        {PS_INTEGER(INT64_MAX), PS_MISSING, PS_NUMBER(1.0 / 3), PS_INTEGER(INT64_MAX)},
+        {PS_INTEGER(0), PS_NUMBER(0.5), PS_NUMBER((double)NAN), PS_MISSING}};
+    ps_table *table = NULL;
+    ps_error error = {0};
+    assert_int_equal(ps_table_create(&table, "power", names, NUM_KINDS, &error), PSPEC_OK);
+    assert_int_equal(ps_table_add_meta(table, "file", PS_TEXT("\xc3\xa9\xff"), &error), PSPEC_OK);
+    for (size_t i = 0; i < NUM_ROWS; i++) {
+        assert_int_equal(ps_table_add_row(table, rows[i], &error), PSPEC_OK);
+    }
+    free(write_table(state, table, "t.npz", PS_FORMAT_NPZ));
+    int64_t whole[NUM_ROWS];
+    double number[NUM_ROWS];
+    uint32_t text[NUM_ROWS][WIDTH];
+    read_member(whole, sizeof whole, state, "whole", "i8', 'fortran_order': False, 'shape': (3,)");
+    assert_true(whole[0] == INT64_MIN && whole[1] == INT64_MAX && whole[2] == 0);
+    read_member(number, sizeof number, state, "some", "f8', 'fortran_order': False, 'shape': (3,)");
+    assert_true(number[0] == 7 && isnan(number[1]) && number[2] == 0.5);
+    read_member(number, sizeof number, state, "number", "f8'");
+    assert_true(number[0] == -(double)INFINITY && number[1] == 1.0 / 3 && isnan(number[2]));
+    read_member(text, sizeof text, state, "text", "U19', 'fortran_order': False, 'shape': (3,)");
+    assert_true(text[0][0] == 0xe9 && text[0][1] == 0x1f600 && text[0][2] == 0xfffd &&
+                text[0][3] == 0 && text[2][0] == 0);
+    for (size_t i = 0; i < WIDTH; i++) {
+        assert_int_equal(text[1][i], "9223372036854775807"[i]);
+    }
+    char *const array = write_table(state, table, "t.json", PS_FORMAT_JSON);
+    char *const before_rows = strstr(array, ",\n  \"rows\"");
+    const char *at = array;
+    uint32_t meta[MOST_META] = {0};
+    char words[64];
+    memcpy(before_rows, "\n}\n", sizeof "\n}\n");
+    const size_t num = strlen(array) - 3; /* two characters have more than one byte */
+    snprintf(words, sizeof words, "U%zu', 'fortran_order': False, 'shape': ()", num);
+    read_member(meta, num * sizeof *meta, state, "meta", words);
+    for (size_t i = 0; i < num; i++) {
+        uint32_t code = 0;
+        at += ps_text_decode(&code, at);
+        assert_int_equal(meta[i], code);
+    }
+    assert_int_equal(*at, '\0');
+    free(array);
+    ps_table_destroy(table);
+}
+
 static void json_is_utf8_whatever_the_names_are(void **state) {
     ps_table *table = NULL;
     ps_error error = {0};
@@ -207,6 +282,7 @@ static void chooses_formats(void **state) {
         ps_table_format format;
     } cases[] = {{NULL, "a.csv", PS_FORMAT_CSV},    {NULL, "a.json", PS_FORMAT_JSON},
                  {NULL, "b.NPY", PS_FORMAT_NPY},    {"csv", "a.txt", PS_FORMAT_CSV},
+                 {NULL, "b.NPZ", PS_FORMAT_NPZ},    {"npz", "a.txt", PS_FORMAT_NPZ},
                  {NULL, "a", PS_FORMAT_CSV},        {NULL, "a.json/b", PS_FORMAT_CSV},
                  {NULL, "a/.json", PS_FORMAT_CSV},  {NULL, "a.", PS_FORMAT_CSV},
                  {NULL, "-", PS_FORMAT_CSV},        {NULL, NULL, PS_FORMAT_CSV},
@@ -240,6 +316,7 @@ static void reports_a_full_disk(void **state) {
     assert_int_equal(ps_table_write(table, "/dev/full", PS_FORMAT_CSV, &error), PSPEC_ERROR_IO);
     assert_string_equal(error.message, "cannot write /dev/full: No space left on device");
     assert_int_equal(ps_table_write(table, "/dev/full", PS_FORMAT_JSON, &error), PSPEC_ERROR_IO);
+    assert_int_equal(ps_table_write(table, "/dev/full", PS_FORMAT_NPZ, &error), PSPEC_ERROR_IO);
     ps_table_destroy(table);
 }
 
@@ -250,6 +327,7 @@ int main(void) {
         IN_FOLDER(writes_csv),
         IN_FOLDER(writes_json),
         IN_FOLDER(writes_json_lines),
+        IN_FOLDER(writes_npz),
         IN_FOLDER(json_is_utf8_whatever_the_names_are),
         IN_FOLDER(numbers_survive_the_round_trip),
         IN_FOLDER(writes_npy_and_names),

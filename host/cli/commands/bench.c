@@ -326,7 +326,7 @@ const ps_command ps_command_bench = {
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
         "run takes about three minutes.",
     .takes = PS_VERB_BIT(bench),
-    .formats = "csv|json|jsonl",
+    .formats = "csv|json|npz|jsonl",
     .examples = {"pointspec bench --case plane-many --precision single --quick -o bench.csv --plot "
                  "bench.svg",
                  "pointspec bench --case pairs --engine pairs_direct --precision single --quick "

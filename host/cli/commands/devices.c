@@ -39,7 +39,7 @@ const ps_command ps_command_devices = {
         "the "
         "device, and its peaks per second: see pointspec bench --calibrate.",
     .takes = PS_VERB_BIT(devices),
-    .formats = "csv|json|jsonl|text",
+    .formats = "csv|json|npz|jsonl|text",
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
     .run = run,
 };

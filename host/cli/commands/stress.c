@@ -145,7 +145,7 @@ const ps_command ps_command_stress = {
         "error formula. Exits with 3 when one fails: then the device or its driver computes "
         "wrongly.",
     .takes = PS_VERB_BIT(stress),
-    .formats = "csv|json|jsonl",
+    .formats = "csv|json|npz|jsonl",
     .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
                  "pointspec stress --case frequencies-1e6 --format json"},
     .run = run,

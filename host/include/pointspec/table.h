@@ -68,8 +68,9 @@ PSPEC_EXPORT pspec_cell pspec_table_find_entry(const pspec_table *table, const c
 PSPEC_EXPORT const char *pspec_table_verdict(const pspec_table *table);
 
 /** Writes the table to a file that appears when it is complete, byte for byte as the program does.
- * format: "csv", "json", "jsonl", "npy", "text", or NULL: by the ending of path, else csv. NPY is float64
- * [rows][columns], with a JSON file of names and header beside it. The context is for the sentence
+ * format: "csv", "json", "jsonl", "npy", "npz", "text", or NULL: by the ending of path, else csv. NPY is float64
+ * [rows][columns], with a JSON file of names and header beside it; NPZ has an array for each column
+ * and that JSON text as the array "meta". The context is for the sentence
  * of an error: #PSPEC_ERROR_INVALID_ARGUMENT where there is no such format, for "-" (the library
  * writes no standard output), and for NPY of a table with words; #PSPEC_ERROR_IO where the file
  * cannot be written. */

@@ -1,0 +1,40 @@
+/* NPZ: arrays by their names in one file, as numpy.savez writes them: a zip archive of NPY files.
+ *
+ * Members are stored as they are, one after the other in the order in which they were added, with
+ * the date 1980-01-01: equal arrays make equal bytes. Nothing is written twice, so the file may be
+ * a pipe. Sizes and places from 4 GiB on stand in fields of ZIP64. */
+#ifndef PS_FILES_PACKED_NPZ_H
+#define PS_FILES_PACKED_NPZ_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct ps_npz_array {
+    const char *name; /* ASCII; no other array of the file has it */
+    char kind;        /* f: double; i: int64_t; c: two doubles; U: text, of UTF-32 */
+    size_t element_bytes;
+    unsigned rank; /* at most PS_NPY_MAX_RANK; 0: one element */
+    const size_t *shape;
+    const void
+        *data; /* not NULL, in C order; texts that are shorter than their elements end in zeros */
+} ps_npz_array;
+
+typedef struct ps_npz ps_npz;
+
+/* What does not fit into a field of 32 bits: the limit for all but tests. */
+#define PS_NPZ_LIMIT ((uint64_t)UINT32_MAX)
+
+/* Opens path as ps_output_open does. Sizes and places from `limit` on are written as ZIP64. */
+pspec_status ps_npz_open(ps_npz **out, const char *path, uint64_t limit,
+                         ps_error *error) PS_MUST_CHECK;
+/* Writes the array; nothing of it is kept. */
+pspec_status ps_npz_add(ps_npz *npz, const ps_npz_array *array, ps_error *error) PS_MUST_CHECK;
+/* Writes the directory and gives the file its name. The handle is freed in every case and *npz set
+ * to NULL. */
+pspec_status ps_npz_commit(ps_npz **npz, ps_error *error) PS_MUST_CHECK;
+/* A NULL handle is allowed. */
+void ps_npz_discard(ps_npz **npz);
+
+#endif
