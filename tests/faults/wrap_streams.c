@@ -26,7 +26,17 @@ static const char *name_of_close(FILE *stream) {
                                                        : "fclose";
 }
 
+/* The text is the stream's until it is closed, and then freed by who has it. One is open at a time,
+ * and no write to it is one to a file: what it lacks is memory, as open_memstream may. */
+static struct {
+    FILE *stream;
+    char **text;
+} in_memory;
+
 static bool fails(FILE *stream, const char *name, int reason) {
+    if (stream != NULL && stream == in_memory.stream) {
+        return false;
+    }
     /* Without standard error a failure could not be told. */
     const bool is_due = stream == stderr ? fault_is_due_alone(FAULT_FILE, "standard-error")
                                          : fault_is_due(FAULT_FILE, name);
@@ -56,10 +66,25 @@ WRAPPER(fdopen, FILE *, (int descriptor, const char *mode)) {
     return stream;
 }
 
+WRAPPER(open_memstream, FILE *, (char **text, size_t *num_bytes)) {
+    in_memory.stream = fault_is_due(FAULT_MEMORY, "open_memstream")
+                           ? NULL
+                           : __real_open_memstream(text, num_bytes);
+    in_memory.text = text;
+    if (in_memory.stream != NULL) {
+        fault_gain(in_memory.stream, "open_memstream");
+    }
+    return in_memory.stream;
+}
+
 WRAPPER(fclose, int, (FILE * stream)) {
-    const bool is_due = fails(NULL, name_of_close(stream), EIO);
+    const bool is_due = stream != in_memory.stream && fails(NULL, name_of_close(stream), EIO);
     fault_lose(stream);
     const int status = __real_fclose(stream);
+    if (stream == in_memory.stream) {
+        in_memory.stream = NULL;
+        fault_gain(*in_memory.text, "open_memstream");
+    }
     if (is_due) {
         errno = EIO;
     }
