@@ -9,7 +9,7 @@ import numpy as np
 
 answer = np.load(sys.argv[1])
 header = json.loads(str(answer["meta"]))
-print(header["meta"]["command"][0], "has", ", ".join(answer.files))
+print(header["meta"]["command"], "has", ", ".join(answer.files))
 if "power" in answer:
     largest = np.argmax(answer["power"])
     print("largest power", answer["power"][largest], "+-", answer["standard_error"][largest], "in row", largest)

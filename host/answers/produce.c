@@ -32,6 +32,14 @@ static pspec_status check(ps_table_format *format, const ps_kind *kind, const ps
 
 /* ---- after ------------------------------------------------------------------------------- */
 
+static pspec_status mark_repeated(const ps_field_row *row, void *table, ps_error *error) {
+    (void)error;
+    if (row->group == PS_FIELD_ENTRY && row->is_repeated) {
+        ps_table_set_repeated(table, row->name);
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void *computed,
                                 const ps_request *request, ps_table_format format,
                                 const ps_answer_hooks *hooks, ps_error *error) {
@@ -39,6 +47,7 @@ static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void 
         PS_TRY(kind->write_others(computed, request, error));
     }
     PS_TRY(kind->tabulate(out, computed, request, error));
+    PS_TRY(ps_kind_visit_fields(kind, mark_repeated, out->table, error));
     if (request->output != NULL) {
         ps_table_set_view(out->table, &request->view);
         PS_TRY(ps_table_write(out->table, request->output, format, error));

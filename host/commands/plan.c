@@ -16,9 +16,16 @@ static pspec_status fill(ps_planner *planner, const ps_verb *verb, const ps_requ
     PS_TRY(ps_table_add_meta(table, "seconds", PS_MISSING, error));
     PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
+    const size_t num_single = ps_table_num_meta(table);
     PS_TRY(verb->kind != NULL ? verb->kind->plan(planner, request, error)
                               : verb->plan(planner, request, hooks, error));
-    return ps_plan_table_end(planner, error);
+    PS_TRY(ps_plan_table_end(planner, error));
+    for (size_t i = num_single; i < ps_table_num_meta(table); i++) { /* of every question */
+        const char *key = NULL;
+        ps_table_meta(table, i, &key);
+        ps_table_set_repeated(table, key);
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_verb_plan(ps_table **out, const ps_verb *verb, const ps_request *request,

@@ -57,19 +57,22 @@ static pspec_status read_beside(header *out, const char *path, ps_error *error) 
     return status == PSPEC_ERROR_INPUT ? PSPEC_OK : status; /* such as an empty file */
 }
 
-/* The first value of a key of CSV, "# key: value", or of JSON, "key": ["value", ..]. */
+/* The first value of a key of CSV, "# key: value", or of the header in JSON, "key": "value", "key":
+ * ["value", ..]. */
 static bool find_value(const header *self, const char *key, char value[VALUE_BYTES]) {
     char of_csv[VALUE_BYTES];
     char of_json[VALUE_BYTES];
     snprintf(of_csv, sizeof of_csv, "# %s: ", key);
-    snprintf(of_json, sizeof of_json, "\"%s\": [", key);
+    snprintf(of_json, sizeof of_json, "\"%s\": ", key);
+    const char *const meta = strstr(self->text, "\"meta\": ");
     const char *at = strstr(self->text, of_csv);
     const char *end = "\n";
     if (at != NULL) {
         at += strlen(of_csv);
-    } else if ((at = strstr(self->text, of_json)) != NULL) {
+    } else if (meta != NULL && (at = strstr(meta, of_json)) != NULL) {
         at += strlen(of_json);
-        end = *at == '"' ? "\"" : ",]";
+        at += *at == '[' ? 1 : 0;
+        end = *at == '"' ? "\"" : ",]}\n";
         at += *at == '"' ? 1 : 0;
     }
     const size_t length = at != NULL ? strcspn(at, end) : 0;

@@ -81,6 +81,12 @@ pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value, 
     return PSPEC_OK;
 }
 
+void ps_table_set_repeated(ps_table *table, const char *key) {
+    for (size_t i = 0; i < table->num_meta; i++) {
+        table->meta[i].is_repeated |= strcmp(table->meta[i].key, key) == 0;
+    }
+}
+
 pspec_status ps_table_set_meta(ps_table *table, const char *key, ps_cell value, ps_error *error) {
     ps_cell copy;
     size_t i = 0;

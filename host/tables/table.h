@@ -2,7 +2,7 @@
  * text.
  *
  * CSV: "# key: value" header lines, one line of column names, one line per row, shortest digits; a
- * missing number is an empty field. JSON: {"schema": 2, "command", "meta", "columns", "rows"}, each
+ * missing number is an empty field. JSON: {"schema": 3, "command", "meta", "columns", "rows"}, each
  * row an object by the names of the columns, each value of "meta" the array of all that its key
  * has; missing is null. JSON lines: a line with all but the rows, then a line for each row. NPY:
  * float64 [rows][columns], missing is nan, and a JSON file of the same name (out.npy: out.json)
@@ -42,7 +42,7 @@ typedef struct ps_cell {
 
 /* Of tables in files, in headers as `schema`. 1: rows were arrays, and single values of "meta"
  * none. */
-enum { PS_TABLE_SCHEMA = 2 };
+enum { PS_TABLE_SCHEMA = 3 };
 
 typedef struct ps_table ps_table;
 
@@ -62,6 +62,9 @@ pspec_status ps_table_create(ps_table **out, const char *command, const char *co
  * array). A value of kind missing is written as an empty value / null. */
 pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value,
                                ps_error *error) PS_MUST_CHECK;
+/* In JSON, where the key of a single value may come several times: all values of it are an array,
+ * however many there are. */
+void ps_table_set_repeated(ps_table *table, const char *key);
 /* Another value for the first header entry of that key, which there is. */
 pspec_status ps_table_set_meta(ps_table *table, const char *key, ps_cell value,
                                ps_error *error) PS_MUST_CHECK;

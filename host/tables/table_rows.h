@@ -10,6 +10,7 @@
 typedef struct ps_table_entry {
     char *key;
     ps_cell value; /* its text belongs to the table */
+    bool is_repeated;
 } ps_table_entry;
 
 struct ps_table {

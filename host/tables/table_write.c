@@ -162,16 +162,18 @@ static bool is_first_of_key(const ps_table *table, size_t i) {
     return true;
 }
 
-/* All values of a key, in an array, however many there are. */
+/* The value of a key, or all its values in an array. */
 static bool print_json_entry(const ps_table *table, size_t i, FILE *stream) {
+    size_t next = find_same_key(table, i);
+    const bool is_array = table->meta[i].is_repeated || next < table->num_meta;
     bool is_good = print_json_text(table->meta[i].key, stream);
-    fputs(": [", stream);
+    fputs(is_array ? ": [" : ": ", stream);
     is_good = print_json_cell(&table->meta[i].value, stream) && is_good;
-    for (size_t j = find_same_key(table, i); j < table->num_meta; j = find_same_key(table, j)) {
+    for (; next < table->num_meta; next = find_same_key(table, next)) {
         fputs(", ", stream);
-        is_good = print_json_cell(&table->meta[j].value, stream) && is_good;
+        is_good = print_json_cell(&table->meta[next].value, stream) && is_good;
     }
-    putc(']', stream);
+    fputs(is_array ? "]" : "", stream);
     return is_good;
 }
 

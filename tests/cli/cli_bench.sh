@@ -10,7 +10,7 @@ rows() { sed '/^#/d; /^case,/d' out; }
 
 runs 0 --case list --quick --plot list.svg
 [[ $(grep '^case' out) == "$columns" ]] || complain "columns: $(<out)"
-[[ -n $(key device) && -n $(key driver) && $(key schema) == 2 && $(key peak_flops_single) == [0-9]* &&
+[[ -n $(key device) && -n $(key driver) && $(key schema) == 3 && $(key peak_flops_single) == [0-9]* &&
     $(key time) == *median* && $(key figures) == built-in:*'not measured'* ]] || complain "header: $(<out)"
 [[ $(rows | grep -c '^list,torus_direct,.*,single,') == 1 && $(rows | grep -vc '^list,torus_direct,') == 0 ]] ||
     complain "rows: $(<out)"

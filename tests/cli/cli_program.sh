@@ -153,7 +153,7 @@ quietly devices
 grep -q '^index,default,name,type,' out || complain "columns of devices"
 [[ $(grep -v '^#' out | grep -c '^[0-9]*,1,') == 1 ]] || complain "one default device"
 quietly devices --format json
-grep -q '"schema": *2' out || complain "JSON of devices"
+grep -q '"schema": *3' out || complain "JSON of devices"
 POINTSPEC_DEVICE=quantum runs 2 devices
 POINTSPEC_DEVICE=quantum quietly devices --device 0
 

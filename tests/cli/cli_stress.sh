@@ -9,7 +9,7 @@ count_rows() { # PATTERN
 
 runs 0 --case white --precision single
 [[ $(grep '^case' out) == case,engine,precision,error,bound,verdict ]] || complain "columns: $(<out)"
-[[ -n $(key device) && -n $(key driver) && $(key schema) == 2 ]] || complain "header: $(<out)"
+[[ -n $(key device) && -n $(key driver) && $(key schema) == 3 ]] || complain "header: $(<out)"
 [[ $(count_rows '^white,torus_(direct|nufft),single,[0-9.e-]+,[0-9.e-]+,pass$') == 2 && $(count_rows .) == 2 ]] ||
     complain "two engines: $(<out)"
 [[ ! -s err ]] || complain "nothing to say: $(<err)"

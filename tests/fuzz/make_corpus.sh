@@ -361,25 +361,26 @@ printf 'flops single 1\n' | seed figures unchecked '\x00'
 
 # saved COMMAND META COLUMNS ROWS: a table as JSON
 saved() {
-    printf '{"schema": 1, "command": "%s", "meta": {"normalization": "power: x", "realizations": 4,
-"predicted_error": 1e-7, "seed": 1, %s}, "columns": [%s], "rows": [%s]}\n' "$@"
+    printf '{"schema": 3, "command": "%s", "meta": {"normalization": "power: x", "realizations": [4],
+"predicted_error": [1e-7], "seed": 1, %s}, "columns": [%s], "rows": [%s]}\n' "$@"
+}
+ring() { # BIN FREQUENCY COUNT POWER STANDARD_ERROR: a row of it
+    printf '{"bin": %s, "frequency": %s, "count": %s, "power": %s, "standard_error": %s}' "$@"
 }
 ring_columns='"bin", "frequency", "count", "power", "standard_error"'
 saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" \
-    '[1, 1.2, 8, 0.5, 0.1], [2, 2.1, 12, 0.7, 0]' | seed saved rings ''
-saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$ring_columns" '[1, 1, 6, 0.5, 0.1]' |
+    "$(ring 1 1.2 8 0.5 0.1), $(ring 2 2.1 12 0.7 0)" | seed saved rings ''
+saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$ring_columns" "$(ring 1 1 6 0.5 0.1)" |
     seed saved shells ''
 saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
-    '"degree", "power", "standard_error"' '[2, 1.5, 0.25]' | seed saved degrees ''
+    '"degree", "power", "standard_error"' '{"degree": 2, "power": 1.5, "standard_error": 0.25}' | seed saved degrees ''
 saved power '"points": 7.5, "points_smallest": 7, "points_largest": 8, "dimension": 2, "max_frequency": 1' "$ring_columns" \
-    '[1, 1.2, 8, 0.5, 0.1]' | seed saved range ''
-saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[1, 1.2, 8, 0.5, null]' | seed saved missing ''
-printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
-"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]}, "columns": [%s], "rows": [{"bin": 1, "frequency": 1.2, "count": 8,
-"power": 0.5, "standard_error": 0.1}]}\n' "$ring_columns" | seed saved objects ''
-printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
-"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["width=3/2"]}, "columns": [%s], "rows": [{"bin": 0, "frequency": 1.2, "count": 8,
-"power": 0.5, "standard_error": 0.1}]}\n' "$ring_columns" | seed saved inner ''
+    "$(ring 1 1.2 8 0.5 0.1)" | seed saved range ''
+saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" "$(ring 1 1.2 8 0.5 null)" | seed saved missing ''
+saved power '"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]' "$ring_columns" \
+    "$(ring 1 1.2 8 0.5 0.1)" | seed saved objects ''
+saved power '"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["width=3/2"]' "$ring_columns" \
+    "$(ring 0 1.2 8 0.5 0.1)" | seed saved inner ''
 
 # ---- scenes ----------------------------------------------------------------------------------
 

@@ -38,7 +38,7 @@ static bool take_whole(const cJSON *item, uint64_t least, uint64_t most, uint64_
     return is_good;
 }
 
-/* A value of the header, since schema 2 the first of an array. */
+/* A value of the header, the first where there is an array of them. */
 static const cJSON *entry(const reader *source, const char *key) {
     const cJSON *const item = cJSON_GetObjectItemCaseSensitive(source->meta, key);
     return cJSON_IsArray(item) ? item->child : item;
@@ -183,50 +183,41 @@ static pspec_status read_header(const reader *source) {
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-/* Where the numbers of a row stand, and by which names since schema 2. */
-typedef struct places {
-    int key, frequency, count, power, standard_error, num;
-    const char *key_name;
-} places;
+/* What its rows have. */
+typedef struct layout {
+    const char *key;
+    bool has_frequency, has_count;
+    int num;
+} layout;
 
-static const cJSON *find_cell(const cJSON *row, int place, const char *name) {
-    return cJSON_IsObject(row) ? cJSON_GetObjectItemCaseSensitive(row, name)
-                               : cJSON_GetArrayItem(row, place);
-}
-
-static int find_column(const cJSON *columns, const char *name) {
-    int place = 0;
+static bool has_column(const cJSON *columns, const char *name) {
     const cJSON *column = NULL;
     cJSON_ArrayForEach(column, columns) {
         if (cJSON_IsString(column) && strcmp(column->valuestring, name) == 0) {
-            return place;
+            return true;
         }
-        place++;
     }
-    return -1;
+    return false;
 }
 
-static pspec_status find_places(const reader *source, places *at) {
+static pspec_status find_layout(const reader *source, layout *out) {
     const cJSON *const columns = cJSON_GetObjectItemCaseSensitive(source->root, "columns");
-    if (find_column(columns, "sampler") >= 0 || find_column(columns, "points") >= 0) {
+    if (has_column(columns, "sampler") || has_column(columns, "points")) {
         return fail_damaged(source, "this is the table of several samplers or numbers of points; "
                                     "save one of them alone");
     }
-    if (find_column(columns, "k1") >= 0) {
+    if (has_column(columns, "k1")) {
         return fail_damaged(source,
                             "this is a list of frequencies, and rings are compared; save one "
                             "without --frequencies");
     }
-    const char *const key_name = source->out->on_sphere ? "degree" : "bin";
-    *at = (places){.key = find_column(columns, key_name),
-                   .frequency = find_column(columns, "frequency"),
-                   .count = find_column(columns, "count"),
-                   .power = find_column(columns, "power"),
-                   .standard_error = find_column(columns, "standard_error"),
-                   .num = cJSON_GetArraySize(columns),
-                   .key_name = key_name};
-    return at->key >= 0 && at->power >= 0 && at->standard_error >= 0 &&
-                   (source->out->on_sphere || at->frequency >= 0)
+    *out = (layout){.key = source->out->on_sphere ? "degree" : "bin",
+                    .has_frequency = has_column(columns, "frequency"),
+                    .has_count = has_column(columns, "count"),
+                    .num = cJSON_GetArraySize(columns)};
+    return has_column(columns, out->key) && has_column(columns, "power") &&
+                   has_column(columns, "standard_error") &&
+                   (source->out->on_sphere || out->has_frequency)
                ? PSPEC_OK
                : fail_damaged(source, "\"columns\" are not those of pointspec power or angular");
 }
@@ -237,25 +228,25 @@ static bool take_standard_error(const ps_saved_spectrum *out, const cJSON *item,
     return out->num_realizations == 1 || (*value >= 0 && *value <= MOST_POWER);
 }
 
-/* at->num cells, in an array or, since schema 2, in an object. */
-static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row) {
+static const cJSON *cell_of(const cJSON *row, const char *name) {
+    return cJSON_GetObjectItemCaseSensitive(row, name);
+}
+
+static bool take_row(ps_saved_spectrum *out, const layout *rows, const cJSON *row) {
     ps_saved_bin *const bin = &out->bins[out->num_bins];
     /* Degree 1, or any bin: boxes that are no cubes have frequencies below 1/2. */
     const int64_t first = out->on_sphere ? 1 : 0;
     const uint64_t least =
         (uint64_t)(out->num_bins == 0 ? first : out->bins[out->num_bins - 1].key + 1);
-    const cJSON *const number = find_cell(row, at->key, at->key_name);
-    const cJSON *const power = find_cell(row, at->power, "power");
-    const cJSON *const where =
-        at->frequency >= 0 ? find_cell(row, at->frequency, "frequency") : number;
+    const cJSON *const number = cell_of(row, rows->key);
+    const cJSON *const power = cell_of(row, "power");
+    const cJSON *const where = rows->has_frequency ? cell_of(row, "frequency") : number;
     uint64_t key = 0;
-    if (cJSON_GetArraySize(row) != at->num || !take_whole(number, least, MOST_EXACT, &key) ||
-        !cJSON_IsNumber(power) || !(power->valuedouble >= 0 && power->valuedouble <= MOST_POWER) ||
-        !cJSON_IsNumber(where) ||
-        (at->count >= 0 &&
-         !take_whole(find_cell(row, at->count, "count"), 1, MOST_EXACT, &bin->count)) ||
-        !take_standard_error(out, find_cell(row, at->standard_error, "standard_error"),
-                             &bin->standard_error)) {
+    if (!cJSON_IsObject(row) || cJSON_GetArraySize(row) != rows->num ||
+        !take_whole(number, least, MOST_EXACT, &key) || !cJSON_IsNumber(power) ||
+        !(power->valuedouble >= 0 && power->valuedouble <= MOST_POWER) || !cJSON_IsNumber(where) ||
+        (rows->has_count && !take_whole(cell_of(row, "count"), 1, MOST_EXACT, &bin->count)) ||
+        !take_standard_error(out, cell_of(row, "standard_error"), &bin->standard_error)) {
         return false;
     }
     bin->key = (int64_t)key;
@@ -265,53 +256,36 @@ static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row)
     return true;
 }
 
-/* The mean |k| of a shell is the root of its key; that of a ring is not, but for single
- * frequencies. */
-static bool is_shell(double frequency, int64_t key) {
-    const double rounding = 1e-9;
-    return fabs(frequency * frequency / (double)key - 1) < rounding;
-}
-
-/* Tables of versions that knew rings by rounding and shells do not say which they have. */
-static void find_old_shells(ps_saved_spectrum *out) {
-    const ps_saved_bin *const last = &out->bins[out->num_bins - 1];
-    if (!out->on_sphere && out->bin_rule.kind == PS_BINS_ROUND &&
-        is_shell(last->frequency, last->key)) {
-        out->bin_rule = (ps_bin_rule){.kind = PS_BINS_SHELLS};
-    }
-}
-
 static pspec_status read_rows(const reader *source) {
     const cJSON *const rows = cJSON_GetObjectItemCaseSensitive(source->root, "rows");
     const cJSON *row = NULL;
     ps_saved_spectrum *const out = source->out;
-    places at = {0};
-    PS_TRY(find_places(source, &at));
+    layout all = {0};
+    PS_TRY(find_layout(source, &all));
     if (!cJSON_IsArray(rows) || rows->child == NULL) {
         return fail_damaged(source, "there are no \"rows\"");
     }
     PS_TRY(PS_NEW(&out->bins, (size_t)cJSON_GetArraySize(rows), "saved bins", source->error));
     cJSON_ArrayForEach(row, rows) {
-        if (!take_row(out, &at, row)) {
+        if (!take_row(out, &all, row)) {
             return ps_fail(source->error, PSPEC_ERROR_INPUT,
                            "\"%s\": row %zu is not what pointspec power or angular writes",
                            source->name, out->num_bins + 1);
         }
     }
-    find_old_shells(out);
     return PSPEC_OK;
 }
 
 /* ---- all --------------------------------------------------------------------------------- */
 
 static pspec_status read_root(reader *source) {
-    uint64_t schema = 0;
+    const cJSON *const schema = cJSON_GetObjectItemCaseSensitive(source->root, "schema");
     const cJSON *const command = cJSON_GetObjectItemCaseSensitive(source->root, "command");
     source->meta = cJSON_GetObjectItemCaseSensitive(source->root, "meta");
-    if (!take_whole(cJSON_GetObjectItemCaseSensitive(source->root, "schema"), 1, PS_TABLE_SCHEMA,
-                    &schema) ||
+    if (!cJSON_IsNumber(schema) || schema->valuedouble != PS_TABLE_SCHEMA ||
         !cJSON_IsString(command) || !cJSON_IsObject(source->meta)) {
-        return fail_damaged(source, "this is no table of pointspec (\"schema\": 1 or 2)");
+        return fail_damaged(source, "this is no table of this version of pointspec "
+                                    "(\"schema\": 3): save the spectrum again");
     }
     source->out->on_sphere = strcmp(command->valuestring, "angular") == 0;
     if (!source->out->on_sphere && strcmp(command->valuestring, "power") != 0) {
