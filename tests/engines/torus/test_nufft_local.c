@@ -33,7 +33,8 @@ static uint64_t bytes_of_boxes(const ps_nufft_layout *layout) {
     return (cells + chunk * windows) * layout->real_bytes + chunk * sizeof(uint32_t);
 }
 
-/* The lines that a pass of the grid of GPUs has at once, whose axes may be cut in halves. */
+/* The lines that a pass of the grid of GPUs has at once, whose axes may be cut in halves: first the
+ * real parts go through local memory, then the imaginary ones. */
 static uint64_t bytes_of_passes(const ps_nufft_layout *layout) {
     uint64_t most = 0;
     for (unsigned i = 0; i < layout->grid.num_passes; i++) {
@@ -41,7 +42,7 @@ static uint64_t bytes_of_passes(const ps_nufft_layout *layout) {
         const uint64_t numbers = (uint64_t)pass->lines_at_once * pass->length;
         most = numbers > most ? numbers : most;
     }
-    return most * 2 * layout->real_bytes;
+    return most * layout->real_bytes;
 }
 
 /* A row of lanes of the longest axis, which every transform of it takes. */
