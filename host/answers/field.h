@@ -26,6 +26,12 @@ typedef struct ps_field_row {
     const char *meaning; /* one sentence */
 } ps_field_row;
 
+/* Group and repetition, as rows have them. */
+#define PS_ENTRY PS_FIELD_ENTRY, false
+#define PS_ENTRIES PS_FIELD_ENTRY, true
+#define PS_COLUMN PS_FIELD_COLUMN, false
+#define PS_ARRAY PS_FIELD_ARRAY, false
+
 /* Of several kinds: the request's record, points, frequencies, device and engine. */
 extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[];
 

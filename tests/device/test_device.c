@@ -2,7 +2,6 @@
 #include "harness_kernels.h"
 
 #include "device/kernel_source.h"
-#include "device/kind.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -191,18 +190,6 @@ static void matrix_units_are_tried(void **state) {
     assert_int_equal(rmdir(probes), 0);
 }
 
-/* What was found is part of the kind of device. */
-static void matrix_units_are_in_the_kind(void **state) {
-    (void)state;
-    ps_device_limits limits = *ps_device_get_limits(device);
-    limits.units = PS_UNITS_NONE;
-    const ps_device_kind plain = ps_device_kind_of(&limits);
-    limits.units = PS_UNITS_PTX;
-    const ps_device_kind with_units = ps_device_kind_of(&limits);
-    assert_memory_equal(with_units.text, plain.text, strlen(plain.text));
-    assert_string_equal(with_units.text + strlen(plain.text), ", matrix units ptx");
-}
-
 static void launches_reach_the_device(void **state) {
     (void)state;
     enum { NUM = 100 };
@@ -388,7 +375,6 @@ int main(void) {
         cmocka_unit_test(missing_sources),
         cmocka_unit_test(options_without_room_are_refused),
         cmocka_unit_test(matrix_units_are_tried),
-        cmocka_unit_test(matrix_units_are_in_the_kind),
         cmocka_unit_test(launches_reach_the_device),
         cmocka_unit_test(ranges_are_rounded_up),
         cmocka_unit_test(wrong_arguments_are_refused),

@@ -221,6 +221,18 @@ static void kinds_say_what_was_probed(void **state) {
     assert_string_equal(ps_device_kind_of(&limits).probed, "");
 }
 
+/* What was found is part of the kind of device. */
+static void matrix_units_are_in_the_kind(void **state) {
+    (void)state;
+    ps_device_limits limits = test_cpu();
+    limits.units = PS_UNITS_NONE;
+    const ps_device_kind plain = ps_device_kind_of(&limits);
+    limits.units = PS_UNITS_PTX;
+    const ps_device_kind with_units = ps_device_kind_of(&limits);
+    assert_memory_equal(with_units.text, plain.text, strlen(plain.text));
+    assert_string_equal(with_units.text + strlen(plain.text), ", matrix units ptx");
+}
+
 /* Where double precision is slow, single precision is worth more. */
 static void slow_doubles_cost(void **state) {
     (void)state;
@@ -304,6 +316,7 @@ int main(void) {
         cmocka_unit_test(measured_figures_choose_nothing),
         cmocka_unit_test(equal_kinds_choose_alike),
         cmocka_unit_test(kinds_say_what_was_probed),
+        cmocka_unit_test(matrix_units_are_in_the_kind),
         cmocka_unit_test(slow_doubles_cost),
         cmocka_unit_test(few_boxes_are_left_to_sums),
         cmocka_unit_test(boxes_that_do_not_fit_are_said_so),

@@ -239,12 +239,10 @@ static double compare(const ps_table *a, const ps_table *b) {
 static const char *const summary[] = {"points",    "realizations", "domain",
                                       "dimension", "seed",         NULL};
 
-#define COLUMN PS_FIELD_COLUMN, false, 0
-
 static const ps_field_row own_fields[] = {
-    {"realization", "", COLUMN, "", "its number, from 0 on"},
-    {"points", "", COLUMN, "", "N of the set"},
-    {"digest", "", COLUMN, "", "128 bits of its coordinates, as 32 hexadecimal digits"},
+    {"realization", "", PS_COLUMN, 0, "", "its number, from 0 on"},
+    {"points", "", PS_COLUMN, 0, "", "N of the set"},
+    {"digest", "", PS_COLUMN, 0, "", "128 bits of its coordinates, as 32 hexadecimal digits"},
     {"points", "", PS_FIELD_ARRAY, false, 0, "arrays of a scene",
      "the points, float64 [M][N][D], as sample writes them"},
     {.name = NULL}};

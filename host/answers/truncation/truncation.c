@@ -105,18 +105,15 @@ static const ps_line_kind lines[] = {
      "N", false, true},
     {.suffix = NULL}};
 
-#define ENTRY PS_FIELD_ENTRY, false, 0
-#define COLUMN PS_FIELD_COLUMN, false, 0
-
 static const ps_field_row own_fields[] = {
-    {"harmonics", "", ENTRY, "", "spherical or hemispherical"},
-    {"spherical_degrees", "", ENTRY, "",
+    {"harmonics", "", PS_ENTRY, 0, "", "spherical or hemispherical"},
+    {"spherical_degrees", "", PS_ENTRY, 0, "",
      "the last degree of the spherical harmonics that products are written in"},
-    {"kappa_0", "", ENTRY, "", "sum of a_l b_l^2, the square of the error of no term at all"},
-    {"equivalent_points", "", ENTRY, "", "what the column of that name is"},
-    {"degree", "", COLUMN, "", "L"},
-    {"error", "", COLUMN, "", "E(L), the error of products up to and including L"},
-    {"equivalent_points", "", COLUMN, "",
+    {"kappa_0", "", PS_ENTRY, 0, "", "sum of a_l b_l^2, the square of the error of no term at all"},
+    {"equivalent_points", "", PS_ENTRY, 0, "", "what the column of that name is"},
+    {"degree", "", PS_COLUMN, 0, "", "L"},
+    {"error", "", PS_COLUMN, 0, "", "E(L), the error of products up to and including L"},
+    {"equivalent_points", "", PS_COLUMN, 0, "",
      "N of spherical Fibonacci points with that error; missing above 32768 and for tables"},
     {.name = NULL}};
 

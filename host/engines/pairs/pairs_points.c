@@ -34,8 +34,7 @@ static pspec_status allocate(ps_pairs_points *self, ps_error *error) {
                        self->batch, self->stride);
     }
     PS_TRY(PS_NEW(&self->host_counts, self->batch, "numbers of points", error));
-    PS_TRY(PS_NEW(&self->squares, self->batch * 2, "sums of weights", error));
-    self->sizes = self->squares + self->batch;
+    PS_TRY(PS_NEW(&self->squares, self->batch, "sums of weights", error));
     PS_TRY(ps_feed_create(&self->points, num * ps_real_bytes(self->precision), "points",
                           self->device, error));
     return ps_buffer_create(self->device, &self->counts, self->batch * sizeof(uint64_t),
@@ -102,15 +101,12 @@ static void put_point(const task *shared, size_t first, size_t at, const pspec_p
 static void count_weights(ps_pairs_points *self, size_t r, const pspec_pattern *pattern,
                           int exponent) {
     long double squares = 0;
-    long double sizes = 0;
     for (size_t j = 0; j < pattern->num_points; j++) {
         const long double weight =
             ldexpl(pattern->weights != NULL ? pattern->weights[j] : 1, -exponent);
         squares += weight * weight;
-        sizes += fabsl(weight);
     }
     self->squares[r] = (double)squares;
-    self->sizes[r] = (double)sizes;
 }
 
 /* The points of some realizations, which go on with the first ones again. */

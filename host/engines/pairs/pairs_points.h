@@ -15,9 +15,9 @@ typedef struct ps_pairs_points {
     unsigned lanes;
     size_t stride; /* numbers of an array of a realization */
     size_t batch;
-    uint64_t *host_counts;   /* [batch] */
-    double *squares, *sizes; /* [batch] sum w^2 and sum |w| of what was uploaded last */
-    ps_feed points;          /* [batch][PS_PAIRS_ARRAYS][stride] */
+    uint64_t *host_counts; /* [batch] */
+    double *squares;       /* [batch] sum w^2 of what was uploaded last */
+    ps_feed points;        /* [batch][PS_PAIRS_ARRAYS][stride] */
     ps_buffer counts;
 } ps_pairs_points;
 
