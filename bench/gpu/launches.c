@@ -67,6 +67,17 @@ cl_int clGetDeviceInfo(cl_device_id id, cl_device_info what, size_t bytes, void 
     return code;
 }
 
+/* Zeros, which maps and copies find, too, where no kernel has written. */
+cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                      cl_int *code) {
+    void *const zeros = host == NULL ? calloc(1, bytes) : NULL;
+    const cl_mem memory =
+        REAL(clCreateBuffer)(context, zeros != NULL ? flags | CL_MEM_COPY_HOST_PTR : flags, bytes,
+                             zeros != NULL ? zeros : host, code);
+    free(zeros);
+    return memory;
+}
+
 cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem memory, cl_bool waits_here, size_t offset,
                            size_t bytes, void *data, cl_uint num_waits, const cl_event *waits,
                            cl_event *event) {
