@@ -4,7 +4,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 void ps_answer_begin_next(const ps_answer_hooks *hooks) {
     if (hooks->next != NULL) {
@@ -51,14 +50,6 @@ void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ..
     va_end(arguments);
 }
 
-size_t ps_answer_num_entries(const ps_answer *answer) {
-    size_t num = answer->array == NULL ? 0 : answer->is_complex ? 2 : 1;
-    for (unsigned axis = 0; axis < answer->rank; axis++) {
-        num *= answer->shape[axis];
-    }
-    return num;
-}
-
 pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;
@@ -73,6 +64,5 @@ pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_reques
 
 void ps_answer_free(ps_answer *answer) {
     ps_table_destroy(answer->table);
-    free(answer->array);
     *answer = (ps_answer){0};
 }

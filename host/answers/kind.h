@@ -53,18 +53,13 @@ void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PR
 void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence);
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 
-enum { PS_ANSWER_RANK = PS_MAX_DIMENSION + 1 };
-
 typedef struct ps_answer {
+    /* Its arrays are those that the request asks for: "full", the averaged periodogram on the whole
+     * box, [2K+1]^d, where request->wants_array, or wants_picture in the plane, and there is one,
+     * and by --full with "full_standard_error"; "coefficients", where request->wants_coefficients
+     * or by --coefficients; "scatter", a row of them of every set, [M][2K+1], by --scatter;
+     * "weights" of the only rule; "coordinates" of the points of a sampler */
     ps_table *table;
-    /* The averaged periodogram on the whole box, [2K+1]^d, or the weights of the only rule, where
-     * request->wants_array, or wants_picture in the plane, and there are such; points; complex
-     * coefficients, as --coefficients writes them, where request->wants_coefficients, or those
-     * of a row of every set, [M][2K+1], where there is request->frequencies.shown; NULL: none */
-    double *array;
-    bool is_complex; /* pairs (real, imaginary) */
-    unsigned rank;
-    size_t shape[PS_ANSWER_RANK];
     /* PSPEC_ERROR_CHECK where differences were found, PSPEC_ERROR_TOLERANCE where a table that is
      * there all the same misses what was asked; else status PSPEC_OK */
     ps_error verdict;
@@ -110,9 +105,6 @@ typedef struct ps_kind {
     /* *out is {0} before, and freed by ps_answer_free, also after an error. */
     pspec_status (*tabulate)(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error);
-    /* Writes the files that options besides --output and --plot ask for; NULL: there are no such
-     * options. */
-    pspec_status (*write_others)(const void *computed, const ps_request *request, ps_error *error);
     /* Draws the picture request->plot; NULL: there is no such option. */
     pspec_status (*draw)(const void *computed, const ps_request *request, ps_error *error);
     void (*discard)(void *computed); /* NULL is allowed */
@@ -149,9 +141,6 @@ extern const ps_kind ps_kind_points;
 static inline bool ps_kind_asks(const ps_kind *kind, ps_option_id id) {
     return (ps_options[id].questions & kind->bit) != 0;
 }
-
-/* Doubles of the array; 0: none. */
-size_t ps_answer_num_entries(const ps_answer *answer);
 
 /* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an
  * error. A check that found differences is no error: the answer has the verdict. */

@@ -3,7 +3,12 @@
 #include "answers/kind.h"
 #include "answers/output_check.h"
 #include "answers/picture.h"
+#include "base/text.h"
+#include "points/lists/weight_list.h"
 #include "request/options.h"
+
+#include <stddef.h>
+#include <string.h>
 
 const char *ps_kind_words(const ps_kind *kind, ps_option_id id) {
     if (id == PS_OPTION_FORMAT && kind->has_verdict) {
@@ -40,13 +45,52 @@ static pspec_status mark_repeated(const ps_field_row *row, void *table, ps_error
     return PSPEC_OK;
 }
 
+/* Files of arrays that options ask for; suffix stands before the ending. */
+static const struct array_file {
+    size_t offset; /* of the path in ps_request */
+    const char *suffix, *field;
+} array_files[] = {{offsetof(ps_request, full), "", "full"},
+                   {offsetof(ps_request, full), ".standard_error", "full_standard_error"},
+                   {offsetof(ps_request, coefficients), "", "coefficients"},
+                   {offsetof(ps_request, weights_out), "", "weights"}};
+enum { NUM_ARRAY_FILES = sizeof array_files / sizeof array_files[0] };
+
+/* Weights may be lines of text, too. */
+static pspec_status write_array(const char *path, const ps_npy_array *array, ps_error *error) {
+    return array->rank == 1 && !array->is_complex
+               ? ps_write_weights(path, array->data, array->num, error)
+               : ps_npy_write_array(path, array, error);
+}
+
+static pspec_status write_arrays(const ps_table *table, const ps_request *request,
+                                 ps_error *error) {
+    for (size_t i = 0; i < NUM_ARRAY_FILES; i++) {
+        const struct array_file *const file = &array_files[i];
+        const char *asked = NULL;
+        ps_text path = {0};
+        memcpy(&asked, (const char *)request + file->offset, sizeof asked);
+        const ps_npy_array *const array = ps_table_find_array(table, file->field);
+        if (asked == NULL || array == NULL) {
+            continue;
+        }
+        const char *const ending = ps_output_ending(asked);
+        ps_text_append_bytes(&path, asked, (size_t)(ending - asked));
+        ps_text_append(&path, "%s%s", file->suffix, ending);
+        pspec_status status = ps_text_check(&path, error);
+        if (status == PSPEC_OK) {
+            status = write_array(ps_text_string(&path), array, error);
+        }
+        ps_text_free(&path);
+        PS_TRY(status);
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void *computed,
                                 const ps_request *request, ps_table_format format,
                                 const ps_answer_hooks *hooks, ps_error *error) {
-    if (kind->write_others != NULL) {
-        PS_TRY(kind->write_others(computed, request, error));
-    }
     PS_TRY(kind->tabulate(out, computed, request, error));
+    PS_TRY(write_arrays(out->table, request, error));
     PS_TRY(ps_kind_visit_fields(kind, mark_repeated, out->table, error));
     if (request->output != NULL) {
         ps_table_set_view(out->table, &request->view);

@@ -295,26 +295,9 @@ size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, un
     return BEFORE_TEXT + length;
 }
 
-static void write_header(FILE *stream, const char *element, unsigned rank, const size_t *shape) {
-    char header[PS_NPY_HEADER_BYTES];
-    fwrite(header, 1, ps_npy_make_header(header, element, rank, shape), stream);
-}
-
 void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
-    write_header(stream, "f8", rank, shape);
-}
-
-void ps_npy_write_complex_header(FILE *stream, unsigned rank, const size_t *shape) {
-    write_header(stream, "c16", rank, shape);
-}
-
-pspec_status ps_npy_write_complex(const char *path, size_t count, const double *pairs,
-                                  ps_error *error) {
-    ps_output_file *file = NULL;
-    PS_TRY(ps_output_open(&file, path, error));
-    write_header(ps_output_stream(file), "c16", 1, &count);
-    ps_output_write(file, pairs, 2 * sizeof *pairs, count);
-    return ps_output_commit(&file, error);
+    char header[PS_NPY_HEADER_BYTES];
+    fwrite(header, 1, ps_npy_make_header(header, "f8", rank, shape), stream);
 }
 
 pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,

@@ -41,11 +41,6 @@ size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, un
 /* Writes the header of a float64 array in C order and in the byte order of this machine, so that
  * the elements follow by fwrite. Write errors show at commit. */
 void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape);
-/* The same for complex128, pairs (real, imaginary) of doubles. */
-void ps_npy_write_complex_header(FILE *stream, unsigned rank, const size_t *shape);
-/* Writes count complex numbers, pairs (real, imaginary) of doubles, as a vector to path. */
-pspec_status ps_npy_write_complex(const char *path, size_t count, const double *pairs,
-                                  ps_error *error) PS_MUST_CHECK;
 /* Writes a whole float64 array to path through ps_output_file. */
 pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,
                           ps_error *error) PS_MUST_CHECK;

@@ -1,6 +1,7 @@
 #include "files/npy_array.h"
 
 #include "base/memory.h"
+#include "files/output_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -98,6 +99,34 @@ pspec_status ps_npy_read_array(ps_npy_array *out, ps_input *input, bool may_be_c
         ps_npy_array_free(out);
     }
     return status;
+}
+
+pspec_status ps_npy_make_array(ps_npy_array *out, unsigned rank, const size_t *shape,
+                               bool is_complex, ps_error *error) {
+    *out = (ps_npy_array){.rank = rank, .num = 1, .is_complex = is_complex};
+    for (unsigned axis = 0; axis < rank; axis++) {
+        out->shape[axis] = shape[axis];
+        if (!ps_size_multiply(out->num, shape[axis], &out->num)) {
+            return ps_fail(error, PSPEC_ERROR_MEMORY, "an array is too large");
+        }
+    }
+    return ps_allocate_for(&out->data, out->num, (is_complex ? 2 : 1) * sizeof *out->data,
+                           "an array", error);
+}
+
+size_t ps_npy_num_doubles(const ps_npy_array *array) {
+    return array->num * (array->is_complex ? 2 : 1);
+}
+
+pspec_status ps_npy_write_array(const char *path, const ps_npy_array *array, ps_error *error) {
+    char header[PS_NPY_HEADER_BYTES];
+    ps_output_file *file = NULL;
+    PS_TRY(ps_output_open(&file, path, error));
+    ps_output_write(
+        file, header, 1,
+        ps_npy_make_header(header, array->is_complex ? "c16" : "f8", array->rank, array->shape));
+    ps_output_write(file, array->data, sizeof *array->data, ps_npy_num_doubles(array));
+    return ps_output_commit(&file, error);
 }
 
 void ps_npy_array_free(ps_npy_array *array) {

@@ -18,6 +18,14 @@ typedef struct ps_npy_array {
 pspec_status ps_npy_read_array(ps_npy_array *out, ps_input *input, bool may_be_complex,
                                ps_error *error) PS_MUST_CHECK;
 void ps_npy_array_free(ps_npy_array *array);
+/* An array of zeros; shape [rank] has at most PS_NPY_MAX_RANK axes. */
+pspec_status ps_npy_make_array(ps_npy_array *out, unsigned rank, const size_t *shape,
+                               bool is_complex, ps_error *error) PS_MUST_CHECK;
+/* Doubles of its data. */
+size_t ps_npy_num_doubles(const ps_npy_array *array);
+/* Writes it to path through ps_output_file, as float64 or complex128. */
+pspec_status ps_npy_write_array(const char *path, const ps_npy_array *array,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* Place i of the array as "(3, 0)", counted from 0. */
 enum { PS_NPY_PLACE_BYTES = PS_NPY_MAX_RANK * 22 + 4 };

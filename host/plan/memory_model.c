@@ -66,15 +66,15 @@ double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
     return (double)points * columns * (double)sizeof(double);
 }
 
-/* The result, where all are kept that of all realizations and of one, and for hemispherical
- * harmonics the stretched points. */
+/* The result, where all are kept that of all realizations and of one, boxes that have both k and
+ * -k, and for hemispherical harmonics the stretched points. */
 static double coefficient_bytes(const ps_problem *problem) {
     const double stretched = problem->harmonics == PS_HEMISPHERICAL_HARMONICS
                                  ? (double)problem->num_points * PS_SPHERE_DIMENSION
                                  : 0;
-    const double sets = !problem->keeps_coefficients    ? 1
-                        : problem->num_realizations > 0 ? 1 + (double)problem->num_realizations
-                                                        : 2;
+    const double num_sets = problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double sets = 1 + (problem->keeps_coefficients ? num_sets : 0) +
+                        (problem->fills_boxes ? 2 * num_sets : 0);
     const bool on_sphere = problem->frequencies->kind == PS_FREQUENCIES_DEGREES;
     const double num = on_sphere ? (double)ps_num_coefficients(problem->frequencies->max_frequency)
                                  : 2 * (double)problem->frequencies->num;

@@ -126,6 +126,28 @@ pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *e
     return PSPEC_OK;
 }
 
+static pspec_status add_array(ps_table *table, const char *name, bool is_state,
+                              const ps_npy_array *array, ps_error *error) {
+    void *memory = table->arrays;
+    PS_TRY(ps_grow(&memory, &table->arrays_capacity, table->num_arrays + 1,
+                   sizeof(ps_table_array_entry), "arrays of a table", error));
+    table->arrays = memory;
+    ps_table_array_entry *const entry = &table->arrays[table->num_arrays];
+    *entry = (ps_table_array_entry){.is_state = is_state, .values = *array};
+    PS_TRY(copy_text(&entry->name, name, error));
+    table->num_arrays++;
+    return PSPEC_OK;
+}
+
+pspec_status ps_table_add_array(ps_table *table, const char *name, bool is_state,
+                                const ps_npy_array *array, ps_error *error) {
+    const pspec_status status = add_array(table, name, is_state, array, error);
+    if (status != PSPEC_OK) {
+        free(array->data);
+    }
+    return status;
+}
+
 void ps_table_destroy(ps_table *table) {
     if (table == NULL) {
         return;
@@ -140,6 +162,11 @@ void ps_table_destroy(ps_table *table) {
     for (size_t i = 0; i < table->num_columns; i++) {
         free(table->columns[i]);
     }
+    for (size_t i = 0; i < table->num_arrays; i++) {
+        free(table->arrays[i].name);
+        ps_npy_array_free(&table->arrays[i].values);
+    }
+    free(table->arrays);
     free(table->meta);
     free(table->cells);
     free(table->columns);
@@ -194,6 +221,25 @@ size_t ps_table_num_meta(const ps_table *table) {
 ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key) {
     *key = table->meta[i].key;
     return table->meta[i].value;
+}
+
+size_t ps_table_num_arrays(const ps_table *table) {
+    return table->num_arrays;
+}
+
+const ps_npy_array *ps_table_array(const ps_table *table, size_t i, const char **name,
+                                   bool *is_state) {
+    *name = table->arrays[i].name;
+    *is_state = table->arrays[i].is_state;
+    return &table->arrays[i].values;
+}
+
+const ps_npy_array *ps_table_find_array(const ps_table *table, const char *name) {
+    size_t i = 0;
+    while (i < table->num_arrays && strcmp(table->arrays[i].name, name) != 0) {
+        i++;
+    }
+    return i < table->num_arrays ? &table->arrays[i].values : NULL;
 }
 
 /* ---- choosing ---- */

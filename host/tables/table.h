@@ -1,5 +1,5 @@
 /* Result tables: header lines, named columns, rows; written as CSV, JSON, JSON lines, NPY, NPZ or
- * text.
+ * text. Arrays of any shape beside them are in NPZ alone, and in files of their own.
  *
  * CSV: "# key: value" header lines, one line of column names, one line per row, shortest digits; a
  * missing number is an empty field. JSON: {"schema": 3, "command", "meta", "columns", "rows"}, each
@@ -15,6 +15,7 @@
 #define PS_TABLES_TABLE_H
 
 #include "base/status.h"
+#include "files/npy_array.h"
 #include "files/packed/npz.h"
 
 #include <stdbool.h>
@@ -76,6 +77,10 @@ typedef struct ps_meta {
 pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
                                 ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) PS_MUST_CHECK;
+/* An array beside the columns, which no other has the name of. Its data belong to the table from
+ * then on, also after an error. is_state: what the rest of the table can be made of again. */
+pspec_status ps_table_add_array(ps_table *table, const char *name, bool is_state,
+                                const ps_npy_array *array, ps_error *error) PS_MUST_CHECK;
 /* As text, a block of lines for each row: for many columns and few rows. */
 void ps_table_set_blocks(ps_table *table);
 /* As text, so that it fits a terminal. {0}: all header lines, and columns however wide. */
@@ -114,6 +119,12 @@ size_t ps_table_num_meta(const ps_table *table);
 ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key);
 /* The value of the first header entry of that key; missing: there is none. */
 ps_cell ps_table_find_meta(const ps_table *table, const char *key);
+size_t ps_table_num_arrays(const ps_table *table);
+/* Array i, in the order in which they were added. */
+const ps_npy_array *ps_table_array(const ps_table *table, size_t i, const char **name,
+                                   bool *is_state);
+/* NULL: there is no array of that name. */
+const ps_npy_array *ps_table_find_array(const ps_table *table, const char *name);
 /* A number, or nan. */
 double ps_cell_number(ps_cell cell);
 /* The column of that name as numbers, nan where there is none; all of them where there is no such

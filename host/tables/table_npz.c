@@ -154,6 +154,16 @@ pspec_status ps_table_add_to_npz(const ps_table *table, ps_npz *npz, ps_error *e
     for (size_t i = 0; i < table->num_columns; i++) {
         PS_TRY(add_column(&(column){table, table->columns[i], i}, npz, error));
     }
+    for (size_t i = 0; i < table->num_arrays; i++) {
+        const ps_npy_array *const values = &table->arrays[i].values;
+        const ps_npz_array array = {table->arrays[i].name,
+                                    values->is_complex ? 'c' : 'f',
+                                    (values->is_complex ? 2 : 1) * sizeof *values->data,
+                                    values->rank,
+                                    values->shape,
+                                    values->data};
+        PS_TRY(ps_npz_add(npz, &array, error));
+    }
     return PSPEC_OK;
 }
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char magic[] = "pstable1"; /* 1: the version */
+static const char magic[] = "pstable2"; /* 2: the version */
 enum { MAGIC_BYTES = sizeof magic - 1, NUMBER_BYTES = 8, BITS_OF_BYTE = 8 };
 
 /* ---- packing ---- */
@@ -47,6 +47,19 @@ static void put_cell(ps_text *out, const ps_cell *cell) {
     }
 }
 
+static void put_array(ps_text *out, const ps_table_array_entry *array) {
+    const ps_npy_array *const values = &array->values;
+    put_text(out, array->name);
+    put_number(out, values->is_complex);
+    put_number(out, array->is_state);
+    put_number(out, values->rank);
+    for (unsigned axis = 0; axis < values->rank; axis++) {
+        put_number(out, values->shape[axis]);
+    }
+    ps_text_append_bytes(out, (const char *)values->data,
+                         values->num * (values->is_complex ? 2 : 1) * sizeof(double));
+}
+
 pspec_status ps_table_pack(const ps_table *table, void **bytes, size_t *num_bytes,
                            ps_error *error) {
     ps_text out = {0};
@@ -66,6 +79,10 @@ pspec_status ps_table_pack(const ps_table *table, void **bytes, size_t *num_byte
     put_number(&out, table->num_rows);
     for (size_t i = 0; i < table->num_rows * table->num_columns; i++) {
         put_cell(&out, &table->cells[i]);
+    }
+    put_number(&out, table->num_arrays);
+    for (size_t i = 0; i < table->num_arrays; i++) {
+        put_array(&out, &table->arrays[i]);
     }
     if (out.failed) {
         ps_text_free(&out);
@@ -197,6 +214,60 @@ static pspec_status take_rows(packed *in, ps_table *table, ps_error *error) {
     return PSPEC_OK;
 }
 
+static pspec_status take_shape(packed *in, ps_npy_array *out, bool *is_state, ps_error *error) {
+    uint64_t is_complex = 0;
+    uint64_t is_kept = 0;
+    uint64_t rank = 0;
+    PS_TRY(take_number(in, &is_complex, error));
+    PS_TRY(take_number(in, &is_kept, error));
+    PS_TRY(take_number(in, &rank, error));
+    if (rank > PS_NPY_MAX_RANK) {
+        return fail_packed("an array has too many axes", error);
+    }
+    *is_state = is_kept != 0;
+    *out = (ps_npy_array){.rank = (unsigned)rank, .num = 1, .is_complex = is_complex != 0};
+    for (unsigned axis = 0; axis < out->rank; axis++) {
+        uint64_t size = 0;
+        PS_TRY(take_number(in, &size, error));
+        out->shape[axis] = (size_t)size;
+        if (!ps_size_multiply(out->num, out->shape[axis], &out->num)) {
+            return fail_packed("an array is larger than what follows", error);
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status take_array(packed *in, ps_table *table, ps_error *error) {
+    char *name = NULL;
+    ps_npy_array array;
+    bool is_state = false;
+    size_t num_bytes = 0;
+    pspec_status status = take_text(in, &name, error);
+    PS_TRY_OUT(status, status);
+    PS_TRY_OUT(status, take_shape(in, &array, &is_state, error));
+    if (!ps_size_multiply(array.num, (array.is_complex ? 2 : 1) * sizeof(double), &num_bytes) ||
+        num_bytes > in->left) {
+        PS_TRY_OUT(status, fail_packed("an array is larger than what follows", error));
+    }
+    PS_TRY_OUT(status, ps_allocate_for(&array.data, num_bytes, 1, "an array", error));
+    memcpy(array.data, in->next, num_bytes);
+    in->next += num_bytes;
+    in->left -= num_bytes;
+    status = ps_table_add_array(table, name, is_state, &array, error);
+out:
+    free(name);
+    return status;
+}
+
+static pspec_status take_arrays(packed *in, ps_table *table, ps_error *error) {
+    size_t count = 0;
+    PS_TRY(take_count(in, NUMBER_BYTES, &count, error));
+    for (size_t i = 0; i < count; i++) {
+        PS_TRY(take_array(in, table, error));
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status take_table(packed *in, ps_table *table, ps_error *error) {
     if (in->left < MAGIC_BYTES || memcmp(in->next, magic, MAGIC_BYTES) != 0) {
         return fail_packed("it begins in another way", error);
@@ -207,6 +278,7 @@ static pspec_status take_table(packed *in, ps_table *table, ps_error *error) {
     PS_TRY(take_columns(in, table, error));
     PS_TRY(take_meta(in, table, error));
     PS_TRY(take_rows(in, table, error));
+    PS_TRY(take_arrays(in, table, error));
     return in->left == 0 ? PSPEC_OK : fail_packed("more follows after its end", error);
 }
 

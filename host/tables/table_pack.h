@@ -3,7 +3,8 @@
  *
  * The magic, then numbers of 8 bytes, the lowest first, and texts as their length and bytes:
  * command; number of columns and their names; number of header entries, each a key and a cell;
- * number of rows and their cells. A cell is one byte, ps_cell_kind, and what belongs to it.
+ * number of rows and their cells; number of arrays, each a name, three numbers (complex, state,
+ * rank), its shape and its doubles. A cell is one byte, ps_cell_kind, and what belongs to it.
  */
 #ifndef PS_TABLES_TABLE_PACK_H
 #define PS_TABLES_TABLE_PACK_H

@@ -13,6 +13,12 @@ typedef struct ps_table_entry {
     bool is_repeated;
 } ps_table_entry;
 
+typedef struct ps_table_array_entry {
+    char *name;
+    bool is_state;
+    ps_npy_array values;
+} ps_table_array_entry;
+
 struct ps_table {
     char *command;
     char **columns; /* names */
@@ -21,6 +27,8 @@ struct ps_table {
     size_t num_meta, meta_capacity;
     ps_cell *cells; /* [num_rows][num_columns], texts belong to the table */
     size_t num_rows, cells_capacity;
+    ps_table_array_entry *arrays;
+    size_t num_arrays, arrays_capacity;
     bool has_blocks; /* as text, a block of lines for each row */
     ps_text_view view;
 };

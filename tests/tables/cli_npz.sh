@@ -25,6 +25,10 @@ done
 "$program" power "${host[@]}" --sampler white -n 16 -m 2 -k 2 -o full.npz --format csv
 [[ $(head -c 1 full.npz) == '#' ]] || complain "--format csv does not count"
 
+# arrays that options ask for are fields, too
+arrays=(--sampler white -n 16 -m 2 -k 2)
+"$program" power "${host[@]}" "${arrays[@]}" --full f.npy --coefficients c.npy -o arrays.npz || complain "arrays"
+
 # a table is no set of points
 "$program" power x.npz -k 2 >out 2>err && complain "a table was taken for points"
 [[ $(<err) == *'x.npz'*points* && $(wc -l <err) == 1 ]] || complain "a table as points: $(<err)"
@@ -53,6 +57,9 @@ for i in range(int(sys.argv[1])):
             assert array.dtype == np.float64
             numbers = np.array([float(text or "nan") for text in texts])
             assert np.array_equal(array, numbers, equal_nan=True), name
+arrays = np.load("arrays.npz", allow_pickle=False)
+for name, path in ("full", "f"), ("full_standard_error", "f.standard_error"), ("coefficients", "c"):
+    assert np.array_equal(arrays[name], np.load(path + ".npy"), equal_nan=True), name
 PYTHON
 python3 "$source_dir/docs/examples/npz.py" 0.npz >out 2>err || complain "npz.py: $(<err)"
 grep -q '^largest power' out || complain "npz.py prints $(<out)"

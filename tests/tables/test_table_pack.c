@@ -43,6 +43,17 @@ static ps_table *make_table(void) {
                                           PS_INTEGER(integers[i]), PS_NUMBER(values[i])};
         assert_int_equal(ps_table_add_row(table, row, &error), PSPEC_OK);
     }
+    for (int is_state = 0; is_state < 2; is_state++) {
+        const size_t shape[] = {2, NUM_ROWS};
+        ps_npy_array array;
+        assert_int_equal(ps_npy_make_array(&array, 2 - (unsigned)is_state, shape + is_state,
+                                           is_state == 0, &error),
+                         PSPEC_OK);
+        memcpy(array.data, values, sizeof values);
+        assert_int_equal(
+            ps_table_add_array(table, is_state != 0 ? "sums" : "full", is_state, &array, &error),
+            PSPEC_OK);
+    }
     return table;
 }
 
@@ -55,6 +66,24 @@ static void check_cell(ps_cell a, ps_cell b) {
         assert_string_equal(a.text, b.text);
         assert_ptr_not_equal(a.text, b.text);
     }
+}
+
+static void check_arrays(const ps_table *a, const ps_table *b) {
+    assert_int_equal(ps_table_num_arrays(a), ps_table_num_arrays(b));
+    for (size_t i = 0; i < ps_table_num_arrays(a); i++) {
+        const char *names[2] = {NULL};
+        bool are_states[2];
+        const ps_npy_array *const x = ps_table_array(a, i, &names[0], &are_states[0]);
+        const ps_npy_array *const y = ps_table_array(b, i, &names[1], &are_states[1]);
+        assert_string_equal(names[0], names[1]);
+        assert_int_equal(are_states[0], are_states[1]);
+        assert_int_equal(x->rank, y->rank);
+        assert_int_equal(x->is_complex, y->is_complex);
+        assert_memory_equal(x->shape, y->shape, x->rank * sizeof *x->shape);
+        assert_memory_equal(x->data, y->data, ps_npy_num_doubles(x) * sizeof *x->data);
+        assert_ptr_equal(ps_table_find_array(b, names[0]), y);
+    }
+    assert_null(ps_table_find_array(a, "power"));
 }
 
 static void check_equal(const ps_table *a, const ps_table *b) {
@@ -75,6 +104,7 @@ static void check_equal(const ps_table *a, const ps_table *b) {
             check_cell(ps_table_cell(a, row, i), ps_table_cell(b, row, i));
         }
     }
+    check_arrays(a, b);
 }
 
 static void is_read_cell_by_cell(void **state) {

@@ -198,15 +198,13 @@ static pspec_status add_header(ps_table *table, const points_answer *self, ps_er
 }
 
 /* Shape (M, N, D), as sample writes it. */
-static pspec_status copy_points(ps_answer *out, const points_answer *self, ps_error *error) {
+static pspec_status add_points(ps_table *table, const points_answer *self, ps_error *error) {
     const size_t shape[] = {(size_t)self->num_kept, self->all[0].num_points,
                             self->sampler.dimension};
-    const size_t num = shape[0] * shape[1] * shape[2];
-    PS_TRY(PS_NEW(&out->array, num, "points", error));
-    memcpy(out->array, self->points, num * sizeof *out->array);
-    out->rank = sizeof shape / sizeof shape[0];
-    memcpy(out->shape, shape, sizeof shape);
-    return PSPEC_OK;
+    ps_npy_array array;
+    PS_TRY(ps_npy_make_array(&array, sizeof shape / sizeof shape[0], shape, false, error));
+    memcpy(array.data, self->points, array.num * sizeof *array.data);
+    return ps_table_add_array(table, "coordinates", false, &array, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
@@ -222,7 +220,7 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                                             PS_TEXT(self->all[r].digest)};
         PS_TRY(ps_table_add_row(out->table, cells, error));
     }
-    return self->num_kept > 0 ? copy_points(out, self, error) : PSPEC_OK;
+    return self->num_kept > 0 ? add_points(out->table, self, error) : PSPEC_OK;
 }
 
 /* The same points, or others. */
@@ -243,7 +241,7 @@ static const ps_field_row own_fields[] = {
     {"realization", "", PS_COLUMN, 0, "", "its number, from 0 on"},
     {"points", "", PS_COLUMN, 0, "", "N of the set"},
     {"digest", "", PS_COLUMN, 0, "", "128 bits of its coordinates, as 32 hexadecimal digits"},
-    {"points", "", PS_FIELD_ARRAY, false, 0, "arrays of a scene",
+    {"coordinates", "", PS_FIELD_ARRAY, false, 0, "arrays of a scene",
      "the points, float64 [M][N][D], as sample writes them"},
     {.name = NULL}};
 

@@ -122,35 +122,26 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return PSPEC_OK;
 }
 
-static pspec_status take_weights(ps_answer *out, const ps_quadrature_result *result,
-                                 ps_error *error) {
-    PS_TRY(PS_NEW(&out->array, result->num_weights, "weights of an answer", error));
-    memcpy(out->array, result->weights, result->num_weights * sizeof *out->array);
-    out->rank = 1;
-    out->shape[0] = result->num_weights;
-    return PSPEC_OK;
+static pspec_status add_weights(ps_table *table, const ps_quadrature_result *result,
+                                ps_error *error) {
+    ps_npy_array array;
+    PS_TRY(ps_npy_make_array(&array, 1, &result->num_weights, false, error));
+    memcpy(array.data, result->weights, result->num_weights * sizeof *array.data);
+    return ps_table_add_array(table, "weights", false, &array, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const rules *const work = computed;
-    if (request->wants_array) {
-        PS_TRY(take_weights(out, &work->results[0], error));
-    }
-    return ps_quadrature_table(&out->table, request, &work->list, work->results, error);
+    PS_TRY(ps_quadrature_table(&out->table, request, &work->list, work->results, error));
+    return request->wants_array || request->weights_out != NULL
+               ? add_weights(out->table, &work->results[0], error)
+               : PSPEC_OK;
 }
 
 static pspec_status check_weights_out(const ps_request *request, ps_error *error) {
     return request->weights_out != NULL ? ps_weights_check_name(request->weights_out, error)
                                         : PSPEC_OK;
-}
-
-static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
-    const rules *const work = computed;
-    const ps_quadrature_result *const result = &work->results[0];
-    return request->weights_out != NULL
-               ? ps_write_weights(request->weights_out, result->weights, result->num_weights, error)
-               : PSPEC_OK;
 }
 
 /* Of a scene and of a command. */
@@ -250,7 +241,6 @@ const ps_kind ps_kind_quadrature = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .write_others = write_others,
     .draw = draw,
     .discard = discard,
     .fields = fields,

@@ -4,7 +4,6 @@
 #include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
 #include "answers/spectra/spectra.h"
-#include "base/memory.h"
 #include "files/npy.h"
 
 #include <string.h>
@@ -68,34 +67,22 @@ static pspec_status make_table(ps_table **out, const ps_request *arguments,
     return ps_job_table_make(out, &kind, arguments, jobs, num, error);
 }
 
-static pspec_status take_coefficients(ps_answer *out, const ps_power_job *job, ps_error *error) {
+static pspec_status add_coefficients(ps_table *table, const ps_power_job *job, ps_error *error) {
     const size_t num = ps_num_coefficients_at(ps_power_job_problem(job)->frequencies);
-    PS_TRY(PS_NEW(&out->array, num, "coefficients of an answer", error));
-    memcpy(out->array, ps_power_job_coefficients(job), num * sizeof *out->array);
-    out->is_complex = true;
-    out->rank = 1;
-    out->shape[0] = num / 2;
-    return PSPEC_OK;
+    const size_t shape[] = {num / 2};
+    ps_npy_array array;
+    PS_TRY(ps_npy_make_array(&array, 1, shape, true, error));
+    memcpy(array.data, ps_power_job_coefficients(job), num * sizeof *array.data);
+    return ps_table_add_array(table, "coefficients", false, &array, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const ps_spectra *const spectra = computed;
-    if (request->wants_coefficients) {
-        PS_TRY(take_coefficients(out, spectra->jobs[0], error));
-    }
-    return ps_spectra_tabulate(out, computed, request, make_table, error);
-}
-
-static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
-    const ps_spectra *const spectra = computed;
-    if (request->coefficients == NULL) {
-        return PSPEC_OK;
-    }
-    const ps_power_job *const job = spectra->jobs[0];
-    const int32_t max_degree = ps_power_job_problem(job)->frequencies->max_frequency;
-    return ps_npy_write_complex(request->coefficients, ps_num_coefficients(max_degree) / 2,
-                                ps_power_job_coefficients(job), error);
+    PS_TRY(ps_spectra_tabulate(out, computed, request, make_table, error));
+    return request->wants_coefficients || request->coefficients != NULL
+               ? add_coefficients(out->table, spectra->jobs[0], error)
+               : PSPEC_OK;
 }
 
 static const ps_line_kind axes = {
@@ -120,7 +107,6 @@ const ps_kind ps_kind_angular = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .write_others = write_others,
     .draw = ps_spectra_draw,
     .discard = ps_spectra_discard,
     .fields = fields,

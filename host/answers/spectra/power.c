@@ -4,8 +4,6 @@
 #include "answers/spectra/scatter.h"
 #include "answers/spectra/spectra.h"
 
-#include <string.h>
-
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     return ps_spectra_check(request, PS_QUESTION_POWER, error);
 }
@@ -19,65 +17,29 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return ps_spectra_compute(out, request, PS_QUESTION_POWER, hooks, error);
 }
 
-/* Lists, and subsets of rings, fill no array. Pictures have no DC. */
-static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum,
-                               const ps_request *request, ps_error *error) {
-    enum { PLANE = 2 };
-    size_t num = 0;
-    const ps_frequencies *const set = &spectrum->frequencies;
-    if (set->kind != PS_FREQUENCIES_BOX || (set->dimension != PLANE && !request->wants_array)) {
-        return PSPEC_OK;
-    }
-    const ps_mean dc = request->wants_array ? ps_power_dc(request, spectrum) : (ps_mean){0};
-    PS_TRY(ps_spectrum_full(spectrum, 0, dc, &out->array, &num, error));
-    out->rank = set->dimension;
-    for (unsigned axis = 0; axis < set->dimension; axis++) {
-        out->shape[axis] = 2 * (size_t)set->max_frequency + 1;
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status take_coefficients(ps_answer *out, const ps_power_job *job, ps_error *error) {
-    ps_complex_shape shape;
-    PS_TRY(ps_power_coefficients(job, &out->array, &shape, error));
-    out->is_complex = true;
-    out->rank = shape.rank;
-    memcpy(out->shape, shape.shape, sizeof out->shape);
-    return PSPEC_OK;
-}
-
 /* The row of every set that goes through the frequency of --scatter. */
-static pspec_status take_scatter(ps_answer *out, const ps_frequencies_spec *asked,
-                                 const ps_power_job *job, ps_error *error) {
+static pspec_status add_scatter(ps_table *table, const ps_frequencies_spec *asked,
+                                const ps_power_job *job, ps_error *error) {
     ps_scatter scatter;
-    PS_TRY(ps_scatter_take(&scatter, &out->array, asked, job, error));
-    out->is_complex = true;
-    out->rank = 2;
-    out->shape[0] = scatter.num_sets;
-    out->shape[1] = 2 * (size_t)scatter.max_frequency + 1;
-    return PSPEC_OK;
+    ps_npy_array array = {.rank = 2, .is_complex = true};
+    PS_TRY(ps_scatter_take(&scatter, &array.data, asked, job, error));
+    array.shape[0] = scatter.num_sets;
+    array.shape[1] = 2 * (size_t)scatter.max_frequency + 1;
+    array.num = array.shape[0] * array.shape[1];
+    return ps_table_add_array(table, "scatter", false, &array, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const ps_spectra *const spectra = computed;
-    if (request->wants_coefficients) {
-        PS_TRY(take_coefficients(out, spectra->jobs[0], error));
-    } else if (request->frequencies.num_shown > 0) {
-        PS_TRY(take_scatter(out, &request->frequencies, spectra->jobs[0], error));
-    } else if (request->wants_picture || request->wants_array) {
-        PS_TRY(take_array(out, ps_power_job_spectrum(spectra->jobs[0]), request, error));
+    const ps_power_job *const job = spectra->jobs[0];
+    PS_TRY(ps_spectra_tabulate(out, computed, request, ps_power_table, error));
+    PS_TRY(ps_power_add_full(out->table, request, ps_power_job_spectrum(job), error));
+    if (request->wants_coefficients || request->coefficients != NULL) {
+        PS_TRY(ps_power_add_coefficients(out->table, job, error));
     }
-    return ps_spectra_tabulate(out, computed, request, ps_power_table, error);
-}
-
-static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
-    const ps_spectra *const spectra = computed;
-    if (request->full != NULL) {
-        PS_TRY(ps_power_write_full(request, spectra->jobs[0], error));
-    }
-    return request->coefficients != NULL
-               ? ps_power_write_coefficients(request, spectra->jobs[0], error)
+    return request->frequencies.num_shown > 0
+               ? add_scatter(out->table, &request->frequencies, job, error)
                : PSPEC_OK;
 }
 
@@ -126,7 +88,6 @@ const ps_kind ps_kind_power = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .write_others = write_others,
     .draw = draw,
     .discard = ps_spectra_discard,
     .fields = fields,

@@ -39,8 +39,11 @@ const ps_field_row ps_fields_powers[] = {
     {"c2", "", PS_COLUMN, OF(pairs), "", "mean of C_l^2; a rounding below 0 where it is 0"},
     {"c2_error", "", PS_COLUMN, OF(pairs), "", "its standard error"},
     {"full", "", PS_ARRAY, OF(power), "--full",
-     "averaged periodogram, float64 [2K+1]^d, index k_i + K on axis i; its standard error is in "
-     "another file of that shape"},
+     "averaged periodogram, float64 [2K+1]^d, index k_i + K on axis i"},
+    {"full_standard_error", "", PS_ARRAY, OF(power), "--full",
+     "its standard errors, of the same shape; a file of its own, FILE.standard_error.npy"},
+    {"scatter", "", PS_ARRAY, OF(power), "--scatter",
+     "S(j, k_2, ..) of each set for j = -K .. K, complex128 [M][2K+1]; no file of its own"},
     {"coefficients", "", PS_ARRAY, OF(power) | OF(angular), "--coefficients",
      "S(k) of each set, complex128 in the places of full; on the sphere c_lm of the only set at "
      "index m(2L+1-m)/2 + l"},

@@ -167,10 +167,9 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
-    /* One is all that is read, and in blocks nothing tells beforehand. */
-    const bool has_only_block_set = question->on_sphere && !question->keeps_sets &&
-                                    question->harmonics != PS_NO_HARMONICS &&
-                                    question->sampler == NULL && !job->sets.part.is_whole;
+    const bool has_only_block_set = /* nothing tells beforehand that it is */
+        question->on_sphere && !question->keeps_sets && question->harmonics != PS_NO_HARMONICS &&
+        question->sampler == NULL && !job->sets.part.is_whole;
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->most_points,
@@ -178,6 +177,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .num_realizations = has_only_block_set ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
         .keeps_coefficients = question->keeps_sets || question->harmonics == PS_EXPONENTIALS,
+        .fills_boxes = question->fills_boxes,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =
             question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,

@@ -53,6 +53,7 @@ typedef struct ps_power_question {
     bool wants_pair_sums; /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
     /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
     ps_harmonics harmonics;
+    bool fills_boxes; /* on the torus, coefficients of every set are handed on as boxes */
     bool keeps_sets;  /* on the sphere, too, those of every set are wanted */
     bool keeps_first; /* a copy of the first set, for a picture */
     bool is_turned;   /* on the sphere: about the x axis, see ps_source_turn */

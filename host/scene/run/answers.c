@@ -77,8 +77,13 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
             ps_text_append(&bytes, "%d %s;", (int)cell.kind, cell.text != NULL ? cell.text : "");
         }
     }
-    ps_text_append_bytes(&bytes, (const char *)answer->array,
-                         ps_answer_num_entries(answer) * sizeof(double));
+    for (size_t i = 0; i < ps_table_num_arrays(answer->table); i++) {
+        const char *name = NULL;
+        bool is_state = false;
+        const ps_npy_array *const array = ps_table_array(answer->table, i, &name, &is_state);
+        ps_text_append_bytes(&bytes, (const char *)array->data,
+                             is_state ? 0 : ps_npy_num_doubles(array) * sizeof *array->data);
+    }
     ps_digest_bytes(ps_text_string(&bytes), bytes.length, out);
     const pspec_status status = ps_text_check(&bytes, error);
     ps_text_free(&bytes);

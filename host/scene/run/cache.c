@@ -1,5 +1,4 @@
 /* Answers in the cache of results: under which key, as which bytes. */
-#include "base/memory.h"
 #include "pointspec_version.h"
 #include "scene/run/run.h"
 #include "tables/table_pack.h"
@@ -109,76 +108,25 @@ static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_er
 
 /* ---- answers as bytes -------------------------------------------------------------------- */
 
-/* What it took, the size of the packed table and the shape of the array; the table, the array. */
-typedef struct packed_head {
-    double seconds;
-    uint64_t table_bytes, is_complex, rank, shape[PS_ANSWER_RANK];
-} packed_head;
-
+/* What it took, and the table. */
 static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, ps_error *error) {
     void *bytes = NULL;
     size_t num = 0;
     PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
-    packed_head head = {.seconds = seconds,
-                        .table_bytes = num,
-                        .is_complex = answer->is_complex,
-                        .rank = answer->rank};
-    for (unsigned axis = 0; axis < answer->rank; axis++) {
-        head.shape[axis] = answer->shape[axis];
-    }
-    ps_text_append_bytes(out, (const char *)&head, sizeof head);
+    ps_text_append_bytes(out, (const char *)&seconds, sizeof seconds);
     ps_text_append_bytes(out, bytes, num);
-    ps_text_append_bytes(out, (const char *)answer->array,
-                         ps_answer_num_entries(answer) * sizeof(double));
     free(bytes);
     return ps_text_check(out, error);
-}
-
-/* Bytes of the array, or more than there are. */
-static size_t count_array_bytes(const packed_head *head, size_t most) {
-    size_t bytes = head->rank > 0 ? sizeof(double) : 0;
-    bytes *= head->is_complex != 0 ? 2 : 1;
-    for (uint64_t axis = 0; axis < head->rank && axis < PS_ANSWER_RANK; axis++) {
-        if (head->shape[axis] > most ||
-            !ps_size_multiply(bytes, (size_t)head->shape[axis], &bytes)) {
-            return SIZE_MAX;
-        }
-    }
-    return head->rank <= PS_ANSWER_RANK ? bytes : SIZE_MAX;
-}
-
-static pspec_status unpack_array(ps_answer *out, const packed_head *head, const char *bytes,
-                                 size_t num_bytes, ps_error *error) {
-    if (num_bytes == 0) {
-        return PSPEC_OK;
-    }
-    PS_TRY(ps_allocate_for(&out->array, num_bytes, 1, "an array", error));
-    memcpy(out->array, bytes, num_bytes);
-    out->is_complex = head->is_complex != 0;
-    out->rank = (unsigned)head->rank;
-    for (unsigned axis = 0; axis < out->rank; axis++) {
-        out->shape[axis] = (size_t)head->shape[axis];
-    }
-    return PSPEC_OK;
 }
 
 /* What another version may have packed is no answer: PSPEC_ERROR_INPUT. */
 static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, size_t num,
                            ps_error *error) {
-    packed_head head;
-    if (num < sizeof head) {
+    if (num < sizeof *seconds) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is no answer", num);
     }
-    memcpy(&head, bytes, sizeof head);
-    const size_t rest = num - sizeof head;
-    if (head.table_bytes > rest ||
-        count_array_bytes(&head, rest) != rest - (size_t)head.table_bytes) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is cut off", num);
-    }
-    const size_t table_bytes = (size_t)head.table_bytes;
-    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof head, table_bytes, error));
-    *seconds = head.seconds;
-    return unpack_array(out, &head, bytes + sizeof head + table_bytes, rest - table_bytes, error);
+    memcpy(seconds, bytes, sizeof *seconds);
+    return ps_table_unpack(&out->table, bytes + sizeof *seconds, num - sizeof *seconds, error);
 }
 
 /* ---- to and fro ------------------------------------------------------------------------------ */

@@ -91,11 +91,11 @@ out:
 
 pspec_status ps_draw_scatter(const ps_artist *artist, const ps_picture *what) {
     const ps_run_question *const question = &artist->result->questions[what->curves[0]];
-    const ps_answer *const answer = &question->answer;
-    const ps_scatter scatter = {.num_sets = answer->shape[0],
+    const ps_npy_array *const rows = ps_table_find_array(question->answer.table, "scatter");
+    const ps_scatter scatter = {.num_sets = rows->shape[0],
                                 .asked = &question->asked.request.frequencies,
-                                .max_frequency = (int32_t)(answer->shape[1] / 2),
-                                .rows = answer->array};
+                                .max_frequency = (int32_t)(rows->shape[1] / 2),
+                                .rows = rows->data};
     ps_text label = {0};
     ps_text title = {0};
     verb own = {artist, what};

@@ -17,10 +17,14 @@ static double frequency_unit(const ps_table *table) {
 
 /* Of a question whose array was wanted and is there. */
 static bool find_image(const ps_run_result *result, size_t question, ps_plot_image *out) {
-    const ps_answer *const answer = &result->questions[question].answer;
-    *out = (ps_plot_image){
-        .size = answer->shape[0], .power = answer->array, .unit = frequency_unit(answer->table)};
-    return answer->array != NULL && answer->rank == 2 && !answer->is_complex && out->unit > 0;
+    const ps_table *const table = result->questions[question].answer.table;
+    const ps_npy_array *const full = ps_table_find_array(table, "full");
+    if (full == NULL || full->rank != 2) {
+        return false;
+    }
+    *out =
+        (ps_plot_image){.size = full->shape[0], .power = full->data, .unit = frequency_unit(table)};
+    return out->unit > 0;
 }
 
 /* Images of a result have the same colours for the same powers. */

@@ -27,11 +27,12 @@ void ps_name_sampler(const ps_scene_result *asked, size_t question, ps_text *out
 
 /* The first realization of an answer: [M][N][dimension]. */
 static pspec_status add_set(const ps_artist *artist, size_t question, ps_points_picture *picture) {
-    const ps_answer *const answer = &artist->result->questions[question].answer;
+    const ps_table *const table = artist->result->questions[question].answer.table;
+    const ps_npy_array *const points = ps_table_find_array(table, "coordinates");
     ps_text name = {0};
     ps_name_sampler(artist->result->asked, question, &name);
-    const ps_drawn_set set = {ps_text_string(&name), find_domain(answer->table),
-                              (unsigned)answer->shape[2], answer->shape[1], answer->array};
+    const ps_drawn_set set = {ps_text_string(&name), find_domain(table), (unsigned)points->shape[2],
+                              points->shape[1], points->data};
     pspec_status status = ps_text_check(&name, artist->error);
     if (status == PSPEC_OK) {
         status = ps_points_picture_add(picture, &set, &artist->run->hooks.watch, artist->error);

@@ -1,5 +1,4 @@
 /* The files of a run. */
-#include "files/npy.h"
 #include "files/output_file.h"
 #include "scene/run/run.h"
 
@@ -53,29 +52,18 @@ static pspec_status write_table(const ps_run *run, const ps_table *table, const 
     return status;
 }
 
-static void put_array(ps_output_file *file, const ps_answer *answer) {
-    FILE *const stream = ps_output_stream(file);
-    if (answer->is_complex) {
-        ps_npy_write_complex_header(stream, answer->rank, answer->shape);
-    } else {
-        ps_npy_write_header(stream, answer->rank, answer->shape);
-    }
-    ps_output_write(file, answer->array, sizeof *answer->array, ps_answer_num_entries(answer));
-}
-
+/* Of a question that has one: lists of frequencies fill none. */
 static pspec_status write_array(const ps_run *run, const ps_answer *answer, const char *name,
                                 size_t question, ps_error *error) {
+    const char *field = NULL;
+    bool is_state = false;
     ps_text path = {0};
-    ps_output_file *file = NULL;
     ps_text_append(&path, "%s/%s%s%s", run->folder, name, ps_run_array_suffix(question).text,
                    ps_run_array_ending);
     pspec_status status = ps_text_check(&path, error);
     if (status == PSPEC_OK) {
-        status = ps_output_open(&file, ps_text_string(&path), error);
-    }
-    if (status == PSPEC_OK) {
-        put_array(file, answer);
-        status = ps_output_commit(&file, error);
+        status = ps_npy_write_array(ps_text_string(&path),
+                                    ps_table_array(answer->table, 0, &field, &is_state), error);
     }
     if (status == PSPEC_OK) {
         note_written(run, ps_text_string(&path));
