@@ -13,23 +13,58 @@ const char *pspec_answer_kind(size_t i) {
 
 /* ---- options ----------------------------------------------------------------------------- */
 
+static ps_cell text_or_missing(const char *text) {
+    return text != NULL && text[0] != '\0' ? PS_TEXT(text) : PS_MISSING;
+}
+
+/* Kinds of answers that take the option, with commas. */
+static void list_kinds(ps_text *out, ps_option_id id) {
+    for (size_t i = 0; ps_kinds[i] != NULL; i++) {
+        const ps_verb_set all = ps_options[id].questions | ps_options[id].commands;
+        if ((all & ps_kinds[i]->bit) != 0) {
+            ps_text_append(out, "%s%s", out->length > 0 ? "," : "", ps_kinds[i]->name);
+        }
+    }
+}
+
+static pspec_status add_option(ps_table *table, const ps_verb *verb, ps_option_id id,
+                               ps_error *error) {
+    const char *const words = ps_verb_words(verb, id);
+    char help[PS_OPTION_HELP_BYTES];
+    ps_option_facts facts;
+    ps_text kinds = {0};
+    ps_option_help(help, ps_options[id].help, verb->name);
+    ps_option_find_facts(&facts, id, words, help);
+    list_kinds(&kinds, id);
+    pspec_status status = ps_text_check(&kinds, error);
+    const ps_cell cells[] = {PS_TEXT(ps_options[id].name),
+                             text_or_missing(words),
+                             PS_TEXT(facts.type),
+                             text_or_missing(facts.unit),
+                             text_or_missing(facts.initial),
+                             PS_TEXT(facts.is_repeatable ? "yes" : "no"),
+                             text_or_missing(facts.file),
+                             text_or_missing(ps_text_string(&kinds)),
+                             PS_TEXT(help)};
+    if (status == PSPEC_OK) {
+        status = ps_table_add_row(table, cells, error);
+    }
+    ps_text_free(&kinds);
+    return status;
+}
+
 static pspec_status fill_options(ps_table *table, const ps_verb *verb, ps_error *error) {
     for (int i = 0; i < PS_NUM_OPTIONS; i++) {
-        const ps_option_id id = (ps_option_id)i;
-        if (ps_public_takes(verb, id)) {
-            const char *const words = ps_verb_words(verb, id);
-            char help[PS_OPTION_HELP_BYTES];
-            ps_option_help(help, ps_options[id].help, verb->name);
-            const ps_cell cells[] = {PS_TEXT(ps_options[id].name),
-                                     words != NULL ? PS_TEXT(words) : PS_MISSING, PS_TEXT(help)};
-            PS_TRY(ps_table_add_row(table, cells, error));
+        if (ps_public_takes(verb, (ps_option_id)i)) {
+            PS_TRY(add_option(table, verb, (ps_option_id)i, error));
         }
     }
     return PSPEC_OK;
 }
 
 pspec_status pspec_options_table(pspec_table **out, pspec_context *context, const char *command) {
-    static const char *const columns[] = {"option", "values", "help"};
+    static const char *const columns[] = {"option",   "values", "type",  "unit", "default",
+                                          "repeated", "file",   "kinds", "help"};
     ps_table *table = NULL;
     const ps_verb *verb = NULL;
     if (out == NULL || context == NULL) {
@@ -48,10 +83,6 @@ pspec_status pspec_options_table(pspec_table **out, pspec_context *context, cons
 }
 
 /* ---- fields ------------------------------------------------------------------------------ */
-
-static ps_cell text_or_missing(const char *text) {
-    return text[0] != '\0' ? PS_TEXT(text) : PS_MISSING;
-}
 
 static pspec_status add_field(const ps_field_row *row, void *table, ps_error *error) {
     const ps_cell cells[] = {PS_TEXT(row->name),         PS_TEXT(ps_field_groups[row->group]),

@@ -77,6 +77,37 @@ static bool is_one_of(const char *name, const char *const *names) {
     return *names != NULL;
 }
 
+static void check_facts(const pspec_table *table, size_t row, const char *kind) {
+    static const char *const types[] = {"flag", "integer", "integers", "number",
+                                        "word", "text",    NULL};
+    static const struct {
+        const char *option, *column, *text;
+    } known[] = {
+        {"points", "type", "integers"},
+        {"points", "default", "1024"},
+        {"memory", "unit", "bytes"},
+        {"memory", "default", "POINTSPEC_MEMORY, else what is free, which chooses nothing"},
+        {"sampler", "repeated", "yes"},
+        {"full", "file", "written"},
+        {"frequencies", "file", "read"},
+        {"normalize", "type", "word"},
+        {"weights", "type", "text"},
+        {"full", "kinds", "power"},
+        {"homogenize", "type", "flag"},
+        {"tol", "default", "1e-6"}};
+    const char *const option = pspec_table_cell(table, row, 0).text;
+    const pspec_cell type = pspec_table_cell(table, row, pspec_table_find_column(table, "type"));
+    const pspec_cell kinds = pspec_table_cell(table, row, pspec_table_find_column(table, "kinds"));
+    assert_true(is_one_of(type.text, types));
+    assert_non_null(strstr(kinds.text, kind));
+    for (size_t i = 0; strcmp(kind, "power") == 0 && i < COUNT(known); i++) {
+        const size_t column = pspec_table_find_column(table, known[i].column);
+        if (strcmp(option, known[i].option) == 0) {
+            assert_string_equal(pspec_table_cell(table, row, column).text, known[i].text);
+        }
+    }
+}
+
 /* Every kind is found, and every option that it says it takes. */
 static void options_are_listed(void **state) {
     (void)state;
@@ -90,6 +121,9 @@ static void options_are_listed(void **state) {
         assert_int_equal(pspec_options_table(&table, context, kind), PSPEC_OK);
         const size_t rows = pspec_table_num_rows(table);
         assert_true(rows > 3);
+        for (size_t row = 0; row < rows; row++) {
+            check_facts(table, row, kind);
+        }
         const size_t last = is_one_of(kind, have_points) ? 0 : strcmp(kind, "check") == 0 ? 2 : 1;
         assert_string_equal(pspec_table_cell(table, rows - 1, 0).text, last_ones[last]);
         pspec_table_destroy(table);

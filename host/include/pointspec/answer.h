@@ -38,7 +38,10 @@ typedef struct pspec_option {
 PSPEC_EXPORT const char *pspec_answer_kind(size_t i);
 
 /** The options that a command takes here, as a table with the columns option, values (missing for
- * flags) and help. command: a kind of answer, "sample", "convert" or "run".
+ * flags), type ("flag", "integer", "integers", "number", "word" of those of values, or "text"),
+ * unit (missing: none), default (as help says it; missing: none), repeated ("yes" where each of
+ * several counts), file ("read" or "written" where a value names one; else missing), kinds (of
+ * answers that take it, with commas) and help. command: a kind of answer, "sample", "convert" or "run".
  * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest command where there is no such one. */
 PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *context,
                                               const char *command);
