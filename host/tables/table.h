@@ -7,8 +7,8 @@
  * has; missing is null. JSON lines: a line with all but the rows, then a line for each row. NPY:
  * float64 [rows][columns], missing is nan, and a JSON file of the same name (out.npy: out.json)
  * holds the rest. NPZ: each column a vector by its name, int64 where all of its cells are integers,
- * text where one of them is, else float64 with nan for what is missing; and what that JSON file
- * has, as the array "meta". A number that is nan counts as missing. JSON has no infinities: null. Text is for
+ * text where one of them is, else float64 with nan for what is missing; what that JSON file has, as
+ * the array "meta"; "fields" and "cell_kinds", by which it is read back (table_rows.h). A number that is nan counts as missing. JSON has no infinities: null. Text is for
  * people (table_text.c): few digits, units for seconds and bytes.
  */
 #ifndef PS_TABLES_TABLE_H
@@ -104,6 +104,11 @@ pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_fo
  * is called so. */
 #define PS_TABLE_META "meta"
 pspec_status ps_table_add_to_npz(const ps_table *table, ps_npz *npz, ps_error *error) PS_MUST_CHECK;
+/* A table as it was written there, to the bit, but for its view. Of other files it is
+ * PSPEC_ERROR_INPUT (files/packed/npz.h). */
+pspec_status ps_table_take_npz(ps_table **out, const ps_npz_file *file,
+                               ps_error *error) PS_MUST_CHECK;
+pspec_status ps_table_read_npz(ps_table **out, const char *path, ps_error *error) PS_MUST_CHECK;
 
 /* ---- reading: texts stay as long as the table does; indices must be below the numbers -------- */
 

@@ -1,4 +1,5 @@
-/* Tables as arrays of an NPZ file: the header, and a vector for each column. */
+/* Tables as arrays of an NPZ file: the header as JSON for others, a list of all fields, the kinds
+ * of cells, and a vector for each column. */
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/decimal.h"
@@ -45,15 +46,15 @@ static const char *show(char own[CELL_BYTES], const ps_cell *cell) {
     return own;
 }
 
-/* Characters, which out gets unless it is NULL; a byte that is none is U+FFFD. */
+/* Characters, which out gets unless it is NULL; a byte that is none is U+DC80 to U+DCFF, as Python
+ * has it in names of files. */
 static size_t decode(uint32_t *out, const char *text) {
-    const uint32_t unknown = 0xfffd;
     size_t num = 0;
     while (*text != '\0') {
         uint32_t code = 0;
         const size_t length = ps_text_decode(&code, text);
         if (out != NULL) {
-            out[num] = length > 0 ? code : unknown;
+            out[num] = length > 0 ? code : (uint32_t)PS_TABLE_NO_CHARACTER + (unsigned char)*text;
         }
         num++;
         text += length > 0 ? length : 1;
@@ -112,12 +113,81 @@ static pspec_status add_numbers(const column *self, bool are_integers, ps_npz *n
     return status;
 }
 
+/* Integers beside numbers that are none, or missing, must be exact as doubles. */
+static bool is_exact(const column *self) {
+    const int64_t most = (int64_t)1 << 53;
+    bool all = true;
+    for (size_t row = 0; row < self->table->num_rows; row++) {
+        const ps_cell *const cell = cell_at(self, row);
+        all = all &&
+              (cell->kind != PS_CELL_INTEGER || (cell->integer >= -most && cell->integer <= most));
+    }
+    return all;
+}
+
 static pspec_status add_column(const column *self, ps_npz *npz, ps_error *error) {
     const size_t num = self->table->num_rows;
-    return count_cells(self, PS_CELL_TEXT) > 0
+    const bool are_integers = num > 0 && count_cells(self, PS_CELL_INTEGER) == num;
+    return count_cells(self, PS_CELL_TEXT) > 0 || (!are_integers && !is_exact(self))
                ? add_texts(self, npz, error)
-               : add_numbers(self, num > 0 && count_cells(self, PS_CELL_INTEGER) == num, npz,
-                             error);
+               : add_numbers(self, are_integers, npz, error);
+}
+
+/* ---- fields -------------------------------------------------------------------------------- */
+
+static void put_text(ps_text *out, const char *text) {
+    ps_text_append_bytes(out, text, strlen(text) + 1);
+}
+
+static void put_fields(ps_text *out, const ps_table *table) {
+    char own[CELL_BYTES];
+    put_text(out, PS_TABLE_FIELDS_VERSION);
+    put_text(out, table->command);
+    for (size_t i = 0; i < table->num_columns; i++) {
+        ps_text_append(out, "%c", PS_TABLE_COLUMN);
+        put_text(out, table->columns[i]);
+    }
+    for (size_t i = 0; i < table->num_meta; i++) {
+        const ps_table_entry *const entry = &table->meta[i];
+        ps_text_append(out, "%c",
+                       (entry->is_repeated ? PS_TABLE_REPEATED : PS_TABLE_SINGLE) +
+                           (char)entry->value.kind);
+        put_text(out, entry->key);
+        put_text(out, show(own, &entry->value));
+    }
+    for (size_t i = 0; i < table->num_arrays; i++) {
+        ps_text_append(out, "%c", table->arrays[i].is_state ? PS_TABLE_STATE : PS_TABLE_ARRAY);
+        put_text(out, table->arrays[i].name);
+    }
+    if (table->has_blocks) {
+        ps_text_append(out, "%c", PS_TABLE_BLOCKS);
+    }
+}
+
+static pspec_status add_fields(const ps_table *table, ps_npz *npz, ps_error *error) {
+    ps_text fields = {0};
+    put_fields(&fields, table);
+    pspec_status status = ps_text_check(&fields, error);
+    if (status == PSPEC_OK) {
+        const ps_npz_array array = {PS_TABLE_FIELDS, 'u', 1, 1, &fields.length, fields.data};
+        status = ps_npz_add(npz, &array, error);
+    }
+    ps_text_free(&fields);
+    return status;
+}
+
+static pspec_status add_kinds(const ps_table *table, ps_npz *npz, ps_error *error) {
+    const size_t shape[] = {table->num_rows, table->num_columns};
+    const size_t num = shape[0] * shape[1];
+    uint8_t *kinds = NULL;
+    PS_TRY(PS_NEW(&kinds, num, "kinds of cells", error));
+    for (size_t i = 0; i < num; i++) {
+        kinds[i] = (uint8_t)table->cells[i].kind;
+    }
+    const ps_npz_array array = {PS_TABLE_KINDS, 'u', 1, 2, shape, kinds};
+    const pspec_status status = ps_npz_add(npz, &array, error);
+    free(kinds);
+    return status;
 }
 
 /* ---- header -------------------------------------------------------------------------------- */
@@ -151,6 +221,8 @@ static pspec_status add_header(const ps_table *table, ps_npz *npz, ps_error *err
 
 pspec_status ps_table_add_to_npz(const ps_table *table, ps_npz *npz, ps_error *error) {
     PS_TRY(add_header(table, npz, error));
+    PS_TRY(add_fields(table, npz, error));
+    PS_TRY(add_kinds(table, npz, error));
     for (size_t i = 0; i < table->num_columns; i++) {
         PS_TRY(add_column(&(column){table, table->columns[i], i}, npz, error));
     }

@@ -7,6 +7,23 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+/* Arrays of an NPZ file beside columns. The fields are bytes, texts that each end in NUL: the
+ * version, the command, then a letter before the name of each column and array, before key and
+ * value of each entry (and with it the kind of its cell), and one without text. Kinds of cells are
+ * [rows][columns]. */
+#define PS_TABLE_FIELDS "fields"
+#define PS_TABLE_KINDS "cell_kinds"
+#define PS_TABLE_FIELDS_VERSION "1"
+enum {
+    PS_TABLE_SINGLE = '0',
+    PS_TABLE_REPEATED = '4',
+    PS_TABLE_COLUMN = 'c',
+    PS_TABLE_ARRAY = 'a',
+    PS_TABLE_STATE = 's',
+    PS_TABLE_BLOCKS = 'b',
+    PS_TABLE_NO_CHARACTER = 0xdc00 /* added to a byte of a text that is no UTF-8 */
+};
+
 typedef struct ps_table_entry {
     char *key;
     ps_cell value; /* its text belongs to the table */

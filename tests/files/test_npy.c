@@ -4,6 +4,7 @@
 #include "files/packed/npz.h"
 #include "test_folder.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -95,6 +96,32 @@ static void check_array(void **state, const char *name, size_t i) {
     assert_memory_equal(found + HEADER, arrays[i].data, sizes[i]);
 }
 
+/* The same arrays come back; with another limit the file is one of nobody. */
+static void check_read(void **state, const char *name, uint64_t limit) {
+    char path[TEST_PATH_BYTES];
+    ps_npz_file *file = NULL;
+    ps_error error = {0};
+    const int descriptor = open(test_path(*state, name, path), O_RDONLY);
+    assert_int_equal(ps_npz_read(&file, descriptor, path, limit, &error), PSPEC_OK);
+    for (size_t i = 0; i < NUM_ARRAYS; i++) {
+        const ps_npz_array *const array = ps_npz_find(file, arrays[i].name);
+        assert_non_null(array);
+        assert_int_equal(array->kind, arrays[i].kind);
+        assert_int_equal(array->element_bytes, arrays[i].element_bytes);
+        assert_int_equal(array->rank, arrays[i].rank);
+        assert_memory_equal(array->shape, arrays[i].rank > 0 ? arrays[i].shape : shapes[0],
+                            arrays[i].rank * sizeof *array->shape);
+        assert_memory_equal(array->data, arrays[i].data, sizes[i]);
+    }
+    assert_null(ps_npz_find(file, "other"));
+    ps_npz_free(file);
+    lseek(descriptor, 0, SEEK_SET);
+    assert_int_equal(ps_npz_read(&file, descriptor, path, limit + 1000, &error),
+                     limit == PS_NPZ_LIMIT ? PSPEC_OK : PSPEC_ERROR_INPUT);
+    ps_npz_free(file);
+    close(descriptor);
+}
+
 /* Whether sizes and places stand in fields of 32 bits, of 64, or some here and some there. */
 static void writes_archives(void **state) {
     static const struct {
@@ -116,6 +143,7 @@ static void writes_archives(void **state) {
         for (size_t i = 0; i < NUM_ARRAYS; i++) {
             check_array(state, "once.npz", i);
         }
+        check_read(state, "once.npz", cases[c].limit);
         free(once);
         free(again);
     }

@@ -1,15 +1,13 @@
-/* Files of the cache of results, and packed tables. */
+/* Files of the cache of results. */
 #include "fuzz.h"
 
 #include "store/cache_entry.h"
-#include "tables/table_pack.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
-/* ---- entries: the first byte has flags ---- */
-
+/* The first byte has flags. */
 enum { WITH_CHECKSUMS = 1, ASK_FOR_STORED_KEY = 2 };
 
 /* The key as the head has it, where it fits. */
@@ -78,27 +76,4 @@ void fuzz_cache(const char *argument, fuzz_bytes input) {
     free(data);
     fuzz_file_close(&file);
     free(bytes);
-}
-
-/* ---- packed tables: what is taken packs to the same bytes ---- */
-
-void fuzz_table(const char *argument, fuzz_bytes input) {
-    (void)argument;
-    ps_table *table = NULL;
-    ps_error error = {0};
-    void *bytes = NULL;
-    size_t num_bytes = 0;
-    const pspec_status status = ps_table_unpack(&table, input.data, input.size, &error);
-    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
-    if (status != PSPEC_OK) {
-        return;
-    }
-    if (ps_table_pack(table, &bytes, &num_bytes, &error) != PSPEC_OK) {
-        fuzz_fail("what was unpacked cannot be packed: %s", error.message);
-    }
-    if (num_bytes != input.size || memcmp(bytes, input.data, num_bytes) != 0) {
-        fuzz_fail("another table comes back");
-    }
-    free(bytes);
-    ps_table_destroy(table);
 }

@@ -332,21 +332,24 @@ entry key 'some data' | seed cache other '\1'
 entry '' '' | seed cache empty '\3'
 entry key 'some data' | seed cache unchecked '\2'
 
-text() { u32 ${#1} 0 && printf %s "$1"; }
-# Cells: missing, a number, an integer, a text
-cells() {
-    printf '\0\1' && f64 0.1
-    printf '\2' && u32 4294967294 4294967295
-    printf '\3' && text "white:a=1"
+# array KIND EXTENTS: of a table in an NPZ file, its kind (0 to 4: f, i, u, c, U1) and extents, and then its data
+array() {
+    local extents
+    read -ra extents <<<"$2"
+    printf '%b' "\x01\x0$1\x0${#extents[@]}" && printf '\\x%02x' "${extents[@]}" | xargs -0 printf '%b' && cat
 }
+# fields LIST: with | for the NUL behind each text
+fields() { printf %s "$1" | tr '|' '\0' | array 2 ${#1}; }
 {
-    printf pstable1 && text power
-    u32 4 0 && for name in none number integer sampler; do text $name; done
-    u32 3 0 && for value in one two; do text skipped && printf '\3' && text $value; done
-    text empty && printf '\0'
-    u32 2 0 && cells && cells
-} | seed table rows ''
-{ printf pstable1 && text angular && u32 1 0 && text x && u32 0 0 0 0; } | seed table empty ''
+    fields '1|power|ca|cb|cc|7sampler|white|0empty||1x|-inf|2n|7|b'
+    printf '\0\3\2\1\2\2' | array 2 '2 3'
+    f64 nan 0.5 | array 0 2
+    printf 'a\0\0\0001\0\0\0' | array 4 2
+    u32 1 0 4294967295 4294967295 | array 1 2
+} | seed table rows '\1'
+{ fields '1|power|' && printf '' | array 2 '0 0'; } | seed table empty '\1'
+{ fields '1|power|aa|sb|' && printf '' | array 2 '0 0' && f64 1 2 | array 3 1 && f64 1 | array 0 ''; } | seed table arrays '\1'
+printf 'PK\3\4' | seed table cut '\0'
 
 # figures VERSION LINES: of the device of figures.c; the first byte asks for a right checksum
 figures() {

@@ -44,7 +44,8 @@ for i in range(int(sys.argv[1])):
     archive = np.load(f"{i}.npz", allow_pickle=False)
     with open(f"{i}.csv") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
-    assert json.loads(str(archive["meta"]))["columns"] == rows[0] == archive.files[1:]
+    assert json.loads(str(archive["meta"]))["columns"] == rows[0] == archive.files[3:-1]
+    assert archive.files[:3] + archive.files[-1:] == ["meta", "fields", "cell_kinds", "digest"]
     for column, name in enumerate(rows[0]):
         array = archive[name]
         texts = [row[column] for row in rows[1:]]

@@ -1,5 +1,6 @@
-/* Tables as bytes and back, reading them cell by cell, and bytes that are no table. */
-#include "tables/table_pack.h"
+/* Tables in NPZ files and back, reading them cell by cell, and files that are no table. */
+#include "tables/table.h"
+#include "test_folder.h"
 
 #include <float.h>
 #include <math.h>
@@ -129,17 +130,35 @@ static void is_read_cell_by_cell(void **state) {
     ps_table_destroy(table);
 }
 
-/* The table that came back takes more, like any other. */
-static void comes_back_to_the_bit(void **state) {
-    (void)state;
-    ps_table *const table = make_table();
+/* Written and read; the table that came back makes the same bytes. */
+static ps_table *write_and_read(void **state, const ps_table *table) {
+    char path[TEST_PATH_BYTES];
     ps_table *again = NULL;
     ps_error error = {0};
-    void *bytes = NULL;
-    size_t num_bytes = 0;
-    assert_int_equal(ps_table_pack(table, &bytes, &num_bytes, &error), PSPEC_OK);
-    assert_int_equal(ps_table_unpack(&again, bytes, num_bytes, &error), PSPEC_OK);
+    size_t num = 0;
+    size_t num_again = 0;
+    test_path(*state, "table.npz", path);
+    assert_int_equal(ps_table_write(table, path, PS_FORMAT_NPZ, &error), PSPEC_OK);
+    char *const bytes = test_read_file(path, &num);
+    if (ps_table_read_npz(&again, path, &error) != PSPEC_OK) {
+        fail_msg("%s", error.message);
+    }
+    assert_int_equal(ps_table_write(again, path, PS_FORMAT_NPZ, &error), PSPEC_OK);
+    char *const bytes_again = test_read_file(path, &num_again);
+    assert_int_equal(num, num_again);
+    assert_memory_equal(bytes, bytes_again, num);
     free(bytes);
+    free(bytes_again);
+    return again;
+}
+
+/* The table that came back takes more, like any other. */
+static void comes_back_to_the_bit(void **state) {
+    ps_table *const table = make_table();
+    ps_error error = {0};
+    ps_table_set_repeated(table, "skipped");
+    ps_table_set_blocks(table);
+    ps_table *const again = write_and_read(state, table);
     check_equal(table, again);
     const ps_cell row[NUM_COLUMNS] = {PS_TEXT("new"), PS_INTEGER(1), PS_NUMBER(NAN)};
     assert_int_equal(ps_table_add_row(again, row, &error), PSPEC_OK);
@@ -151,108 +170,133 @@ static void comes_back_to_the_bit(void **state) {
     ps_table_destroy(table);
 }
 
+/* Columns of one kind of cells, and of two: integers that no double has beside what is missing;
+ * numbers, and all lengths of UTF-8 and bytes that are none, beside texts. */
+static void mixed_columns_come_back(void **state) {
+    static const char *const columns[] = {"a", "b"};
+    const ps_cell cells[] = {PS_INTEGER(3),
+                             PS_MISSING,
+                             PS_NUMBER(0.1),
+                             PS_INTEGER(INT64_MAX),
+                             PS_NUMBER(-INFINITY),
+                             PS_NUMBER(-0.0),
+                             PS_TEXT(""),
+                             PS_TEXT("1"),
+                             PS_TEXT("a\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\xff\x80\xed\xb2\x80")};
+    enum { NUM = sizeof cells / sizeof cells[0] };
+    for (size_t i = 0; i < NUM; i++) {
+        for (size_t j = 0; j < NUM; j++) {
+            ps_table *table = NULL;
+            ps_error error = {0};
+            assert_int_equal(ps_table_create(&table, "c", columns, 2, &error), PSPEC_OK);
+            for (size_t row = 0; row < 2; row++) {
+                const ps_cell both[] = {row == 0 ? cells[i] : cells[j], cells[j]};
+                assert_int_equal(ps_table_add_row(table, both, &error), PSPEC_OK);
+            }
+            assert_int_equal(ps_table_add_meta(table, "value", cells[i], &error), PSPEC_OK);
+            ps_table *const again = write_and_read(state, table);
+            check_equal(table, again);
+            ps_table_destroy(again);
+            ps_table_destroy(table);
+        }
+    }
+}
+
 static void empty_tables_come_back(void **state) {
-    (void)state;
     for (size_t num_columns = 0; num_columns < 2; num_columns++) {
         static const char *const columns[] = {"x"};
         ps_table *table = NULL;
-        ps_table *again = NULL;
         ps_error error = {0};
-        void *bytes = NULL;
-        size_t num_bytes = 0;
         assert_int_equal(ps_table_create(&table, NULL, columns, num_columns, &error), PSPEC_OK);
-        assert_int_equal(ps_table_pack(table, &bytes, &num_bytes, &error), PSPEC_OK);
-        assert_int_equal(ps_table_unpack(&again, bytes, num_bytes, &error), PSPEC_OK);
+        ps_table *const again = write_and_read(state, table);
         check_equal(table, again);
-        free(bytes);
         ps_table_destroy(again);
         ps_table_destroy(table);
     }
 }
 
-static bool is_refused(const void *bytes, size_t num_bytes) {
+static void check_refused(const char *path, const void *bytes, size_t num) {
     ps_table *table = NULL;
     ps_error error = {0};
-    void *const exact = malloc(num_bytes > 0 ? num_bytes : 1); /* sanitizers see its end */
-    assert_non_null(exact);
-    memcpy(exact, bytes, num_bytes);
-    const pspec_status status = ps_table_unpack(&table, exact, num_bytes, &error);
-    assert_true(status == PSPEC_OK || status == PSPEC_ERROR_INPUT);
-    assert_int_equal(status == PSPEC_OK, table != NULL);
-    assert_true(status == PSPEC_OK || strstr(error.message, "no packed table") != NULL);
-    ps_table_destroy(table);
-    free(exact);
-    return status != PSPEC_OK;
+    assert_true(test_write_file(path, bytes, num));
+    assert_int_equal(ps_table_read_npz(&table, path, &error), PSPEC_ERROR_INPUT);
+    assert_null(table);
+    assert_non_null(strstr(error.message, path));
 }
 
-static void cut_and_long_bytes_are_refused(void **state) {
-    (void)state;
+/* Whatever is cut off, added or changed. */
+static void other_bytes_are_refused(void **state) {
+    char path[TEST_PATH_BYTES];
     ps_table *const table = make_table();
     ps_error error = {0};
-    void *bytes = NULL;
-    size_t num_bytes = 0;
-    assert_int_equal(ps_table_pack(table, &bytes, &num_bytes, &error), PSPEC_OK);
-    for (size_t i = 0; i < num_bytes; i++) {
-        assert_true(is_refused(bytes, i));
-    }
-    char *const longer = calloc(num_bytes + 1, 1);
-    assert_non_null(longer);
-    memcpy(longer, bytes, num_bytes);
-    assert_false(is_refused(longer, num_bytes));
-    assert_true(is_refused(longer, num_bytes + 1));
-    free(longer);
-    free(bytes);
+    size_t num = 0;
+    test_path(*state, "table.npz", path);
+    assert_int_equal(ps_table_write(table, path, PS_FORMAT_NPZ, &error), PSPEC_OK);
     ps_table_destroy(table);
-}
-
-/* Every byte becomes every other: refused, or another table, which packs to the very bytes it came
- * from. */
-static void changed_bytes_are_refused_or_another_table(void **state) {
-    (void)state;
-    static const char *const columns[] = {"x"};
-    const ps_cell row = PS_TEXT("t");
-    ps_table *table = NULL;
-    ps_error error = {0};
-    void *memory = NULL;
-    size_t num_bytes = 0;
-    size_t num_refused = 0;
-    assert_int_equal(ps_table_create(&table, "c", columns, 1, &error), PSPEC_OK);
-    assert_int_equal(ps_table_add_meta(table, "k", PS_NUMBER(1.5), &error), PSPEC_OK);
-    assert_int_equal(ps_table_add_row(table, &row, &error), PSPEC_OK);
-    assert_int_equal(ps_table_pack(table, &memory, &num_bytes, &error), PSPEC_OK);
-    ps_table_destroy(table);
-    unsigned char *const bytes = memory;
-    for (size_t i = 0; i < num_bytes; i++) {
-        for (int change = 1; change < 256; change++) {
-            void *packed = NULL;
-            size_t num_packed = 0;
-            bytes[i] ^= (unsigned char)change;
-            if (is_refused(bytes, num_bytes)) {
-                num_refused++;
-            } else {
-                assert_int_equal(ps_table_unpack(&table, bytes, num_bytes, &error), PSPEC_OK);
-                assert_int_equal(ps_table_pack(table, &packed, &num_packed, &error), PSPEC_OK);
-                assert_int_equal(num_packed, num_bytes);
-                assert_memory_equal(packed, bytes, num_bytes);
-                free(packed);
-                ps_table_destroy(table);
-            }
-            bytes[i] ^= (unsigned char)change;
+    char *const bytes = test_read_file(path, &num); /* and a NUL behind them */
+    for (size_t i = 0; i < num; i++) {
+        bytes[i] = (char)(bytes[i] ^ (1 << i % 8));
+        check_refused(path, bytes, num);
+        bytes[i] = (char)(bytes[i] ^ (1 << i % 8));
+        if (i % 7 == 0 || num - i < 200) {
+            check_refused(path, bytes, i);
         }
     }
-    /* magic, six lengths and counts, each of 8 bytes, in which at most a smaller number can be
-     * meant */
-    assert_true(num_refused > 56 * 250);
-    free(memory);
+    check_refused(path, bytes, num + 1);
+    assert_true(test_write_file(path, bytes, num));
+    ps_table *again = NULL;
+    assert_int_equal(ps_table_read_npz(&again, path, &error), PSPEC_OK);
+    ps_table_destroy(again);
+    free(bytes);
 }
+
+/* Sound archives that are no tables: each has one array more, or another. */
+static void archives_that_are_no_tables_are_refused(void **state) {
+    static const size_t one[] = {1, 1};
+    static const double number = 1.5;
+    static const char fields[] = "1\0c\0cx\0", kinds[] = {PS_CELL_NUMBER, PS_CELL_TEXT, 7};
+    static const size_t num_fields[] = {sizeof fields - 1, sizeof fields - 3};
+    const ps_npz_array good[] = {{"fields", 'u', 1, 1, num_fields, fields},
+                                 {"cell_kinds", 'u', 1, 2, one, kinds},
+                                 {"x", 'f', sizeof number, 1, one, &number}};
+    const ps_npz_array bad[] = {{"fields", 'u', 1, 1, &num_fields[1], fields},
+                                {"fields", 'u', 1, 1, num_fields, "2\0c\0cx\0"},
+                                {"fields", 'u', 1, 1, num_fields, "1\0c\0?x\0"},
+                                {"fields", 'u', 1, 1, num_fields, "1\0c\0cy\0"},
+                                {"other", 'u', 1, 1, num_fields, fields},
+                                {"cell_kinds", 'u', 1, 2, one, kinds + 1},
+                                {"cell_kinds", 'u', 1, 2, one, kinds + 2},
+                                {"cell_kinds", 'u', 1, 1, one, kinds},
+                                {"x", 'i', sizeof number, 1, one, &number},
+                                {"x", 'f', sizeof number, 0, NULL, &number}};
+    enum { NUM = 3, NUM_BAD = sizeof bad / sizeof bad[0] };
+    char path[TEST_PATH_BYTES];
+    test_path(*state, "no.npz", path);
+    for (size_t i = 0; i <= NUM_BAD; i++) {
+        ps_npz *npz = NULL;
+        ps_table *table = NULL;
+        ps_error error = {0};
+        const size_t place = i < 5 ? 0 : i < 8 ? 1 : i < NUM_BAD ? 2 : NUM;
+        assert_int_equal(ps_npz_open(&npz, path, PS_NPZ_LIMIT, &error), PSPEC_OK);
+        for (size_t j = 0; j < NUM; j++) {
+            assert_int_equal(ps_npz_add(npz, j == place ? &bad[i] : &good[j], &error), PSPEC_OK);
+        }
+        assert_int_equal(ps_npz_commit(&npz, &error), PSPEC_OK);
+        assert_int_equal(ps_table_read_npz(&table, path, &error),
+                         i < NUM_BAD ? PSPEC_ERROR_INPUT : PSPEC_OK);
+        assert_int_equal(i == NUM_BAD, table != NULL);
+        ps_table_destroy(table);
+    }
+}
+
+#define IN_FOLDER(test)                                                                            \
+    cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(is_read_cell_by_cell),
-        cmocka_unit_test(comes_back_to_the_bit),
-        cmocka_unit_test(empty_tables_come_back),
-        cmocka_unit_test(cut_and_long_bytes_are_refused),
-        cmocka_unit_test(changed_bytes_are_refused_or_another_table),
+        cmocka_unit_test(is_read_cell_by_cell), IN_FOLDER(comes_back_to_the_bit),
+        IN_FOLDER(mixed_columns_come_back),     IN_FOLDER(empty_tables_come_back),
+        IN_FOLDER(other_bytes_are_refused),     IN_FOLDER(archives_that_are_no_tables_are_refused),
     };
-    return cmocka_run_group_tests_name("table_pack", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("table_read", tests, NULL, NULL);
 }

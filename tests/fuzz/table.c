@@ -1,0 +1,112 @@
+/* Tables in NPZ files: what is read has no more cells than bytes. After a first byte 0 the input is
+ * the file. Else it is what tables are made of, and gets the records and the digest that hardly an
+ * input would have: arrays, each the length of its texts, its kind, rank and extents, a byte each,
+ * and its bytes; the first two have the names of those beside columns, the others are a, b, c. */
+#include "base/memory.h"
+#include "files/packed/npz_records.h"
+#include "fuzz.h"
+#include "tables/table.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+static void put_array(ps_text *out, ps_npz_records *records, const ps_npz_array *array) {
+    char header[PS_NPY_HEADER_BYTES];
+    const size_t header_bytes = ps_npz_make_header(header, array);
+    size_t bytes = 0;
+    if (!ps_npz_count_bytes(array, &bytes)) {
+        fuzz_fail("bytes that are there are too many");
+    }
+    const ps_npz_member one = {
+        .name = array->name, .name_bytes = strlen(array->name), .size = header_bytes + bytes};
+    ps_npz_put_member(out, records, &one);
+    ps_text_append_bytes(out, header, header_bytes);
+    ps_text_append_bytes(out, array->data, bytes);
+    records->position = out->length;
+}
+
+/* false: the input has no further array. */
+static bool take_array(ps_npz_array *array, size_t *shape, fuzz_bytes *input) {
+    static const char kinds[] = "fiucU";
+    const size_t sizes[] = {8, 8, 1, 16, 4 * (size_t)fuzz_take(input)};
+    const size_t kind = fuzz_take(input) % (sizeof kinds - 1);
+    size_t bytes = 0;
+    array->kind = kinds[kind];
+    array->element_bytes = sizes[kind];
+    array->rank = fuzz_take(input) % 3;
+    array->shape = shape;
+    for (unsigned axis = 0; axis < array->rank; axis++) {
+        shape[axis] = fuzz_take(input);
+    }
+    array->data = input->data;
+    if (!ps_npz_count_bytes(array, &bytes) || bytes > input->size) {
+        return false;
+    }
+    input->data += bytes;
+    input->size -= bytes;
+    return true;
+}
+
+static void make_file(ps_text *out, fuzz_bytes input) {
+    static const char *const names[] = {"fields", "cell_kinds", "a", "b", "c"};
+    ps_npz_records all = {.limit = PS_NPZ_LIMIT};
+    size_t shape[PS_NPY_MAX_RANK];
+    ps_npz_array array;
+    for (size_t i = 0;
+         i < sizeof names / sizeof names[0] && input.size > 0 && take_array(&array, shape, &input);
+         i++) {
+        array.name = names[i];
+        put_array(out, &all, &array);
+    }
+    const XXH128_hash_t digest = XXH3_128bits(ps_text_string(out), out->length);
+    const size_t num = sizeof digest / sizeof(int64_t);
+    put_array(out, &all, &(ps_npz_array){PS_NPZ_DIGEST, 'i', sizeof(int64_t), 1, &num, &digest});
+    ps_text_append_bytes(out, ps_text_string(&all.directory), all.directory.length);
+    all.position = out->length;
+    ps_npz_put_end(out, &all, all.directory.length);
+    ps_text_free(&all.directory);
+}
+
+/* As long a text as a file has bytes, so that memory shows in the time. */
+static void check_table(const ps_table *table, size_t num_bytes) {
+    if (ps_table_num_rows(table) * ps_table_num_columns(table) > num_bytes) {
+        fuzz_fail("more cells than bytes");
+    }
+    for (size_t row = 0; row < ps_table_num_rows(table); row++) {
+        for (size_t column = 0; column < ps_table_num_columns(table); column++) {
+            const ps_cell cell = ps_table_cell(table, row, column);
+            if ((cell.kind == PS_CELL_TEXT) != (cell.text != NULL)) {
+                fuzz_fail("a text without a text, or the other way round");
+            }
+        }
+    }
+}
+
+void fuzz_table(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    ps_text made = {0};
+    ps_table *table = NULL;
+    ps_error error = {0};
+    if (fuzz_take(&input) == 0) {
+        ps_text_append_bytes(&made, (const char *)input.data, input.size);
+    } else {
+        make_file(&made, input);
+    }
+    fuzz_file file =
+        fuzz_file_make((fuzz_bytes){(const uint8_t *)ps_text_string(&made), made.length});
+    const pspec_status status = ps_table_read_npz(&table, file.path, &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if ((status == PSPEC_OK) != (table != NULL)) {
+        fuzz_fail("a table that was refused, or none that was taken");
+    }
+    if (table != NULL) {
+        check_table(table, made.length);
+    }
+    ps_table_destroy(table);
+    fuzz_file_close(&file);
+    ps_text_free(&made);
+}
