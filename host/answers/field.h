@@ -20,10 +20,10 @@ typedef struct ps_field_row {
     const char *name; /* NULL ends a list */
     const char *unit; /* "": none */
     ps_field_group group;
-    bool is_repeated;    /* the key of an entry may come several times, as for several samplers */
-    ps_verb_set kinds;   /* 0: all that have the list */
-    const char *when;    /* options and cases in which it is there; "": always */
-    const char *meaning; /* one sentence */
+    bool is_repeated;     /* the key of an entry may come several times, as for several samplers */
+    ps_command_set kinds; /* 0: all that have the list */
+    const char *when;     /* options and cases in which it is there; "": always */
+    const char *meaning;  /* one sentence */
 } ps_field_row;
 
 /* Group and repetition, as rows have them. */
@@ -35,7 +35,7 @@ typedef struct ps_field_row {
 /* Of several kinds: the request's record, points, frequencies, device and engine. */
 extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[];
 
-typedef struct ps_kind ps_kind;
+typedef struct ps_command ps_kind;
 
 /* Calls visit for every row of the kind, in the order of its lists, until it fails. */
 pspec_status ps_kind_visit_fields(const ps_kind *kind,

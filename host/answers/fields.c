@@ -1,7 +1,7 @@
 /* Fields of several kinds of answers. */
 #include "answers/kind.h"
 
-#define OF(name) PS_VERB_BIT(name)
+#define OF(name) PS_COMMAND_BIT(name)
 #define TORUS (OF(power) | OF(check) | OF(variance))
 #define SPHERE (OF(angular) | OF(pairs) | OF(check) | OF(variance))
 #define SPECTRA (TORUS | SPHERE)
@@ -108,7 +108,7 @@ const ps_field_row ps_fields_computed[] = {
     {.name = NULL}};
 
 static bool belongs(const ps_field_row *row, const ps_kind *kind) {
-    return row->kinds == 0 || (row->kinds & kind->bit) != 0;
+    return row->kinds == 0 || (row->kinds & kind->takes) != 0;
 }
 
 pspec_status ps_kind_visit_fields(const ps_kind *kind,

@@ -1,10 +1,11 @@
-/* The interface of every kind of answer, and the table that names them all.
+/* The interface of every command, and of every kind of answer, and the tables that name them.
  *
- * A kind of answer is what can be asked for: a command of the same name prints one, a scene has
- * several, and both go the same way: check -> compute -> tabulate, with pictures and other files
- * made of what was computed, or of the table. A kind says which options belong to its question,
- * the work it would take, for `plan`, and what its tables mean to who draws or compares them. A new
- * kind is a new file, a name and the rows of its options in request/options.h and .c.
+ * A command is what program and library can be asked to do: one row says which options it takes, in
+ * which words people read of it, and how it is run and planned. A kind of answer is a command that
+ * prints one, which scenes have several of; both go the same way: check -> compute -> tabulate,
+ * with pictures and other files made of what was computed, or of the table. Its row says also what
+ * its tables mean to who draws or compares them. A new one is a new file, a name and the rows of
+ * its options in request/options.h and .c.
  */
 #ifndef PS_ANSWERS_KIND_H
 #define PS_ANSWERS_KIND_H
@@ -73,16 +74,35 @@ typedef struct ps_line_kind {
     bool is_log_x, is_log_y;
 } ps_line_kind;
 
-typedef struct ps_kind {
+typedef struct ps_command {
     const char *name;
 
-    /* The question. */
-    /* Its bit in the table of options: which belong to the question, the same on every device */
-    ps_verb_set bit;
-    const char *weights; /* words of --weights; NULL: equal|column|FILE */
+    /* Its words. */
+    const char *purpose;     /* one line */
+    const char *usage;       /* after "pointspec ", for example "power [options] [FILE...]" */
+    const char *description; /* a paragraph for --help */
+    const char *examples[2]; /* complete command lines, run by the tests */
+
+    /* What it takes, and how it is run. */
+    ps_command_set takes; /* whose options: its bit in their table; those that belong to a question
+                             are the same on every device */
+    /* Words of --format, the default first, and of --weights; NULL: those of the table */
+    const char *formats, *weights;
     ps_domain samples;   /* which samplers it takes */
     const char *counted; /* what its work counts: "realizations" */
-    bool is_of_host;     /* no device is needed, whatever is asked */
+    const char *speaker; /* who says its warnings; NULL: "pointspec" */
+    bool makes_points;   /* output and format are of points, not of a table */
+    bool makes_folder;   /* which --output names: it has no default */
+    /* All of it; NULL: ps_answer_produce does it. *out is {0} before, and freed by ps_answer_free,
+     * also after an error */
+    pspec_status (*run)(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
+                        ps_error *error);
+    /* Adds what it would come to; NULL: it is not planned. */
+    pspec_status (*plan)(ps_planner *planner, const ps_request *request, ps_error *error);
+    const ps_field_row *const *fields; /* lists of all that its tables have, ended by NULL */
+
+    /* The question of a kind of answer. */
+    bool is_of_host; /* no device is needed, whatever is asked */
     bool has_images; /* its answers may have a picture, which scenes ask for by the key pictures */
     bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
     bool has_coefficients; /* or coefficients, by arrays: coefficients */
@@ -95,8 +115,6 @@ typedef struct ps_kind {
     pspec_status (*check_arguments)(const ps_request *request, ps_error *error);
     /* What can be refused is refused before the first hour of work: do the options fit together? */
     pspec_status (*check_question)(const ps_request *request, ps_error *error);
-    /* Adds what computing it would come to. */
-    pspec_status (*plan)(ps_planner *planner, const ps_request *request, ps_error *error);
 
     /* The answer. All the work: *out is what the following are made of, given to discard, also
      * after an error. It borrows from the request. */
@@ -110,7 +128,6 @@ typedef struct ps_kind {
     void (*discard)(void *computed); /* NULL is allowed */
 
     /* What the tables mean. */
-    const ps_field_row *const *fields; /* lists of all that they have; ended by NULL */
     const char *const *summary;   /* header entries that are columns of a summary, ended by NULL */
     const ps_line_kind *spectrum; /* axes of the powers of spectra; NULL: it is none */
     const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */
@@ -123,14 +140,28 @@ typedef struct ps_kind {
     /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
      * infinite where one has what the other lacks. */
     double (*compare)(const ps_table *a, const ps_table *b);
-} ps_kind;
+} ps_command;
 
-/* ps_kind_power, .. */
+/* A command that has an answer, and all that is below its question. */
+typedef ps_command ps_kind;
+
+/* ps_kind_power, .., and ps_command_run, .. */
 #define PS_DECLARE_KIND(name) extern const ps_kind ps_kind_##name;
-#define PS_DECLARE_NOTHING(name)
-PS_VERBS(PS_DECLARE_KIND, PS_DECLARE_NOTHING)
+#define PS_DECLARE_COMMAND(name) extern const ps_command ps_command_##name;
+PS_COMMANDS(PS_DECLARE_KIND, PS_DECLARE_COMMAND, PS_DECLARE_COMMAND, PS_DECLARE_COMMAND)
+/* The same in tables. */
+#define PS_KIND_OF(name) &ps_kind_##name,
+#define PS_COMMAND_OF(name) &ps_command_##name,
 
-/* All of them; ended by NULL. */
+/* Names of all kinds of answers in sentences, "power, angular, .., check, ", and in usages,
+ * "power|angular|..|check|". */
+#define PS_COMMA_AFTER(name) #name ", "
+#define PS_BAR_AFTER(name) #name "|"
+#define PS_KINDS_IN_SENTENCE                                                                       \
+    PS_COMMANDS(PS_COMMA_AFTER, PS_NO_COMMAND, PS_NO_COMMAND, PS_NO_COMMAND)
+#define PS_KINDS_IN_USAGE PS_COMMANDS(PS_BAR_AFTER, PS_NO_COMMAND, PS_NO_COMMAND, PS_NO_COMMAND)
+
+/* All kinds that are commands; ended by NULL. */
 extern const ps_kind *const ps_kinds[];
 
 /* Points of a sampler, as a result of a scene. None of these: the command sample writes point
@@ -139,8 +170,19 @@ extern const ps_kind ps_kind_points;
 
 /* Does the option belong to the question? */
 static inline bool ps_kind_asks(const ps_kind *kind, ps_option_id id) {
-    return (ps_options[id].questions & kind->bit) != 0;
+    return (ps_options[id].questions & kind->takes) != 0;
 }
+/* Every command takes --help, also when the table of options does not say so. */
+static inline bool ps_command_takes(const ps_command *command, ps_option_id id) {
+    return id == PS_OPTION_HELP ||
+           ((ps_options[id].questions | ps_options[id].commands) & command->takes) != 0;
+}
+/* The values that the command admits for the option, "one|two|FILE"; NULL for a flag. */
+const char *ps_command_words(const ps_command *command, ps_option_id id);
+/* The command of a table, which NULL ends, whose name is nearest, by *distance: 0 for that very
+ * name. */
+const ps_command *ps_command_nearest(const ps_command *const *table, const char *name,
+                                     size_t *distance);
 
 /* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an
  * error. A check that found differences is no error: the answer has the verdict. */
@@ -154,8 +196,5 @@ void ps_answer_free(ps_answer *answer);
  * that a check found are its verdict, and no error. */
 pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_request *request,
                                const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
-
-/* The values that the kind admits for the option, "one|two|FILE"; NULL for a flag. */
-const char *ps_kind_words(const ps_kind *kind, ps_option_id id);
 
 #endif

@@ -1,5 +1,4 @@
 #include "answers/kind.h"
 
-#define KIND(name) &ps_kind_##name,
-#define NOTHING(name)
-const ps_kind *const ps_kinds[] = {PS_VERBS(KIND, NOTHING) NULL};
+const ps_kind *const ps_kinds[] = {
+    PS_COMMANDS(PS_KIND_OF, PS_NO_COMMAND, PS_NO_COMMAND, PS_NO_COMMAND) NULL};

@@ -15,7 +15,8 @@ typedef struct ps_planner {
     ps_lead lead; /* what the rows begin with, the same columns in all of them */
     /* Borrowed; NULL: the one that a request names is opened where it is needed */
     ps_device *device;
-    const ps_figures *host; /* what was measured of the host; NULL: nothing */
+    const struct ps_answer_hooks *hooks; /* borrowed: a scene hands them on */
+    const ps_figures *host;              /* what was measured of the host; NULL: nothing */
     ps_begun begun;
     double seconds; /* of all jobs so far */
     bool is_at_most;

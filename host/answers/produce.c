@@ -1,5 +1,5 @@
-/* What a command that prints a kind of answer does, and a public function that answers one: refuse
- * early, compute, write. */
+/* What commands take, what one that prints a kind of answer does, and a public function that
+ * answers one: refuse early, compute, write. */
 #include "answers/kind.h"
 #include "answers/output_check.h"
 #include "answers/picture.h"
@@ -10,12 +10,25 @@
 #include <stddef.h>
 #include <string.h>
 
-const char *ps_kind_words(const ps_kind *kind, ps_option_id id) {
-    if (id == PS_OPTION_FORMAT && kind->has_verdict) {
-        return "csv|json|npz|jsonl|text"; /* verdicts are no numbers */
+const char *ps_command_words(const ps_command *command, ps_option_id id) {
+    const char *const own = id == PS_OPTION_FORMAT    ? command->formats
+                            : id == PS_OPTION_WEIGHTS ? command->weights
+                                                      : NULL;
+    return own != NULL ? own : ps_options[id].metavar;
+}
+
+const ps_command *ps_command_nearest(const ps_command *const *table, const char *name,
+                                     size_t *distance) {
+    const ps_command *nearest = NULL;
+    *distance = SIZE_MAX;
+    for (size_t i = 0; table[i] != NULL; i++) {
+        const size_t own = ps_name_distance(name, table[i]->name);
+        if (own < *distance) {
+            *distance = own;
+            nearest = table[i];
+        }
     }
-    return id == PS_OPTION_WEIGHTS && kind->weights != NULL ? kind->weights
-                                                            : ps_options[id].metavar;
+    return nearest;
 }
 
 /* ---- before ------------------------------------------------------------------------------ */

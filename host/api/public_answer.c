@@ -20,20 +20,19 @@ static ps_cell text_or_missing(const char *text) {
 /* Kinds of answers that take the option, with commas. */
 static void list_kinds(ps_text *out, ps_option_id id) {
     for (size_t i = 0; ps_kinds[i] != NULL; i++) {
-        const ps_verb_set all = ps_options[id].questions | ps_options[id].commands;
-        if ((all & ps_kinds[i]->bit) != 0) {
+        if (ps_command_takes(ps_kinds[i], id)) {
             ps_text_append(out, "%s%s", out->length > 0 ? "," : "", ps_kinds[i]->name);
         }
     }
 }
 
-static pspec_status add_option(ps_table *table, const ps_verb *verb, ps_option_id id,
+static pspec_status add_option(ps_table *table, const ps_command *row, ps_option_id id,
                                ps_error *error) {
-    const char *const words = ps_verb_words(verb, id);
+    const char *const words = ps_command_words(row, id);
     char help[PS_OPTION_HELP_BYTES];
     ps_option_facts facts;
     ps_text kinds = {0};
-    ps_option_help(help, ps_options[id].help, verb->name);
+    ps_option_help(help, ps_options[id].help, row->name);
     ps_option_find_facts(&facts, id, words, help);
     list_kinds(&kinds, id);
     pspec_status status = ps_text_check(&kinds, error);
@@ -53,10 +52,10 @@ static pspec_status add_option(ps_table *table, const ps_verb *verb, ps_option_i
     return status;
 }
 
-static pspec_status fill_options(ps_table *table, const ps_verb *verb, ps_error *error) {
+static pspec_status fill_options(ps_table *table, const ps_command *row, ps_error *error) {
     for (int i = 0; i < PS_NUM_OPTIONS; i++) {
-        if (ps_public_takes(verb, (ps_option_id)i)) {
-            PS_TRY(add_option(table, verb, (ps_option_id)i, error));
+        if (ps_public_takes(row, (ps_option_id)i)) {
+            PS_TRY(add_option(table, row, (ps_option_id)i, error));
         }
     }
     return PSPEC_OK;
@@ -66,15 +65,15 @@ pspec_status pspec_options_table(pspec_table **out, pspec_context *context, cons
     static const char *const columns[] = {"option",   "values", "type",  "unit", "default",
                                           "repeated", "file",   "kinds", "help"};
     ps_table *table = NULL;
-    const ps_verb *verb = NULL;
+    const ps_command *row = NULL;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_verb(&verb, command, false, error));
+    PS_TRY(ps_public_find_command(&row, command, false, error));
     PS_TRY(ps_table_create(&table, "options", columns, sizeof columns / sizeof columns[0], error));
-    const pspec_status status = fill_options(table, verb, error);
+    const pspec_status status = fill_options(table, row, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(table);
         return status;
@@ -94,15 +93,15 @@ static pspec_status add_field(const ps_field_row *row, void *table, ps_error *er
 pspec_status pspec_fields_table(pspec_table **out, pspec_context *context, const char *kind) {
     static const char *const columns[] = {"field", "group", "unit", "repeated", "when", "meaning"};
     ps_table *table = NULL;
-    const ps_verb *verb = NULL;
+    const ps_command *row = NULL;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_verb(&verb, kind, true, error));
+    PS_TRY(ps_public_find_command(&row, kind, true, error));
     PS_TRY(ps_table_create(&table, "fields", columns, sizeof columns / sizeof columns[0], error));
-    const pspec_status status = ps_kind_visit_fields(verb->kind, add_field, table, error);
+    const pspec_status status = ps_kind_visit_fields(row, add_field, table, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(table);
         return status;
@@ -132,16 +131,16 @@ static pspec_status answer(pspec_table **out, pspec_context *context, const ps_k
 
 pspec_status pspec_answer(pspec_table **out, pspec_context *context, const char *kind,
                           const pspec_option *options, size_t num_options) {
-    const ps_verb *verb = NULL;
+    const ps_command *row = NULL;
     ps_public_words words;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     *out = NULL;
-    PS_TRY(ps_public_find_verb(&verb, kind, true, &context->error));
-    pspec_status status = ps_public_words_make(&words, context, "", verb, options, num_options);
+    PS_TRY(ps_public_find_command(&row, kind, true, &context->error));
+    pspec_status status = ps_public_words_make(&words, context, "", row, options, num_options);
     if (status == PSPEC_OK) {
-        status = answer(out, context, verb->kind, &words.request);
+        status = answer(out, context, row, &words.request);
     }
     ps_public_words_free(&words);
     return status;

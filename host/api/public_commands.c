@@ -1,9 +1,7 @@
 /* The public library: scenes, plans, and what there is on this machine. */
 #include "api/public_words.h"
-#include "commands/devices.h"
 #include "commands/doctor.h"
 #include "request/options.h"
-#include "scene/run/run.h"
 
 /* A table that was made, or nothing. */
 static pspec_status give(pspec_table **out, ps_answer *made, pspec_status status, ps_error *error) {
@@ -27,10 +25,10 @@ pspec_status pspec_run(pspec_table **out, pspec_context *context, const pspec_op
     ps_error *const error = &context->error;
     *out = NULL;
     pspec_status status =
-        ps_public_words_make(&words, context, "", &ps_verb_run, options, num_options);
+        ps_public_words_make(&words, context, "", &ps_command_run, options, num_options);
     if (status == PSPEC_OK) {
         const ps_answer_hooks hooks = ps_public_hooks(context);
-        status = ps_run_produce(&made, &words.request, &hooks, error);
+        status = ps_command_run.run(&made, &words.request, &hooks, error);
     }
     ps_public_words_free(&words);
     return give(out, &made, status, error);
@@ -38,7 +36,7 @@ pspec_status pspec_run(pspec_table **out, pspec_context *context, const pspec_op
 
 pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const char *command,
                               const pspec_option *options, size_t num_options) {
-    const ps_verb *verb = NULL;
+    const ps_command *row = NULL;
     ps_public_words words;
     ps_answer made = {0};
     if (out == NULL || context == NULL) {
@@ -46,12 +44,11 @@ pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const c
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_verb(&verb, command, false, error));
-    pspec_status status =
-        ps_public_words_make(&words, context, "plan ", verb, options, num_options);
+    PS_TRY(ps_public_find_command(&row, command, false, error));
+    pspec_status status = ps_public_words_make(&words, context, "plan ", row, options, num_options);
     if (status == PSPEC_OK) {
         const ps_answer_hooks hooks = ps_public_hooks(context);
-        status = ps_verb_plan(&made.table, verb, &words.request, &hooks, error);
+        status = ps_plan_command(&made.table, row, &words.request, &hooks, error);
     }
     ps_public_words_free(&words);
     return give(out, &made, status, error);
@@ -60,24 +57,18 @@ pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const c
 /* ---- the machine ------------------------------------------------------------------------- */
 
 pspec_status pspec_devices(pspec_table **out, pspec_context *context) {
-    static const ps_verb verb = {.name = "devices", .bit = PS_VERB_BIT(devices)};
     ps_public_words words;
-    ps_text why_none = {0};
     ps_answer made = {0};
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    pspec_status status = ps_public_words_make(&words, context, "", &verb, NULL, 0);
+    pspec_status status = ps_public_words_make(&words, context, "", &ps_command_devices, NULL, 0);
     if (status == PSPEC_OK) {
-        status = ps_devices_tabulate(&made.table, &why_none, &words.request, error);
-    }
-    if (status == PSPEC_OK && why_none.length > 0) {
         const ps_answer_hooks hooks = ps_public_hooks(context);
-        ps_answer_warn(&hooks, "%s", ps_text_string(&why_none));
+        status = ps_command_devices.run(&made, &words.request, &hooks, error);
     }
-    ps_text_free(&why_none);
     ps_public_words_free(&words);
     return give(out, &made, status, error);
 }

@@ -22,7 +22,7 @@ pspec_status pspec_sampler_create(pspec_sampler **out, pspec_context *context,
     pspec_sampler *self = NULL;
     PS_TRY(PS_NEW(&self, 1, "a sampler", error));
     pspec_status status =
-        ps_public_words_make(&words, context, "", &ps_verb_sample, options, num_options);
+        ps_public_words_make(&words, context, "", &ps_command_sample, options, num_options);
     if (status == PSPEC_OK) {
         status = ps_points_find_sampler(&self->request, &words.request, error);
     }
@@ -72,35 +72,33 @@ pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context 
 
 /* ---- into files -------------------------------------------------------------------------- */
 
-typedef pspec_status make_points(const ps_request *request, const ps_answer_hooks *hooks,
-                                 ps_error *error);
-
-static pspec_status make_file(make_points *make, pspec_context *context, const ps_verb *verb,
+static pspec_status make_file(pspec_context *context, const ps_command *row,
                               const pspec_option *options, size_t num_options) {
     ps_public_words words;
+    ps_answer nothing = {0};
     if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
-    pspec_status status = ps_public_words_make(&words, context, "", verb, options, num_options);
+    pspec_status status = ps_public_words_make(&words, context, "", row, options, num_options);
     if (status == PSPEC_OK && words.request.output == NULL &&
         !ps_request_only_draws(&words.request)) {
         status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s needs the option output, the file to write", verb->name);
+                         "%s needs the option output, the file to write", row->name);
     }
     if (status == PSPEC_OK) {
         const ps_answer_hooks hooks = ps_public_hooks(context);
-        status = make(&words.request, &hooks, error);
+        status = row->run(&nothing, &words.request, &hooks, error);
     }
     ps_public_words_free(&words);
     return status;
 }
 
 pspec_status pspec_sample(pspec_context *context, const pspec_option *options, size_t num_options) {
-    return make_file(ps_points_sample, context, &ps_verb_sample, options, num_options);
+    return make_file(context, &ps_command_sample, options, num_options);
 }
 
 pspec_status pspec_convert(pspec_context *context, const pspec_option *options,
                            size_t num_options) {
-    return make_file(ps_points_convert, context, &ps_verb_convert, options, num_options);
+    return make_file(context, &ps_command_convert, options, num_options);
 }

@@ -10,40 +10,35 @@
 
 /* ---- names ------------------------------------------------------------------------------- */
 
-pspec_status ps_public_find_verb(const ps_verb **out, const char *name, bool is_kind,
-                                 ps_error *error) {
+pspec_status ps_public_find_command(const ps_command **out, const char *name, bool is_kind,
+                                    ps_error *error) {
     const char *const what = is_kind ? "kind of answer" : "command";
-    size_t best = SIZE_MAX;
+    size_t distance = 0;
     if (name == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a %s", what);
     }
-    for (size_t i = 0; ps_verbs[i] != NULL; i++) {
-        const size_t distance = ps_name_distance(name, ps_verbs[i]->name);
-        if (distance < best && (ps_verbs[i]->kind != NULL || !is_kind)) {
-            best = distance;
-            *out = ps_verbs[i];
-        }
-    }
-    return best == 0
+    *out = ps_command_nearest(is_kind ? ps_kinds : ps_plannable, name, &distance);
+    return distance == 0
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no %s \"%s\"%s", what, name,
-                         ps_text_suggest(name, (*out)->name, best, "; did you mean ", "?").text);
+               : ps_fail(
+                     error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no %s \"%s\"%s", what, name,
+                     ps_text_suggest(name, (*out)->name, distance, "; did you mean ", "?").text);
 }
 
 /* ---- what is taken ----------------------------------------------------------------------- */
 
-bool ps_public_takes(const ps_verb *verb, ps_option_id id) {
+bool ps_public_takes(const ps_command *row, ps_option_id id) {
     static const ps_option_id of_program[] = {PS_OPTION_DEVICE, PS_OPTION_PROFILE, PS_OPTION_QUIET,
                                               PS_OPTION_VERBOSE, PS_OPTION_HELP};
     bool is_of_program = false;
     for (size_t i = 0; i < sizeof of_program / sizeof of_program[0]; i++) {
         is_of_program = is_of_program || of_program[i] == id;
     }
-    return !is_of_program && ps_verb_takes(verb, id);
+    return !is_of_program && ps_command_takes(row, id);
 }
 
-static bool takes(const void *verb, ps_option_id id) {
-    return ps_public_takes(verb, id);
+static bool takes(const void *row, ps_option_id id) {
+    return ps_public_takes(row, id);
 }
 
 /* ---- one option -------------------------------------------------------------------------- */
@@ -68,7 +63,7 @@ static pspec_status take_file(ps_public_words *out, const char *path, ps_error *
     return is_stream(path) ? refuse_stream(files_name, error) : PSPEC_OK;
 }
 
-static pspec_status take_option(ps_public_words *out, const ps_verb *verb,
+static pspec_status take_option(ps_public_words *out, const ps_command *row,
                                 const pspec_option *option, ps_error *error) {
     ps_option_id id = PS_NUM_OPTIONS;
     if (option->name == NULL) {
@@ -77,8 +72,8 @@ static pspec_status take_option(ps_public_words *out, const ps_verb *verb,
     if (strcmp(option->name, files_name) == 0) {
         return take_file(out, option->value, error);
     }
-    PS_TRY(ps_option_find(&id, option->name, takes, verb, verb->name, error));
-    const char *const words = ps_verb_words(verb, id);
+    PS_TRY(ps_option_find(&id, option->name, takes, row, row->name, error));
+    const char *const words = ps_command_words(row, id);
     const char *const value = option->value != NULL || words != NULL ? option->value : "true";
     if (value == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s needs a value: %s", option->name,
@@ -94,10 +89,10 @@ static pspec_status take_option(ps_public_words *out, const ps_verb *verb,
 /* ---- all of them ------------------------------------------------------------------------- */
 
 /* As POINTSPEC_MEMORY for the program: it counts as if it had been said, and so results keep it. */
-static void take_memory(ps_public_words *out, const pspec_context *context, const ps_verb *verb,
+static void take_memory(ps_public_words *out, const pspec_context *context, const ps_command *row,
                         const pspec_option *options, size_t num) {
     const char *const name = ps_options[PS_OPTION_MEMORY].name;
-    bool is_said = !ps_public_takes(verb, PS_OPTION_MEMORY) || context->memory_limit == 0;
+    bool is_said = !ps_public_takes(row, PS_OPTION_MEMORY) || context->memory_limit == 0;
     for (size_t i = 0; i < num && !is_said; i++) {
         is_said = options[i].name != NULL && strcmp(options[i].name, name) == 0;
     }
@@ -123,13 +118,13 @@ static pspec_status find_folder(ps_public_words *out, const pspec_context *conte
 }
 
 static pspec_status take_all(ps_public_words *out, pspec_context *context, const char *before,
-                             const ps_verb *verb, const pspec_option *options, size_t num) {
+                             const ps_command *row, const pspec_option *options, size_t num) {
     ps_error *const error = &context->error;
     PS_TRY(PS_NEW(&out->files, num, "names of files", error));
-    ps_text_append(&out->command, "pointspec %s%s", before, verb->name);
-    take_memory(out, context, verb, options, num);
+    ps_text_append(&out->command, "pointspec %s%s", before, row->name);
+    take_memory(out, context, row, options, num);
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(take_option(out, verb, &options[i], error));
+        PS_TRY(take_option(out, row, &options[i], error));
     }
     for (size_t i = 0; i < out->request.num_files; i++) {
         ps_text_append_word(&out->command, out->files[i]);
@@ -142,11 +137,11 @@ static pspec_status take_all(ps_public_words *out, pspec_context *context, const
 }
 
 pspec_status ps_public_words_make(ps_public_words *out, pspec_context *context, const char *before,
-                                  const ps_verb *verb, const pspec_option *options,
+                                  const ps_command *row, const pspec_option *options,
                                   size_t num_options) {
     *out = (ps_public_words){.request = ps_request_default};
     return options != NULL || num_options == 0
-               ? take_all(out, context, before, verb, options, num_options)
+               ? take_all(out, context, before, row, options, num_options)
                : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%zu options at the address NULL", num_options);
 }

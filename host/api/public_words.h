@@ -5,15 +5,15 @@
 
 #include "api/public_objects.h"
 #include "base/text.h"
-#include "commands/verb.h"
+#include "commands/plan.h"
 
-/* The verb of that name, or the sentence that names the nearest one. is_kind: kinds of answers
- * only. */
-pspec_status ps_public_find_verb(const ps_verb **out, const char *name, bool is_kind,
-                                 ps_error *error) PS_MUST_CHECK;
+/* The command of that name, or the sentence that names the nearest one. is_kind: kinds of answers
+ * only; else all that can be planned. */
+pspec_status ps_public_find_command(const ps_command **out, const char *name, bool is_kind,
+                                    ps_error *error) PS_MUST_CHECK;
 
 /* Not those of how a program shows its work, nor the device, which is that of the context. */
-bool ps_public_takes(const ps_verb *verb, ps_option_id id);
+bool ps_public_takes(const ps_command *row, ps_option_id id);
 
 /* A request, and what it borrows besides the caller's texts. */
 typedef struct ps_public_words {
@@ -23,10 +23,10 @@ typedef struct ps_public_words {
 } ps_public_words;
 
 /* Device and limit of memory are those of the context. before: what the command line has before the
- * name of the verb, "" or "plan ". Freed by ps_public_words_free, also after an error; it must not
+ * name of the command, "" or "plan ". Freed by ps_public_words_free, also after an error; it must not
  * be moved. */
 pspec_status ps_public_words_make(ps_public_words *out, pspec_context *context, const char *before,
-                                  const ps_verb *verb, const pspec_option *options,
+                                  const ps_command *row, const pspec_option *options,
                                   size_t num_options) PS_MUST_CHECK;
 void ps_public_words_free(ps_public_words *words);
 

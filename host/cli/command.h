@@ -1,11 +1,10 @@
-/* The commands: one file each (commands/NAME.c), one table (commands.c). */
+/* The commands of the program: one table (commands.c), and what they print. */
 #ifndef PS_CLI_COMMAND_H
 #define PS_CLI_COMMAND_H
 
 #include "answers/kind.h"
 #include "base/watch.h"
 #include "cli/signals.h"
-#include "commands/verb.h"
 
 #include <stdio.h>
 
@@ -19,46 +18,11 @@ enum {
     PS_EXIT_PIPE = 141         /* nobody reads what is written: what shells say of SIGPIPE */
 };
 
-typedef struct ps_command {
-    const char *name;
-    const char *summary;     /* one line */
-    const char *usage;       /* after "pointspec ", for example "power [options] [FILE...]" */
-    const char *description; /* a paragraph for --help */
-    const ps_kind *result;   /* what it prints, with the options of that question; or NULL */
-    const ps_verb *verb;     /* what else it does that the library can do, too; or NULL */
-    ps_verb_set takes;       /* whose options: the command's bit in their table */
-    const char *examples[2]; /* complete command lines, run by the tests */
-    /* Words of --format, the default first, and of --weights, where neither result nor verb says
-     * so; NULL: csv|json|npy|npz|jsonl|text, equal|column|FILE. */
-    const char *formats, *weights;
-    bool makes_folder; /* which --output names: it has no default */
-    ps_domain samples; /* which samplers it takes, where no result says so, for --help */
-    pspec_status (*run)(const ps_request *, ps_error *); /* NULL: it prints its result */
-} ps_command;
-
-/* Ended by NULL. */
+/* All of them, in the order of --help; ended by NULL. */
 extern const ps_command *const ps_commands[];
 
 /* The command of that name; NULL with a sentence that names the nearest one. */
 const ps_command *ps_command_find(const char *name, ps_error *error);
-
-/* ps_command_power, .. */
-#define PS_DECLARE_COMMAND(name) extern const ps_command ps_command_##name;
-PS_VERBS(PS_DECLARE_COMMAND, PS_DECLARE_COMMAND)
-
-/* Names of all kinds of answers in sentences, "power, angular, .., check, ", and in usages,
- * "power|angular|..|check|". */
-#define PS_COMMA_AFTER(name) #name ", "
-#define PS_BAR_AFTER(name) #name "|"
-#define PS_UNNAMED(name)
-#define PS_KINDS_IN_SENTENCE PS_VERBS(PS_COMMA_AFTER, PS_UNNAMED)
-#define PS_KINDS_IN_USAGE PS_VERBS(PS_BAR_AFTER, PS_UNNAMED)
-
-/* Every command takes --help, also when the table of options does not say so. */
-bool ps_command_takes(const ps_command *command, ps_option_id id);
-
-/* The values that the command admits for the option, "one|two|FILE"; NULL for a flag. */
-const char *ps_command_words(const ps_command *command, ps_option_id id);
 
 /* What stands after the option in usage and help: these values, or NAME when they are too many for
  * a line; NULL for a flag. */

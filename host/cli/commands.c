@@ -6,28 +6,17 @@
 
 #include <string.h>
 
-/* In the order of --help. A new command is a file, a name in request/options.h, and the rows of
- * its options. */
-#define COMMAND(name) &ps_command_##name,
-const ps_command *const ps_commands[] = {PS_VERBS(COMMAND, COMMAND) NULL};
+const ps_command *const ps_commands[] = {
+    PS_COMMANDS(PS_KIND_OF, PS_COMMAND_OF, PS_COMMAND_OF, PS_COMMAND_OF) NULL};
 
 const ps_command *ps_command_find(const char *name, ps_error *error) {
-    const ps_command *nearest = NULL;
-    size_t best = SIZE_MAX;
-    for (size_t i = 0; ps_commands[i] != NULL; i++) {
-        const size_t distance = ps_name_distance(name, ps_commands[i]->name);
-        if (distance < best) {
-            best = distance;
-            nearest = ps_commands[i];
-        }
-    }
-    if (best == 0) {
+    size_t distance = 0;
+    const ps_command *const nearest = ps_command_nearest(ps_commands, name, &distance);
+    if (distance == 0) {
         return nearest;
     }
     ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown command \"%s\"%s", name,
-            nearest != NULL
-                ? ps_text_suggest(name, nearest->name, best, "; did you mean ", "?").text
-                : "");
+            ps_text_suggest(name, nearest->name, distance, "; did you mean ", "?").text);
     return NULL;
 }
 

@@ -55,11 +55,17 @@ static void append_names(char text[TEXT_BYTES], const char *words, const char *m
     }
 }
 
+const char *ps_command_metavar(const ps_command *command, ps_option_id id) {
+    enum { MOST_LETTERS = 40 };
+    const char *const words = ps_command_words(command, id);
+    return words != NULL && strlen(words) > MOST_LETTERS ? "NAME" : words;
+}
+
 /* A command of the torus refuses columns of the sphere, by a sentence of its own. */
 static const char *find_words(const ps_command *command, ps_option_id id) {
-    const bool is_of_torus = command->result != NULL && command->result->samples == PS_DOMAIN_TORUS;
-    return id == PS_OPTION_COLUMNS && is_of_torus ? PS_TORUS_COLUMNS
-                                                  : ps_command_words(command, id);
+    return id == PS_OPTION_COLUMNS && command->samples == PS_DOMAIN_TORUS
+               ? PS_TORUS_COLUMNS
+               : ps_command_words(command, id);
 }
 
 static void print_option(FILE *stream, const ps_command *command, ps_option_id id) {
@@ -160,8 +166,7 @@ void ps_help_command(FILE *stream, const ps_command *command) {
         }
     }
     if (ps_command_takes(command, PS_OPTION_SAMPLER)) {
-        print_samplers(stream,
-                       command->result != NULL ? command->result->samples : command->samples);
+        print_samplers(stream, command->samples);
     }
     if (ps_command_takes(command, PS_OPTION_BRDF)) {
         print_brdfs(stream);
@@ -208,7 +213,7 @@ static pspec_status print_field(const ps_field_row *row, void *payload, ps_error
 
 pspec_status ps_help_fields(FILE *stream, const ps_command *command, ps_error *error) {
     static const ps_field_group order[] = {PS_FIELD_COLUMN, PS_FIELD_ENTRY, PS_FIELD_ARRAY};
-    if (command->result == NULL) {
+    if (command->fields == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "fields are those of answers, and %s gives none: %sand no other command do",
                        command->name, PS_KINDS_IN_SENTENCE);
@@ -219,7 +224,7 @@ pspec_status ps_help_fields(FILE *stream, const ps_command *command, ps_error *e
             command->name);
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
         field_list list = {stream, order[i], false};
-        PS_TRY(ps_kind_visit_fields(command->result, print_field, &list, error));
+        PS_TRY(ps_kind_visit_fields(command, print_field, &list, error));
     }
     return PSPEC_OK;
 }
@@ -230,7 +235,7 @@ void ps_help_program(FILE *stream) {
           "\nCommands:\n",
           stream);
     for (size_t i = 0; ps_commands[i] != NULL; i++) {
-        fprintf(stream, "  %-12s%s\n", ps_commands[i]->name, ps_commands[i]->summary);
+        fprintf(stream, "  %-12s%s\n", ps_commands[i]->name, ps_commands[i]->purpose);
     }
     fputs("\n"
           "pointspec COMMAND --help explains a command, its options and samplers.\n"

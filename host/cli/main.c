@@ -116,8 +116,7 @@ static pspec_status parse(const ps_command *command, int num_words, char **words
 }
 
 static bool has_output(const ps_command *command, const ps_request *arguments) {
-    const bool makes_points = command->verb != NULL && command->verb->makes_points;
-    return !command->makes_folder && !(makes_points && ps_request_only_draws(arguments));
+    return !command->makes_folder && !(command->makes_points && ps_request_only_draws(arguments));
 }
 
 /* Finds what the words left open: where output goes, the device, and the cache, in *folder. */
@@ -163,9 +162,7 @@ static int run_command(int num_words, char **words) {
         ps_help_command(stdout, command);
     } else if (status == PSPEC_OK &&
                (status = complete(command, &arguments, &folder, &error)) == PSPEC_OK) {
-        status = command->run != NULL ? command->run(&arguments, &error)
-                                      : ps_shown_answer(command->result, &arguments, &error);
-        status = blame_signal(status, &error);
+        status = blame_signal(ps_shown_run(command, &arguments, &error), &error);
     }
     ps_arguments_free(&arguments);
     ps_text_free(&folder);

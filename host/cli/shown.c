@@ -88,21 +88,27 @@ ps_answer_hooks ps_shown_hooks(ps_shown *shown) {
                              .tell_profile = arguments->limits.profile ? print_profile : NULL};
 }
 
-pspec_status ps_shown_verdict(const ps_answer *answer, ps_error *error) {
-    if (answer->verdict.status != PSPEC_OK) {
-        *error = answer->verdict;
+static pspec_status run(ps_answer *out, const ps_command *command, const ps_request *arguments,
+                        const ps_answer_hooks *hooks, ps_error *error) {
+    PS_TRY(command->run != NULL ? command->run(out, arguments, hooks, error)
+                                : ps_answer_produce(out, command, arguments, hooks, error));
+    if (command->makes_folder) {
+        PS_TRY(ps_table_write(out->table, "-", PS_FORMAT_CSV, error));
     }
-    return answer->verdict.status;
+    if (out->verdict.status != PSPEC_OK) {
+        *error = out->verdict;
+    }
+    return out->verdict.status;
 }
 
-pspec_status ps_shown_answer(const ps_kind *kind, const ps_request *arguments, ps_error *error) {
-    ps_shown shown = {.arguments = arguments, .counted = kind->counted, .speaker = "pointspec"};
+pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments, ps_error *error) {
+    ps_shown shown = {.arguments = arguments,
+                      .counted = command->counted,
+                      .speaker = command->speaker != NULL ? command->speaker : "pointspec",
+                      .is_streamed = command->makes_points};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
     ps_answer answer = {0};
-    pspec_status status = ps_answer_produce(&answer, kind, arguments, &hooks, error);
-    if (status == PSPEC_OK) {
-        status = ps_shown_verdict(&answer, error);
-    }
+    const pspec_status status = run(&answer, command, arguments, &hooks, error);
     ps_answer_free(&answer);
     return status;
 }

@@ -17,11 +17,9 @@ typedef struct ps_shown {
 /* shown must outlive the work. With --quiet there are no warnings, but what is missing is told. */
 ps_answer_hooks ps_shown_hooks(ps_shown *shown);
 
-/* Answers a question of the kind with these, and writes what the arguments name. Differences that a
- * check found are PSPEC_ERROR_CHECK. */
-pspec_status ps_shown_answer(const ps_kind *kind, const ps_request *arguments,
-                             ps_error *error) PS_MUST_CHECK;
-/* The status of the verdict, which is then the error. */
-pspec_status ps_shown_verdict(const ps_answer *answer, ps_error *error) PS_MUST_CHECK;
+/* Runs the command with these, and writes what they name. Differences that a check found are
+ * PSPEC_ERROR_CHECK. */
+pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments,
+                          ps_error *error) PS_MUST_CHECK;
 
 #endif

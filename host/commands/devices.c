@@ -1,5 +1,5 @@
-#include "commands/devices.h"
-
+/* pointspec devices: what OpenCL offers here, and which device would be used. */
+#include "answers/kind.h"
 #include "engines/engine.h"
 #include "store/figures_file.h"
 
@@ -104,14 +104,44 @@ out:
     return status;
 }
 
-pspec_status ps_devices_tabulate(ps_table **out, ps_text *why_none, const ps_request *request,
-                                 ps_error *error) {
-    PS_TRY(ps_table_create(out, "devices", columns, NUM_COLUMNS, error));
-    ps_table_set_blocks(*out);
-    const pspec_status status = fill_table(*out, why_none, request, error);
-    if (status != PSPEC_OK) {
-        ps_table_destroy(*out);
-        *out = NULL;
+/* An output NULL is none. */
+static pspec_status run(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
+                        ps_error *error) {
+    ps_table_format format = PS_FORMAT_CSV;
+    ps_text why_none = {0};
+    if (request->num_files > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
+                       request->files[0]);
     }
+    PS_TRY(ps_table_choose_format(&format, request->format, request->output, error));
+    PS_TRY(ps_table_create(&out->table, "devices", columns, NUM_COLUMNS, error));
+    ps_table_set_blocks(out->table);
+    ps_table_set_view(out->table, &request->view);
+    pspec_status status = fill_table(out->table, &why_none, request, error);
+    if (status == PSPEC_OK && request->output != NULL) {
+        status = ps_table_write(out->table, request->output, format, error);
+    }
+    if (status == PSPEC_OK) {
+        ps_answer_warn_of(hooks, ps_text_string(&why_none));
+    }
+    ps_text_free(&why_none);
     return status;
 }
+
+const ps_command ps_command_devices = {
+    .name = "devices",
+    .purpose = "list OpenCL devices and what they can do",
+    .usage = "devices [options]",
+    .description =
+        "Lists every device of every OpenCL driver. The column default is 1 for the device that "
+        "the other commands would use with the same --device and POINTSPEC_DEVICE. Lanes are the "
+        "native vector widths. Without a device the table is empty, and standard error says why. "
+        "The last columns say whether the planner has figures measured on "
+        "the "
+        "device, and its peaks per second: see pointspec bench --calibrate.",
+    .takes = PS_COMMAND_BIT(devices),
+    .formats = "csv|json|npz|jsonl|text",
+    .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
+    .speaker = "pointspec devices",
+    .run = run,
+};

@@ -1,27 +1,23 @@
-/* What commands do that make point files: sample and convert, for program and library alike. The
- * file is the output of the request, which must have one, or else a picture. */
+/* The commands that make point files: sample, which writes realizations of the only sampler, one of
+ * them in memory at a time, and draws the first, and convert, which writes the sets of all files
+ * into one, a block of points at a time, and draws the first. Without an output the first of every
+ * sampler or file is only drawn. hooks->warn hears what the format could not keep, hooks->watch of
+ * realizations or points. */
 #ifndef PS_COMMANDS_POINTS_H
 #define PS_COMMANDS_POINTS_H
 
 #include "answers/kind.h"
 
-/* Writes realizations of the only sampler, one of them in memory at a time, and draws the first;
- * without an output those of all samplers are only drawn. hooks->warn hears what
- * the format could not keep, hooks->watch of realizations. */
 pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) PS_MUST_CHECK;
+pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
+                               ps_error *error) PS_MUST_CHECK;
 /* Refuses files, no sampler, and several samplers or numbers of points unless these may be. */
 pspec_status ps_points_check_words(const ps_request *request, bool may_be_several,
                                    ps_error *error) PS_MUST_CHECK;
 /* What the only sampler of the request is asked for. Refuses files, none, and several. */
 pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,
                                     ps_error *error) PS_MUST_CHECK;
-
-/* Writes the sets of all files into one, a block of points at a time, and draws the first; without
- * an output the first set of each file is only drawn. hooks->warn as above, hooks->watch of points.
- */
-pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
-                               ps_error *error) PS_MUST_CHECK;
 
 /* What they would take. */
 pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *request,

@@ -6,7 +6,7 @@
 typedef struct option_pair {
     ps_option_id a, b;
     const char *why;
-    ps_verb_set takers; /* who refuses it; 0: all that take both options */
+    ps_command_set takers; /* who refuses it; 0: all that take both options */
 } option_pair;
 
 static const option_pair pairs[] = {
@@ -62,7 +62,8 @@ static bool is_there(const ps_request *request, ps_option_id id) {
     return request->is_given[id] && (id != PS_OPTION_SAMPLER || ps_request_has_samplers(request));
 }
 
-pspec_status ps_option_pairs_check(const ps_request *request, ps_verb_id taker, ps_error *error) {
+pspec_status ps_option_pairs_check(const ps_request *request, ps_command_id taker,
+                                   ps_error *error) {
     for (size_t i = 0; i < NUM_PAIRS; i++) {
         const option_pair *const pair = &pairs[i];
         const bool is_refused = pair->takers == 0 || (pair->takers >> taker & 1) != 0;

@@ -1,4 +1,4 @@
-/* How the rows of options.c are written: fields of their setters, and sets of verbs. Private to
+/* How the rows of options.c are written: fields of their setters, and sets of commands. Private to
  * host/request. */
 #ifndef PS_REQUEST_OPTION_ROWS_H
 #define PS_REQUEST_OPTION_ROWS_H
@@ -21,10 +21,11 @@
 #define SHARE(field) .set = ps_set_share, .offset = offsetof(ps_request, field)
 #define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
 
-/* Sets of verbs that many options have: kinds of spectra, those of them on the sphere, kinds that
- * look at point sets, all that read them from files, those that have a curve for each of several,
- * and kinds that have a lobe; commands that try engines, and those whose output is a table. */
-#define BIT PS_VERB_BIT
+/* Sets of commands that many options have: kinds of spectra, those of them on the sphere, kinds
+ * that look at point sets, all that read them from files, those that have a curve for each of
+ * several, and kinds that have a lobe; commands that try engines, and those whose output is a
+ * table. */
+#define BIT PS_COMMAND_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
 #define SETS (SPECTRA | BIT(quadrature) | BIT(check))

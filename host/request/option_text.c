@@ -48,12 +48,12 @@ void ps_option_append(ps_text *command, ps_option_id id, const char *text) {
 }
 
 pspec_status ps_option_find(ps_option_id *out, const char *name, ps_option_taken *takes,
-                            const void *verb, const char *name_of_verb, ps_error *error) {
+                            const void *taker, const char *name_of_taker, ps_error *error) {
     size_t best = SIZE_MAX;
     *out = PS_NUM_OPTIONS;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         const size_t distance = ps_name_distance(name, ps_options[id].name);
-        if (distance < best && takes(verb, (ps_option_id)id)) {
+        if (distance < best && takes(taker, (ps_option_id)id)) {
             best = distance;
             *out = (ps_option_id)id;
         }
@@ -61,7 +61,7 @@ pspec_status ps_option_find(ps_option_id *out, const char *name, ps_option_taken
     return best == 0
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s takes no option \"%s\"%s",
-                         name_of_verb, name,
+                         name_of_taker, name,
                          ps_text_suggest(name, *out < PS_NUM_OPTIONS ? ps_options[*out].name : "",
                                          best, "; did you mean ", "?")
                              .text);

@@ -15,10 +15,10 @@ pspec_status ps_option_apply(ps_request *request, ps_option_id id, const char *w
 void ps_option_append(ps_text *command, ps_option_id id, const char *text);
 
 /* Refuses a name that is none of the options that takes() admits, and names the nearest of these.
- * name_of_verb: "power". */
-typedef bool ps_option_taken(const void *verb, ps_option_id id);
+ * name_of_taker: "power". */
+typedef bool ps_option_taken(const void *taker, ps_option_id id);
 pspec_status ps_option_find(ps_option_id *out, const char *name, ps_option_taken *takes,
-                            const void *verb, const char *name_of_verb,
+                            const void *taker, const char *name_of_taker,
                             ps_error *error) PS_MUST_CHECK;
 
 #endif

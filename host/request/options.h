@@ -6,32 +6,36 @@
 
 #include "request/request.h"
 
-/* Who takes options, in the order of --help: kinds of answers (answers/kind.h), each of which a
- * command prints, and the other commands. A new one is a name here, and a bit in the rows of the
- * options that it takes. */
-#define PS_VERBS(KIND, OTHER)                                                                      \
+/* The commands, in the order of --help (answers/kind.h has their rows): kinds of answers, what else
+ * can be planned, what cannot, and what the library has not. A new one is a name here, and a bit
+ * in the rows of the options that it takes. */
+#define PS_COMMANDS(KIND, PLANNED, OTHER, PROGRAM)                                                 \
     KIND(power)                                                                                    \
     KIND(angular)                                                                                  \
     KIND(pairs)                                                                                    \
     KIND(quadrature)                                                                               \
     KIND(truncation)                                                                               \
     KIND(variance)                                                                                 \
-    OTHER(sample)                                                                                  \
-    OTHER(convert)                                                                                 \
+    PLANNED(sample)                                                                                \
+    PLANNED(convert)                                                                               \
     KIND(check)                                                                                    \
-    OTHER(run)                                                                                     \
+    PLANNED(run)                                                                                   \
     OTHER(plan)                                                                                    \
-    OTHER(bench)                                                                                   \
-    OTHER(stress)                                                                                  \
+    PROGRAM(bench)                                                                                 \
+    PROGRAM(stress)                                                                                \
     OTHER(devices)                                                                                 \
-    OTHER(doctor)
+    PROGRAM(doctor)
 
-#define PS_VERB_NUMBER(name) PS_VERB_##name,
-typedef enum ps_verb_id { PS_VERBS(PS_VERB_NUMBER, PS_VERB_NUMBER) PS_NUM_VERBS } ps_verb_id;
+#define PS_NO_COMMAND(name)
+#define PS_COMMAND_NUMBER(name) PS_COMMAND_##name,
+typedef enum ps_command_id {
+    PS_COMMANDS(PS_COMMAND_NUMBER, PS_COMMAND_NUMBER, PS_COMMAND_NUMBER, PS_COMMAND_NUMBER)
+        PS_NUM_COMMANDS
+} ps_command_id;
 
-/* A set of verbs. */
-typedef uint32_t ps_verb_set;
-#define PS_VERB_BIT(name) (UINT32_C(1) << PS_VERB_##name)
+/* A set of commands. */
+typedef uint32_t ps_command_set;
+#define PS_COMMAND_BIT(name) (UINT32_C(1) << PS_COMMAND_##name)
 
 typedef struct ps_option ps_option;
 
@@ -58,8 +62,8 @@ struct ps_option {
     const char *metavar; /* NULL: takes no value */
     const char *help;
     /* The kinds of answers to whose question it belongs: it is a key of scenes there, too */
-    ps_verb_set questions;
-    ps_verb_set
+    ps_command_set questions;
+    ps_command_set
         commands; /* others that take it: how they compute, and what becomes of the results */
     ps_option_setter *set;
     size_t offset; /* of the field of ps_request, for setters that serve several options */
@@ -87,7 +91,7 @@ typedef struct ps_shown_option {
 ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 
 /* Refuses two options that were given and do not go together for that taker. */
-pspec_status ps_option_pairs_check(const ps_request *request, ps_verb_id taker,
+pspec_status ps_option_pairs_check(const ps_request *request, ps_command_id taker,
                                    ps_error *error) PS_MUST_CHECK;
 /* Is there a row that says that a does not go with b? */
 bool ps_option_is_refused(ps_option_id a, ps_option_id b);

@@ -26,7 +26,7 @@ const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text
     }
     ps_option_input *const find =
         option >= 0 && option < PS_NUM_OPTIONS ? ps_options[option].input : NULL;
-    return find != NULL ? find(ps_kind_words(kind, (ps_option_id)option), text) : NULL;
+    return find != NULL ? find(ps_command_words(kind, (ps_option_id)option), text) : NULL;
 }
 
 /* The path, a part of *text, becomes relative to what the scene's folder is relative to. */
@@ -86,7 +86,7 @@ static pspec_status check_value(const ps_scene_file *file, const ps_kind *kind, 
     }
     const ps_option_id id = (ps_option_id)option;
     for (size_t i = 0; i < value->num_texts; i++) {
-        if (ps_option_apply(&scratch, id, ps_kind_words(kind, id), value->texts[i], &reason) !=
+        if (ps_option_apply(&scratch, id, ps_command_words(kind, id), value->texts[i], &reason) !=
             PSPEC_OK) {
             return complain_of_value(file, value->line, key, id, &reason);
         }
@@ -252,7 +252,7 @@ int ps_scene_find_axes(const char *key) {
 }
 
 bool ps_scene_has_axes(const ps_kind *kind, int axes) {
-    return axes >= 0 && (ps_options[ps_scene_axes[axes]].commands & kind->bit) != 0;
+    return axes >= 0 && (ps_options[ps_scene_axes[axes]].commands & kind->takes) != 0;
 }
 
 pspec_status ps_scene_take_axes(const ps_scene_file *file, ps_scene_result *result, int axes,
@@ -263,7 +263,7 @@ pspec_status ps_scene_take_axes(const ps_scene_file *file, ps_scene_result *resu
     ps_error reason = {0};
     PS_TRY(ps_scene_take_text(file, value, key, &result->axes_texts[axes]));
     scratch.plot_axes = result->axes; /* what the other key said */
-    if (ps_option_apply(&scratch, id, ps_kind_words(result->kind, id), result->axes_texts[axes],
+    if (ps_option_apply(&scratch, id, ps_command_words(result->kind, id), result->axes_texts[axes],
                         &reason) != PSPEC_OK ||
         ps_picture_check_axes(&scratch.plot_axes, &reason) != PSPEC_OK) {
         return complain_of_value(file, value->line, key, id, &reason);

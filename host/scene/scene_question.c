@@ -61,7 +61,7 @@ static bool is_for_others(const ps_scene_question *question, int option) {
 static pspec_status take_text(ps_scene_question *out, ps_option_id id, const char *text,
                               ps_error *error) {
     ps_option_append(&out->command, id, text);
-    return ps_option_apply(&out->request, id, ps_kind_words(out->result->kind, id), text, error);
+    return ps_option_apply(&out->request, id, ps_command_words(out->result->kind, id), text, error);
 }
 
 static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *entry,
@@ -116,8 +116,8 @@ static pspec_status use_word(ps_scene_question *question, ps_option_id id, const
     ps_option_append(&question->command, id, word);
     PS_TRY(ps_text_check(&question->command, error));
     question->request.command_line = ps_text_string(&question->command);
-    return ps_option_apply(&question->request, id, ps_kind_words(question->result->kind, id), word,
-                           error);
+    return ps_option_apply(&question->request, id, ps_command_words(question->result->kind, id),
+                           word, error);
 }
 
 /* "(NAME ..)" */

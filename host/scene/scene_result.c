@@ -24,7 +24,7 @@ static int find_option(const ps_kind *kind, const char *key) {
     if (strcmp(key, "files") == 0) {
         return ps_kind_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
     }
-    if (strcmp(key, sets_key) == 0 && (ps_options[PS_OPTION_SET].commands & kind->bit) == 0) {
+    if (strcmp(key, sets_key) == 0 && (ps_options[PS_OPTION_SET].commands & kind->takes) == 0) {
         return -1;
     }
     const char *const name = strcmp(key, "samplers") == 0 || strcmp(key, sets_key) == 0 ? "sampler"

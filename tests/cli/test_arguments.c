@@ -14,7 +14,7 @@ enum { MOST_WORDS = 24, MOST_BYTES = 256 };
 /* A command with every option, and one with three: --device, --output and --format. */
 static const ps_command large = {.name = "large", .takes = UINT32_MAX};
 static const ps_command small = {
-    .name = "small", .takes = PS_VERB_BIT(devices), .formats = "utk-text|npy"};
+    .name = "small", .takes = PS_COMMAND_BIT(devices), .formats = "utk-text|npy"};
 
 /* The words of a line that was parsed; the arguments point into them. */
 typedef struct line {
@@ -275,7 +275,7 @@ static void ranges_have_ends(void **state) {
 static void weights_are_words_where_no_file_is_taken(void **state) {
     (void)state;
     static const ps_command words_only = {
-        .name = "words", .takes = PS_VERB_BIT(convert), .weights = "equal|column"};
+        .name = "words", .takes = PS_COMMAND_BIT(convert), .weights = "equal|column"};
     static const bad_line bad[] = {
         {"--weights file.txt", "--weights: \"file.txt\" is not one of equal, column"}};
     line l;

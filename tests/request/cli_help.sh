@@ -5,30 +5,30 @@
 
 options() { "$program" "$1" --help | sed -n '/^Options:/,/^$/p'; }
 mapfile -t commands < <("$program" --help | awk '/^Commands:/ { on = 1; next } !NF { on = 0 } on { print $1 }')
-for verb in "${commands[@]}"; do
-    options "$verb" >shown
+for command in "${commands[@]}"; do
+    options "$command" >shown
     for other in "${commands[@]}"; do
-        ! grep -qE "(^|[^a-z-])$other: " shown || complain "$verb --help says what holds for $other: $(grep "$other: " shown)"
+        ! grep -qE "(^|[^a-z-])$other: " shown || complain "$command --help says what holds for $other: $(grep "$other: " shown)"
     done
-    ! grep -q '[{}]' shown || complain "$verb --help has braces: $(grep '[{}]' shown)"
-    ((${#commands[@]} > 12 && $(wc -L <shown) < 80)) || complain "$verb --help is too wide"
+    ! grep -q '[{}]' shown || complain "$command --help has braces: $(grep '[{}]' shown)"
+    ((${#commands[@]} > 12 && $(wc -L <shown) < 80)) || complain "$command --help is too wide"
 done
 # refrains COMMAND WORD...
 refrains() {
-    local verb=$1 word
+    local command=$1 word
     shift
-    options "$verb" | tr -s ' \n' ' ' >shown
+    options "$command" | tr -s ' \n' ' ' >shown
     for word in "$@"; do
-        ! grep -qiE "$word" shown || complain "$verb --help speaks of $word: $(grep -oiE ".{40}$word" shown)"
+        ! grep -qiE "$word" shown || complain "$command --help speaks of $word: $(grep -oiE ".{40}$word" shown)"
     done
 }
 # tells COMMAND TEXT...
 tells() {
-    local verb=$1 text
+    local command=$1 text
     shift
-    options "$verb" | tr -s ' \n' ' ' >shown
+    options "$command" | tr -s ' \n' ' ' >shown
     for text in "$@"; do
-        [[ $(<shown) == *"$text"* ]] || complain "$verb --help does not say \"$text\""
+        [[ $(<shown) == *"$text"* ]] || complain "$command --help does not say \"$text\""
     done
 }
 refrains power sphere degree theta lon-lat c_lm 'Q\(l\)' 'as saved' lobe

@@ -151,7 +151,7 @@ static void command_lines_ask_the_same(void **state) {
     const test_folder *const folder = *state;
     char here[TEST_PATH_BYTES];
     ps_scene scene;
-    ps_command command = {.name = "power", .takes = PS_VERB_BIT(power)};
+    ps_command command = {.name = "power", .takes = PS_COMMAND_BIT(power)};
     assert_non_null(getcwd(here, sizeof here));
     assert_int_equal(chdir(folder->path), 0);
     assert_true(test_write_file("scene.yaml", text, sizeof text - 1));

@@ -32,7 +32,7 @@ static pspec_status find_domain(bool *on_sphere, const ps_request *arguments, ps
 }
 
 static pspec_status check_request(const ps_request *own, ps_error *error) {
-    PS_TRY(ps_option_pairs_check(own, PS_VERB_check, error));
+    PS_TRY(ps_option_pairs_check(own, PS_COMMAND_check, error));
     PS_TRY(ps_request_check_one_count(own, "and sets of one are checked at a time", error));
     return own->num_sources <= 1
                ? PSPEC_OK

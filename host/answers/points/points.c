@@ -250,7 +250,7 @@ static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, 
 
 const ps_kind ps_kind_points = {
     .name = "sample",
-    .bit = PS_VERB_BIT(sample),
+    .takes = PS_COMMAND_BIT(sample),
     .samples = PS_DOMAIN_ANY,
     .counted = "realizations",
     .is_of_host = true,

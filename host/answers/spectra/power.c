@@ -77,7 +77,20 @@ static const ps_field_row *const fields[] = {ps_fields_asked,
 
 const ps_kind ps_kind_power = {
     .name = "power",
-    .bit = PS_VERB_BIT(power),
+    .purpose = "averaged periodogram of point sets on the torus",
+    .usage = "power [options] --sampler NAME | power [options] FILE...",
+    .description =
+        "Averages the periodogram P(k) = N |sum w exp(-2 pi i k.x)|^2 / (sum w)^2 over "
+        "realizations "
+        "and prints its mean over rings of width 1, with standard errors over the realizations. "
+        "In a box that is no cube (--box, or of the file) |k| is in cycles per edge of the cube "
+        "of the same volume. "
+        "Files hold points of [0,1)^d; several files, and several sets in a file, are "
+        "realizations. "
+        "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
+    .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",
+                 "pointspec sample --sampler halton -n 256 | pointspec power -k 32 -"},
+    .takes = PS_COMMAND_BIT(power),
     .samples = PS_DOMAIN_TORUS,
     .counted = "realizations",
     .has_images = true,

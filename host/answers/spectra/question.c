@@ -74,7 +74,7 @@ static int count_arrays(const ps_request *arguments) {
 }
 
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
-    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_power, error));
+    PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_power, error));
     PS_TRY(check_fit(arguments, error));
     if (arguments->wants_array &&
         (arguments->frequencies.path != NULL || arguments->frequencies.per_ring > 0)) {

@@ -1,7 +1,7 @@
 /* Fields of spectra. */
 #include "answers/spectra/spectra.h"
 
-#define OF(name) PS_VERB_BIT(name)
+#define OF(name) PS_COMMAND_BIT(name)
 static const char *const of_list = "--frequencies";
 
 const ps_field_row ps_fields_powers[] = {

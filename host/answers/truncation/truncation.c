@@ -121,7 +121,18 @@ static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, ps_fie
 
 const ps_kind ps_kind_truncation = {
     .name = "truncation",
-    .bit = PS_VERB_BIT(truncation),
+    .purpose = "error of shading integrals by truncated harmonics, and equivalent points",
+    .usage = "truncation --brdf NAME[:key=value,...] [options]",
+    .description =
+        "Prints for L = 0, 1, ... the worst-case error of the integral of light times BRDF when "
+        "it is a sum over harmonics up to and including degree L, for light from the unit ball of "
+        "the Sobolev space H^S: E(L)^2 = sum_{l>L} a_l b_l^2 for spherical harmonics. "
+        "equivalent_points is the number of spherical Fibonacci points, morphed to the lobe and "
+        "with equal weights, whose worst-case error is the same.",
+    .examples =
+        {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5 -l 12",
+         "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},
+    .takes = PS_COMMAND_BIT(truncation),
     .counted = "degrees",
     .is_of_host = true,
     .check_arguments = check_question,

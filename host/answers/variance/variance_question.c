@@ -41,7 +41,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_sources_check(arguments, "nothing to take a variance of", error));
     PS_TRY(ps_variance_parts_check(arguments, error));
     PS_TRY(ps_point_options_check(arguments, error));
-    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_variance, error));
+    PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_variance, error));
     return check_bins(arguments, error);
 }
 

@@ -3,7 +3,6 @@
 #include "answers/picture.h"
 #include "cli/command.h"
 #include "cli/commands/bench_scenes.h"
-#include "cli/shown.h"
 #include "request/options.h"
 #include "store/host_figures.h"
 #include "tables/table_stream.h"
@@ -15,6 +14,7 @@
 
 typedef struct answer {
     const ps_request *arguments;
+    const ps_answer_hooks *hooks;
     ps_device *device;
     ps_device_peaks peaks;
     ps_bench_rows rows;
@@ -142,11 +142,9 @@ static pspec_status run_cases(answer *shown, const ps_bench_options *options,
     ps_progress_end(shown->progress);
     PS_TRY(status);
     PS_TRY(ps_table_stream_close(&shown->stream, error));
-    ps_shown ear = {.arguments = arguments, .speaker = "pointspec"};
-    const ps_answer_hooks hooks = ps_shown_hooks(&ear);
     return arguments->plot == NULL
                ? PSPEC_OK
-               : ps_picture_settle(arguments, ps_picture_is_all(arguments, true), &hooks,
+               : ps_picture_settle(arguments, ps_picture_is_all(arguments, true), shown->hooks,
                                    ps_bench_plot(arguments->plot, &shown->rows,
                                                  ps_device_get_limits(shown->device)->name, error),
                                    error);
@@ -231,7 +229,7 @@ out:
 /* ---- the command --------------------------------------------------------------------------- */
 
 static pspec_status check_calibration(const ps_request *arguments, ps_error *error) {
-    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_bench, error));
+    PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_bench, error));
     return arguments->limits.cache_folder != NULL
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -239,15 +237,13 @@ static pspec_status check_calibration(const ps_request *arguments, ps_error *err
 }
 
 static pspec_status check_words(const ps_request *arguments, const ps_bench_options *options,
-                                ps_error *error) {
+                                const ps_answer_hooks *hooks, ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "no file is read, but %s was given; --scenes is for scenes",
                        arguments->files[0]);
     }
-    ps_shown shown = {.arguments = arguments, .speaker = "pointspec"};
-    const ps_answer_hooks hooks = ps_shown_hooks(&shown);
-    PS_TRY(ps_picture_check(arguments, ps_picture_is_all(arguments, true), &hooks, error));
+    PS_TRY(ps_picture_check(arguments, ps_picture_is_all(arguments, true), hooks, error));
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));
     }
@@ -264,7 +260,7 @@ static pspec_status run_scenes(const ps_request *arguments, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--scenes needs scenes, as in --scenes docs/scenes/diffuse.yaml");
     }
-    PS_TRY(ps_option_pairs_check(arguments, PS_VERB_bench, error));
+    PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_bench, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     pspec_status status = ps_bench_scenes(&table, arguments, error);
@@ -277,12 +273,14 @@ static pspec_status run_scenes(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static pspec_status run(const ps_request *arguments, ps_error *error) {
+static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_answer_hooks *hooks,
+                        ps_error *error) {
+    (void)out;
     if (arguments->scenes) {
         return run_scenes(arguments, error);
     }
     const char *const path = arguments->output;
-    answer shown = {.arguments = arguments};
+    answer shown = {.arguments = arguments, .hooks = hooks};
     const ps_bench_options options = {.case_name = arguments->case_name,
                                       .engine = arguments->limits.constraints.engine,
                                       .precision = arguments->limits.constraints.precision,
@@ -294,7 +292,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
                                       .advance = advance,
                                       .payload = &shown};
     ps_table_format format = PS_FORMAT_CSV;
-    PS_TRY(check_words(arguments, &options, error));
+    PS_TRY(check_words(arguments, &options, hooks, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     PS_TRY(ps_figures_open_device(&shown.device, arguments->limits.device, false,
@@ -311,7 +309,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
 
 const ps_command ps_command_bench = {
     .name = "bench",
-    .summary = "run time against error on this device; its figures for the planner",
+    .purpose = "run time against error on this device; its figures for the planner",
     .usage = "bench [options] | bench --scenes [options] SCENE.yaml...",
     .description =
         "Runs every engine in every precision at tolerances from 1e-2 to 1e-12 on cases of the "
@@ -325,7 +323,7 @@ const ps_command ps_command_bench = {
         "and "
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
         "run takes about three minutes.",
-    .takes = PS_VERB_BIT(bench),
+    .takes = PS_COMMAND_BIT(bench),
     .formats = "csv|json|npz|jsonl",
     .examples = {"pointspec bench --case plane-many --precision single --quick -o bench.csv --plot "
                  "bench.svg",

@@ -14,7 +14,9 @@ static void print(ps_finding_kind kind, const char *topic, const char *sentence,
     putchar('\n');
 }
 
-static pspec_status run(const ps_request *arguments, ps_error *error) {
+static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_answer_hooks *hooks,
+                        ps_error *error) {
+    (void)out, (void)hooks;
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
                        arguments->files[0]);
@@ -35,7 +37,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
 
 const ps_command ps_command_doctor = {
     .name = "doctor",
-    .summary = "say what works here: drivers, devices, caches, memory, threads, gnuplot",
+    .purpose = "say what works here: drivers, devices, caches, memory, threads, gnuplot",
     .usage = "doctor [options]",
     .description =
         "Looks at what pointspec depends on and says what it finds, a sentence a line: the OpenCL "
@@ -44,7 +46,7 @@ const ps_command ps_command_doctor = {
         "gnuplot. Lines begin "
         "with ok, with note where something is missing that can be done without, or with WRONG. "
         "The exit status is 0 when the default device works, 3 when it does not.",
-    .takes = PS_VERB_BIT(doctor),
+    .takes = PS_COMMAND_BIT(doctor),
     .examples = {"pointspec doctor", "pointspec doctor --device cpu"},
     .run = run,
 };

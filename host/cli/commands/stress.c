@@ -98,7 +98,9 @@ static pspec_status check_words(const ps_request *arguments, const ps_stress_opt
     return ps_stress_check(options, error);
 }
 
-static pspec_status run(const ps_request *arguments, ps_error *error) {
+static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_answer_hooks *hooks,
+                        ps_error *error) {
+    (void)out, (void)hooks;
     const char *const path = arguments->output;
     answer shown = {.arguments = arguments};
     const ps_stress_options options = {.case_name = arguments->case_name,
@@ -135,7 +137,7 @@ out:
 
 const ps_command ps_command_stress = {
     .name = "stress",
-    .summary = "numerical stability suite: an acceptance test of this device and its driver",
+    .purpose = "numerical stability suite: an acceptance test of this device and its driver",
     .usage = "stress [options]",
     .description =
         "Runs cases that are hard on arithmetic (large frequencies, tiny powers, ten million "
@@ -144,7 +146,7 @@ const ps_command ps_command_stress = {
         "some of the rows. A row passes when its error is at most its bound, the engine's own "
         "error formula. Exits with 3 when one fails: then the device or its driver computes "
         "wrongly.",
-    .takes = PS_VERB_BIT(stress),
+    .takes = PS_COMMAND_BIT(stress),
     .formats = "csv|json|npz|jsonl",
     .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
                  "pointspec stress --case frequencies-1e6 --format json"},

@@ -64,15 +64,14 @@ static pspec_status add_blocks(ps_run *run, ps_planner *planner, ps_error *error
     return add_pictures(run, planner, error);
 }
 
-pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments,
-                         const ps_answer_hooks *hooks, ps_error *error) {
+pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments, ps_error *error) {
     ps_scene scene = {0};
     if (arguments->num_files != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "one scene is planned at a time, but %zu files were named",
                        arguments->num_files);
     }
-    ps_run run = {.hooks = *hooks, .arguments = arguments, .scene = &scene};
+    ps_run run = {.hooks = *planner->hooks, .arguments = arguments, .scene = &scene};
     pspec_status status = ps_run_read_scene(&scene, arguments, error);
     if (status == PSPEC_OK) {
         status = add_blocks(&run, planner, error);

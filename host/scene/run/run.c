@@ -100,7 +100,6 @@ pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
                             const ps_answer_hooks *hooks, ps_error *error) {
     ps_scene scene = {0};
     ps_text folder = {0};
-    *out = (ps_answer){0};
     if (arguments->num_files != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "one scene is run at a time, but %zu files were named",

@@ -74,8 +74,8 @@ typedef struct ps_run {
 } ps_run;
 
 /* All of it: the scene arguments->files[0], with its results in the folder arguments->output, or in
- * one of the scene's name. *out has the overview, and the verdict on records and checks; it is
- * freed by ps_answer_free, also after an error. */
+ * one of the scene's name. *out is {0} before and has the overview then, and the verdict on records
+ * and checks; it is freed by ps_answer_free, also after an error. */
 pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
@@ -133,6 +133,6 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
 
 /* The plan of the scene request->files[0]: one block for every question. */
 pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments,
-                         const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+                         ps_error *error) PS_MUST_CHECK;
 
 #endif
