@@ -173,7 +173,6 @@ static void comes_back_to_the_bit(void **state) {
 /* Columns of one kind of cells, and of two: integers that no double has beside what is missing;
  * numbers, and all lengths of UTF-8 and bytes that are none, beside texts. */
 static void mixed_columns_come_back(void **state) {
-    static const char *const columns[] = {"a", "b"};
     const ps_cell cells[] = {PS_INTEGER(3),
                              PS_MISSING,
                              PS_NUMBER(0.1),
@@ -183,23 +182,28 @@ static void mixed_columns_come_back(void **state) {
                              PS_TEXT(""),
                              PS_TEXT("1"),
                              PS_TEXT("a\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\xff\x80\xed\xb2\x80")};
-    enum { NUM = sizeof cells / sizeof cells[0] };
-    for (size_t i = 0; i < NUM; i++) {
-        for (size_t j = 0; j < NUM; j++) {
-            ps_table *table = NULL;
-            ps_error error = {0};
-            assert_int_equal(ps_table_create(&table, "c", columns, 2, &error), PSPEC_OK);
-            for (size_t row = 0; row < 2; row++) {
-                const ps_cell both[] = {row == 0 ? cells[i] : cells[j], cells[j]};
-                assert_int_equal(ps_table_add_row(table, both, &error), PSPEC_OK);
-            }
-            assert_int_equal(ps_table_add_meta(table, "value", cells[i], &error), PSPEC_OK);
-            ps_table *const again = write_and_read(state, table);
-            check_equal(table, again);
-            ps_table_destroy(again);
-            ps_table_destroy(table);
-        }
+    enum { NUM = sizeof cells / sizeof cells[0], ALL = NUM * NUM };
+    char names[ALL][4];
+    const char *columns[ALL];
+    ps_cell rows[2][ALL];
+    ps_table *table = NULL;
+    ps_error error = {0};
+    for (unsigned i = 0; i < ALL; i++) {
+        snprintf(names[i], sizeof names[i], "%02u", i);
+        columns[i] = names[i];
+        rows[0][i] = cells[i / NUM];
+        rows[1][i] = cells[i % NUM];
     }
+    assert_int_equal(ps_table_create(&table, "c", columns, ALL, &error), PSPEC_OK);
+    for (size_t i = 0; i < NUM; i++) {
+        assert_int_equal(ps_table_add_meta(table, "value", cells[i], &error), PSPEC_OK);
+    }
+    assert_int_equal(ps_table_add_row(table, rows[0], &error), PSPEC_OK);
+    assert_int_equal(ps_table_add_row(table, rows[1], &error), PSPEC_OK);
+    ps_table *const again = write_and_read(state, table);
+    check_equal(table, again);
+    ps_table_destroy(again);
+    ps_table_destroy(table);
 }
 
 static void empty_tables_come_back(void **state) {
@@ -234,13 +238,11 @@ static void other_bytes_are_refused(void **state) {
     assert_int_equal(ps_table_write(table, path, PS_FORMAT_NPZ, &error), PSPEC_OK);
     ps_table_destroy(table);
     char *const bytes = test_read_file(path, &num); /* and a NUL behind them */
-    for (size_t i = 0; i < num; i++) {
-        bytes[i] = (char)(bytes[i] ^ (1 << i % 8));
+    for (size_t i = 0; i < num; i += 16) { /* result_cache_broken has all of them */
+        bytes[i] = (char)(bytes[i] ^ (1 << i / 16 % 8));
         check_refused(path, bytes, num);
-        bytes[i] = (char)(bytes[i] ^ (1 << i % 8));
-        if (i % 7 == 0 || num - i < 200) {
-            check_refused(path, bytes, i);
-        }
+        bytes[i] = (char)(bytes[i] ^ (1 << i / 16 % 8));
+        check_refused(path, bytes, i);
     }
     check_refused(path, bytes, num + 1);
     assert_true(test_write_file(path, bytes, num));
