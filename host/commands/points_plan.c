@@ -75,7 +75,7 @@ pspec_status ps_points_plan_convert(ps_planner *planner, const ps_request *reque
         const unsigned numbers = set.dimension + (set.has_weights ? 1 : 0);
         ps_phases_start(&phases, NULL, NULL);
         const double points =
-            ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
+            ps_phases_read(&phases, request->files, request->num_files, &options, numbers);
         if (!ps_request_only_draws(request)) {
             ps_phases_write(&phases, request->output != NULL ? request->output : "-",
                             request->format, points * numbers);

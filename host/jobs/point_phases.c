@@ -38,13 +38,16 @@ void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, doub
 /* ---- files --------------------------------------------------------------------------------- */
 
 double ps_phases_read(ps_phases *phases, const char *const *paths, size_t num_paths,
-                      const char *format, unsigned columns) {
+                      const ps_point_options *options, unsigned columns) {
     static const char name[] = "reading";
     const double text_byte = 0.85e-9, binary_byte = 0.15e-9, inflated_byte = 3e-9; /* seconds */
     double points = 0;
     double bytes = 0;
     for (size_t i = 0; i < num_paths; i++) {
-        const ps_file_estimate file = ps_file_estimate_of(paths[i], format);
+        if (ps_given_sets_find(&options->given, paths[i]) != NULL) {
+            continue;
+        }
+        const ps_file_estimate file = ps_file_estimate_of(paths[i], options->format);
         ps_phases_add(phases, name, file.is_text ? PS_HOST_TEXT : PS_HOST_BINARY,
                       file.bytes * (file.is_text ? text_byte : binary_byte));
         ps_phases_add(phases, name, PS_HOST_BINARY,

@@ -11,10 +11,10 @@
 void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations,
                       const ps_sets_options *options);
 
-/* Adds the phase "reading": all files are read whole. Returns their number of points, 0 where that
- * cannot be known. */
+/* Adds the phase "reading": all files are read whole; given sets are there already. Returns their
+ * number of points, 0 where that cannot be known. */
 double ps_phases_read(ps_phases *phases, const char *const *paths, size_t num_paths,
-                      const char *format, unsigned columns);
+                      const ps_point_options *options, unsigned columns);
 
 /* Adds the phase "writing": so many coordinates and weights are written. format NULL: by the ending
  * of the path. */

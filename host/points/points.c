@@ -241,6 +241,37 @@ static pspec_status check_names(const ps_point_reader *reader, ps_error *error) 
                          reader->input.name, reader->format->name);
 }
 
+ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path) {
+    size_t i = 0;
+    while (i < given->num && strcmp(given->sets[i].name, path) != 0) {
+        i++;
+    }
+    return i < given->num ? &given->sets[i] : NULL;
+}
+
+pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
+                             ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_given_sets_find(&options->given, paths[i]) != NULL
+                   ? PSPEC_OK
+                   : ps_inputs_check(&paths[i], 1, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status open_source(ps_point_reader *reader, const char *path, ps_error *error) {
+    reader->given = ps_given_sets_find(&reader->options.given, path);
+    if (reader->given == NULL) {
+        PS_TRY(ps_input_open(&reader->input, path, error));
+        return find_format(reader, path, error);
+    }
+    reader->format = &ps_format_memory;
+    reader->input = (ps_input){.name = strdup(path), .descriptor = -1, .can_reopen = true};
+    return reader->input.name != NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for the name of points");
+}
+
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) {
     *out = NULL;
@@ -249,8 +280,7 @@ pspec_status ps_points_open(ps_point_reader **out, const char *path,
     PS_TRY(PS_NEW(&reader, 1, "point reader", error));
     reader->options = *options;
     pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_input_open(&reader->input, path, error));
-    PS_TRY_OUT(status, find_format(reader, path, error));
+    PS_TRY_OUT(status, open_source(reader, path, error));
     PS_TRY_OUT(status, check_names(reader, error));
     PS_TRY_OUT(status, reader->format->open(reader, error));
     *out = reader;

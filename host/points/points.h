@@ -6,7 +6,7 @@
  * Fortran order, which lie scattered over the file). Sets, rows and lines are counted from 1 in
  * messages. A read that a signal interrupts is PSPEC_ERROR_CANCELLED; a handler installed with
  * SA_RESTART does not interrupt. Another format is another row in the table of formats in points.c
- * and another file beside it.
+ * and another file beside it. Sets that a caller of the library gives are one more of them.
  */
 #ifndef PS_POINTS_POINTS_H
 #define PS_POINTS_POINTS_H
@@ -66,6 +66,29 @@ typedef struct ps_point_range {
     uint64_t first, last;
 } ps_point_range;
 
+/* Sets of a caller of the library: they are read, in order, where a path has this name. Names have
+ * none of the letters ",*?[\\" that lists of files give a meaning to, and none is "-". */
+typedef struct ps_given_set {
+    const char *name;
+    /* Set number `realization`, from 0: a view that is valid until the next call, or *has_set
+     * false. It answers alike for the same number, whatever was asked before: sets are asked for in
+     * order by the thread that reads, from 0 again whenever they are read again, and once more
+     * where two readers take turns. A failure goes to who reads, with its sentence. */
+    pspec_status (*next)(void *payload, uint64_t realization, pspec_pattern *out, bool *has_set,
+                         ps_error *error);
+    void *payload;
+    uint64_t most;      /* sets; 0: as many as there are. For what makes sets without an end */
+    uint64_t num_calls; /* of next, counted by readers, so that each knows whose view there is */
+} ps_given_set;
+
+typedef struct ps_given_sets {
+    ps_given_set *sets;
+    size_t num;
+} ps_given_sets;
+
+/* NULL: a path is that of a file. */
+ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path);
+
 typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_INPUT_FORMATS */
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
@@ -92,11 +115,16 @@ typedef struct ps_point_options {
     bool has_morph;         /* somebody said which: who knows a better default leaves it alone */
     uint64_t memory_limit;  /* bytes that a set may take; 0: half of the memory that is free */
     bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
+    ps_given_sets given;    /* borrowed */
 } ps_point_options;
 
 typedef struct ps_point_reader ps_point_reader;
 
-/* Opens path, or standard input for "-". The texts of options must outlive the reader. */
+/* Can all be read? Without opening them, as ps_inputs_check. */
+pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
+                             ps_error *error) PS_MUST_CHECK;
+/* Opens path: a given set, else a file, standard input for "-". The texts of options must outlive
+ * the reader. */
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) PS_MUST_CHECK;
 /* Reads the next set. *has_set is false at the end of the input; a file without any point is an

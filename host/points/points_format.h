@@ -63,6 +63,7 @@ struct ps_point_reader {
     ps_input input;
     ps_point_options options;
     const ps_point_format *format;
+    ps_given_set *given; /* NULL: points are those of the input; else that has but a name */
     void *state;
     /* set by the format */
     unsigned columns;        /* of every row */
@@ -112,6 +113,8 @@ extern const ps_point_format ps_format_utk1, ps_format_lammps, ps_format_xyz, ps
     ps_format_obj;
 /* Numbers in lines that mean nothing; in no table, for only the options tell it from utk-text. */
 extern const ps_point_format ps_format_tokens;
+/* Given sets; in no table, for no file has it. */
+extern const ps_point_format ps_format_memory;
 
 /* How points_npy.c writes openquad. */
 void ps_openquad_begin(ps_point_writer *writer);

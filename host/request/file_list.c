@@ -138,6 +138,16 @@ typedef struct known_file {
     const char *path;
 } known_file;
 
+/* A given set is a file of no device, and its place in the list the number of that. */
+static bool look_up(known_file *file, const ps_given_sets *given) {
+    const ps_given_set *const set = ps_given_sets_find(given, file->path);
+    if (set != NULL) {
+        file->facts = (struct stat){.st_ino = (ino_t)(set - given->sets) + 1};
+        return true;
+    }
+    return strcmp(file->path, "-") != 0 && stat(file->path, &file->facts) == 0;
+}
+
 static int compare_files(const void *first, const void *second) {
     const known_file *const a = first;
     const known_file *const b = second;
@@ -165,8 +175,7 @@ static pspec_status check_different(const ps_file_list *lists, const ps_request 
     for (size_t i = 0; i < num_lists; i += request->num_counts) {
         for (size_t j = 0; j < lists[i].num; j++) {
             files[num].path = lists[i].paths[j];
-            num +=
-                strcmp(files[num].path, "-") != 0 && stat(files[num].path, &files[num].facts) == 0;
+            num += look_up(&files[num], &request->reading.given);
         }
     }
     qsort(files, num, sizeof *files, compare_files);

@@ -53,12 +53,15 @@ size_t ps_request_outputs(ps_request_file out[PS_NUM_OPTIONS], const ps_request 
     return num;
 }
 
-static pspec_status visit_list(const ps_file_list *list, const char *shown,
-                               ps_request_visit_input *visit, void *payload, ps_error *error) {
+static pspec_status visit_list(const ps_file_list *list, const ps_given_sets *given,
+                               const char *shown, ps_request_visit_input *visit, void *payload,
+                               ps_error *error) {
     for (size_t i = 0; i < list->num; i++) {
         ps_request_file input = {.path = list->paths[i]};
         snprintf(input.option.text, sizeof input.option.text, "%s", shown);
-        PS_TRY(visit(payload, &input, error));
+        if (ps_given_sets_find(given, input.path) == NULL) {
+            PS_TRY(visit(payload, &input, error));
+        }
     }
     return PSPEC_OK;
 }
@@ -73,12 +76,12 @@ static pspec_status visit_points(const ps_request *request, ps_request_visit_inp
         pspec_status status =
             ps_file_list_of_question(&list, request, i * request->num_counts, error);
         if (status == PSPEC_OK) {
-            status = visit_list(&list, set.text, visit, payload, error);
+            status = visit_list(&list, &request->reading.given, set.text, visit, payload, error);
         }
         ps_file_list_free(&list);
         PS_TRY(status);
     }
-    return visit_list(&alone, "the input", visit, payload, error);
+    return visit_list(&alone, &request->reading.given, "the input", visit, payload, error);
 }
 
 pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,

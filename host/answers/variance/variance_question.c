@@ -47,8 +47,12 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
 
 /* ---- files --------------------------------------------------------------------------------- */
 
-static pspec_status check_files(const ps_file_list *files, ps_error *error) {
+static pspec_status check_files(const ps_file_list *files, const ps_given_sets *given,
+                                ps_error *error) {
     for (size_t i = 0; i < files->num; i++) {
+        if (ps_given_sets_find(given, files->paths[i]) != NULL) {
+            continue;
+        }
         PS_TRY(ps_saved_result_refuse(files->paths[i],
                                       "and variances are formed from sums of each set, which it "
                                       "has not",
@@ -83,7 +87,7 @@ static pspec_status find_place(bool *on_sphere, const ps_request *arguments, ps_
 static pspec_status fill_files(ps_power_question *out, const ps_file_list *files,
                                const ps_request *arguments, ps_error *error) {
     bool on_sphere = false;
-    PS_TRY(check_files(files, error));
+    PS_TRY(check_files(files, &arguments->reading.given, error));
     PS_TRY(find_place(&on_sphere, arguments, error));
     PS_TRY(ps_option_domains_check(arguments, on_sphere, error));
     out->paths = files->paths;

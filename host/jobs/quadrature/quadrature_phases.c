@@ -51,8 +51,8 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
         ps_phases_sample(phases, question->sampler, planned > 0 ? planned : 1, &sets);
         return planned > 0 ? planned : 1;
     }
-    const double points = ps_phases_read(phases, question->paths, question->num_paths,
-                                         question->point_options.format, 3);
+    const double points =
+        ps_phases_read(phases, question->paths, question->num_paths, &question->point_options, 3);
     return fmax(1, nearbyint(points / each));
 }
 

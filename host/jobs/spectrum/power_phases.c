@@ -105,8 +105,8 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
     } else {
         const bool has_weights = job->sets.next.has_weights;
         out.points =
-            ps_phases_read(phases, question->paths, question->num_paths,
-                           question->point_options.format, job->dimension + (has_weights ? 1 : 0));
+            ps_phases_read(phases, question->paths, question->num_paths, &question->point_options,
+                           job->dimension + (has_weights ? 1 : 0));
         out.sets = question->num_sets > 0 ? (double)question->num_sets
                                           : fmax(1, nearbyint(out.points / each));
         out.points = out.sets * each;

@@ -169,7 +169,7 @@ pspec_status ps_variance_trials_sum_pairs(ps_variance_job *job, ps_error *error)
 static void add_reading(const ps_variance_job *job, ps_phases *phases) {
     const ps_power_question *const spectrum = &job->question->spectrum;
     for (int i = 0; i < 2; i++) {
-        ps_phases_read(phases, spectrum->paths, spectrum->num_paths, spectrum->point_options.format,
+        ps_phases_read(phases, spectrum->paths, spectrum->num_paths, &spectrum->point_options,
                        job->files.dimension);
     }
 }

@@ -1,0 +1,34 @@
+/* Sets that a caller of the library has in memory, and the same in a file. */
+#ifndef TEST_HARNESS_GIVEN_H
+#define TEST_HARNESS_GIVEN_H
+
+#include "harness.h"
+
+#include "harness_points.h"
+
+enum { TEST_MOST_SETS = 64 };
+
+/* Sets of a caller. What it shows is a copy, gone at the next call: sanitizers find who reads it
+ * then. */
+typedef struct test_given {
+    char name[TEST_PATH_BYTES];
+    unsigned dimension;
+    size_t num_sets, num_points[TEST_MOST_SETS];
+    bool has_weights;
+    double *points[TEST_MOST_SETS], *weights[TEST_MOST_SETS];
+    double *view;
+    size_t next, num_calls; /* the realization that may come, and calls */
+    size_t failing, other;  /* sets that fail, or have other dimensions, from 1; 0: none */
+} test_given;
+
+/* Sets of num points, each of `more` more than the one before, called FOLDER/NAME: on the torus,
+ * where d = 3 unit vectors; freed by test_given_free. */
+void test_given_make(test_given *self, const test_folder *folder, const char *name,
+                     unsigned dimension, bool has_weights, size_t num_sets, size_t num,
+                     size_t more);
+void test_given_free(test_given *self);
+ps_given_set test_given_set(test_given *self);
+/* Writes them to a file of that name: "npy", in double precision, or "utk-text". */
+void test_given_save(const test_given *self, const char *format);
+
+#endif
