@@ -15,7 +15,6 @@
 #include <string.h>
 
 #include "files/digest.h"
-#include "math/pi.h"
 #include "samplers/darts/blue_noise.h"
 #include "samplers/darts/radius.h"
 
@@ -76,49 +75,6 @@ static inline void test_assert_in_cube(unsigned dimension, const double *points,
     for (size_t i = 0; i < num * dimension; i++) {
         assert_true(points[i] >= 0 && points[i] < 1);
     }
-}
-
-/* |S(k)|^2/N of points of the plane. */
-static inline double test_plane_power(const double *points, size_t num, int kx, int ky) {
-    double re = 0;
-    double im = 0;
-    for (size_t j = 0; j < num; j++) {
-        const double phase = PS_TWO_PI * (kx * points[2 * j] + ky * points[2 * j + 1]);
-        re += cos(phase);
-        im += sin(phase);
-    }
-    return (re * re + im * im) / (double)num;
-}
-
-/* Mean power over all k != 0 with low <= |k| < high, of one sign each. */
-static inline double test_ring_power(const double *points, size_t num, double low, double high) {
-    const int most = (int)ceil(high);
-    double sum = 0;
-    size_t count = 0;
-    for (int kx = -most; kx <= most; kx++) {
-        for (int ky = 0; ky <= most; ky++) {
-            const double length = sqrt((double)(kx * kx + ky * ky));
-            if ((ky > 0 || kx > 0) && length >= low && length < high) {
-                sum += test_plane_power(points, num, kx, ky);
-                count++;
-            }
-        }
-    }
-    return sum / (double)count;
-}
-
-/* Sets of about n = 1024 points: means over rings in units of sqrt(n), |k| from low to high. */
-static inline double test_mean_ring(test_maker *make, const ps_blue_noise *asked, unsigned num_sets,
-                                    double low, double high) {
-    const double root = 32;
-    double sum = 0;
-    for (unsigned r = 0; r < num_sets; r++) {
-        size_t num = 0;
-        double *const points = test_make_set(make, *asked, r, &num);
-        sum += test_ring_power(points, num, low * root, high * root);
-        free(points);
-    }
-    return sum / num_sets;
 }
 
 /* Numbers of points of so many sets. */

@@ -71,33 +71,6 @@ static void numbers_of_points_are_those_asked_for(void **state) {
                         1024 + SIGMAS * made.error);
 }
 
-static void the_plane_is_filled_as_is_known(void **state) {
-    (void)state;
-    const ps_blue_noise asked = ask(2, 30, 4096);
-    const double hexagonal = sqrt(2 / (sqrt(3) * 4096));
-    size_t num = 0;
-    double least = 0;
-    double mean = 0;
-    double *const points = test_make_set(ps_bridson_points, asked, 0, &num);
-    test_distances(2, points, num, &least, &mean);
-    test_assert_between("least distance", least / hexagonal, 0.7285, 0.7310);
-    test_assert_between("mean distance", mean / hexagonal, 0.785, 0.800);
-    free(points);
-}
-
-static void the_spectrum_is_that_of_thirty_tries(void **state) {
-    (void)state;
-    const ps_blue_noise asked = ask(2, 30, 1024);
-    const double plateau = test_mean_ring(ps_bridson_points, &asked, 300, 0.06, 0.1);
-    test_assert_between("plateau", plateau, 0.065, 0.077);
-    double peak = 0;
-    for (double low = 1.04; low < 1.19; low += 0.04) {
-        const double ring = test_mean_ring(ps_bridson_points, &asked, 20, low, low + 0.04);
-        peak = ring > peak ? ring : peak;
-    }
-    test_assert_between("peak", peak, 1.42, 1.50);
-}
-
 static void bits_are_those_of_every_machine(void **state) {
     (void)state;
     const char *const digests[] = {"33d3856001c9a8a951f67af0185c48b6",
@@ -148,8 +121,6 @@ int main(void) {
         cmocka_unit_test(distances_are_between_one_and_two_radii),
         cmocka_unit_test(many_tries_leave_no_wide_holes),
         cmocka_unit_test(numbers_of_points_are_those_asked_for),
-        cmocka_unit_test(the_plane_is_filled_as_is_known),
-        cmocka_unit_test(the_spectrum_is_that_of_thirty_tries),
         cmocka_unit_test(bits_are_those_of_every_machine),
         cmocka_unit_test(impossible_questions_are_refused),
         cmocka_unit_test(a_watch_stops_it_at_any_word),

@@ -153,33 +153,6 @@ static void numbers_of_points_are_those_asked_for(void **state) {
     assert_true(fabs(in_cube.mean - 512) < SIGMAS * in_cube.error);
 }
 
-static void distances_are_those_of_saturation(void **state) {
-    (void)state;
-    const ps_blue_noise asked = ask(2, 4096);
-    const double hexagonal = sqrt(2 / (sqrt(3) * 4096));
-    size_t num = 0;
-    double least = 0;
-    double mean = 0;
-    double *const points = test_make_set(ps_poisson_disk_points, asked, 0, &num);
-    test_distances(2, points, num, &least, &mean);
-    test_assert_between("least distance", least / hexagonal, 0.7765, 0.778);
-    test_assert_between("mean distance", mean / hexagonal, 0.8187 - 0.002, 0.8187 + 0.002);
-    free(points);
-}
-
-static void the_spectrum_is_that_of_saturated_disks(void **state) {
-    (void)state;
-    const ps_blue_noise asked = ask(2, 1024);
-    const double plateau = test_mean_ring(ps_poisson_disk_points, &asked, 300, 0.06, 0.1);
-    test_assert_between("plateau", plateau, 0.057 - 0.003, 0.061 + 0.003);
-    double peak = 0;
-    for (double low = 1.08; low < 1.2; low += 0.04) {
-        const double ring = test_mean_ring(ps_poisson_disk_points, &asked, 20, low, low + 0.04);
-        peak = ring > peak ? ring : peak;
-    }
-    test_assert_between("peak", peak, 1.70, 1.80);
-}
-
 static void bits_are_those_of_every_machine(void **state) {
     (void)state;
     size_t num = 0;
@@ -245,8 +218,6 @@ int main(void) {
         cmocka_unit_test(no_place_of_the_cube_is_left),
         cmocka_unit_test(darts_thrown_plainly_come_to_the_same),
         cmocka_unit_test(numbers_of_points_are_those_asked_for),
-        cmocka_unit_test(distances_are_those_of_saturation),
-        cmocka_unit_test(the_spectrum_is_that_of_saturated_disks),
         cmocka_unit_test(bits_are_those_of_every_machine),
         cmocka_unit_test(few_points_are_made_too),
         cmocka_unit_test(impossible_radii_are_refused),

@@ -2,6 +2,7 @@
 #include "test_blue_noise.h"
 
 #include "math/unit_vector.h"
+#include "math/pi.h"
 #include "samplers/darts/face.h"
 #include "samplers/darts/sphere_disk.h"
 
@@ -200,57 +201,6 @@ static void numbers_of_points_are_those_asked_for(void **state) {
     }
 }
 
-/* Adds (1/N) sum over pairs of P_l(u.v) for l = 0 .. most to sums. */
-static void add_powers(const double *points, size_t num, unsigned most, double *sums) {
-    for (size_t i = 0; i < num; i++) {
-        for (size_t j = 0; j <= i; j++) {
-            const double *const u = points + VECTOR * i;
-            const double *const v = points + VECTOR * j;
-            const double z = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-            const double weight = (i == j ? 1.0 : 2.0) / (double)num;
-            double before = 1;
-            double last = z;
-            sums[1] += weight * z;
-            for (unsigned l = 2; l <= most; l++) {
-                const double next = ((2 * l - 1) * z * last - (l - 1) * before) / l;
-                before = last;
-                last = next;
-                sums[l] += weight * next;
-            }
-        }
-    }
-}
-
-static double mean_of(const double *powers, double low, double high) {
-    double sum = 0;
-    double weights = 0; /* independent numbers of a degree */
-    for (unsigned l = (unsigned)ceil(low); l < high; l++) {
-        sum += (2 * l + 1) * powers[l];
-        weights += 2 * l + 1;
-    }
-    return sum / weights;
-}
-
-static void the_spectrum_is_that_of_saturated_disks(void **state) {
-    (void)state;
-    enum { SETS = 60, MOST = 40, NUM = 256 };
-    const double root = 16; /* of NUM */
-    double powers[MOST + 1] = {0};
-    for (unsigned r = 0; r < SETS; r++) {
-        size_t num = 0;
-        double *const points = make_set(ps_sphere_disk_radius(NUM), r, &num);
-        add_powers(points, num, MOST, powers);
-        free(points);
-    }
-    for (unsigned l = 0; l <= MOST; l++) {
-        powers[l] /= SETS;
-    }
-    test_assert_between("plateau", mean_of(powers, 1, 0.35 * root), 0.047, 0.07);
-    test_assert_between("peak", mean_of(powers, 1.95 * root, 2.1 * root), 1.65, 1.82);
-    assert_true(mean_of(powers, 1.95 * root, 2.1 * root) > mean_of(powers, 1.6 * root, 1.7 * root));
-    assert_true(mean_of(powers, 1.95 * root, 2.1 * root) > mean_of(powers, 2.3 * root, 2.4 * root));
-}
-
 static void bits_are_those_of_every_machine(void **state) {
     (void)state;
     size_t num = 0;
@@ -299,7 +249,6 @@ int main(void) {
         cmocka_unit_test(no_two_points_are_nearer_than_the_radius),
         cmocka_unit_test(no_place_is_left),
         cmocka_unit_test(numbers_of_points_are_those_asked_for),
-        cmocka_unit_test(the_spectrum_is_that_of_saturated_disks),
         cmocka_unit_test(bits_are_those_of_every_machine),
         cmocka_unit_test(impossible_radii_are_refused),
         cmocka_unit_test(a_watch_stops_it_at_any_word),

@@ -1,6 +1,6 @@
 /* Gaussian blue noise: energy and forces beside plain sums over images, an energy that only falls,
- * its bound, the numbers of its spectrum, the same bits for ever. */
-#include "set_spectra.h"
+ * its bound, the same bits for ever. */
+#include "set_distances.h"
 #include "stop_at_the_third.h"
 #include "test_samplers.h"
 
@@ -210,28 +210,6 @@ static void the_bits_of_sets_are_these(void **state) {
     assert_string_equal(digest, "7ece6e88a6270108b57c30b28dc5c5f9");
 }
 
-/* BNOT has 1e-5, 4.7e-4 and 8.5e-3 there; docs/samplers/forces.md has the numbers of 20 sets of
- * 1024 points. */
-static void low_frequencies_are_emptier_than_those_of_bnot(void **state) {
-    (void)state;
-    enum { NUM = 256, SETS = 4 };
-    double x[2 * NUM];
-    power_bins bins = {0};
-    double mean = 0;
-    for (uint64_t r = 0; r < SETS; r++) {
-        make(NUM, 2, 1, r, x);
-        const set_distances distances = measure_distances(NUM, x);
-        assert_true(distances.least > 0.1);
-        mean += distances.mean / SETS;
-        add_power(&bins, NUM, x);
-    }
-    assert_true(mean > 0.79 && mean < 0.84);
-    assert_true(mean_power(&bins, 0.10) < 1e-7);
-    assert_true(mean_power(&bins, 0.26) < 1e-6);
-    assert_true(mean_power(&bins, 0.50) < 8e-4);
-    assert_true(mean_power(&bins, 1.13) > 1.5);
-}
-
 /* ---- what cannot be made ---- */
 
 static void refuse(const char *text, size_t num, unsigned dimension, const char *why) {
@@ -348,7 +326,6 @@ int main(void) {
         cmocka_unit_test(steps_that_are_too_long_are_taken_back),
         cmocka_unit_test(points_that_coincide_stay_together),
         cmocka_unit_test(the_bits_of_sets_are_these),
-        cmocka_unit_test(low_frequencies_are_emptier_than_those_of_bnot),
         cmocka_unit_test(what_cannot_be_made_is_refused),
         cmocka_unit_test(a_device_without_double_precision_is_refused),
         cmocka_unit_test(a_device_that_is_not_there_is_told),
