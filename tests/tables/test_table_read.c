@@ -238,7 +238,7 @@ static void other_bytes_are_refused(void **state) {
     assert_int_equal(ps_table_write(table, path, PS_FORMAT_NPZ, &error), PSPEC_OK);
     ps_table_destroy(table);
     char *const bytes = test_read_file(path, &num); /* and a NUL behind them */
-    for (size_t i = 0; i < num; i += 16) { /* result_cache_broken has all of them */
+    for (size_t i = 0; i < num; i += 16) {          /* result_cache_broken has all of them */
         bytes[i] = (char)(bytes[i] ^ (1 << i / 16 % 8));
         check_refused(path, bytes, num);
         bytes[i] = (char)(bytes[i] ^ (1 << i / 16 % 8));
