@@ -2,9 +2,15 @@
  * whether a command line, a scene or a program filled the request. */
 #include "request/option_rows.h"
 
+#include <stdio.h>
+
+/* What is no option, or one value of an option: the keys of scenes that ask for arrays, and what an
+ * answer has several of. */
+enum { ARRAYS = PS_NUM_OPTIONS, COEFFICIENTS, WEIGHTS_OF_COLUMN, SEVERAL };
+
 /* The first pair that was given is the one that is named, as it stands here: a, then b. */
 typedef struct option_pair {
-    ps_option_id a, b;
+    int a, b; /* a ps_option_id, or one of those above */
     const char *why;
     ps_command_set takers; /* who refuses it; 0: all that take both options */
 } option_pair;
@@ -32,6 +38,14 @@ static const option_pair pairs[] = {
     {PS_OPTION_SCATTER, PS_OPTION_PLOT_POINTS, "its picture has none", 0},
     {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array", 0},
 
+    {PS_OPTION_FREQUENCIES, ARRAYS, "they do not fill an array", 0},
+    {PS_OPTION_PER_RING, ARRAYS, "they do not fill an array", 0},
+    {PS_OPTION_PER_RING, COEFFICIENTS, "they are of whole arrays of every set", 0},
+    {PS_OPTION_STANDARD_ERROR, COEFFICIENTS, "they are of whole arrays of every set", 0},
+    {PS_OPTION_FULL, SEVERAL, "one array has one file", 0},
+    {PS_OPTION_COEFFICIENTS, SEVERAL, "one array has one file", 0},
+    {WEIGHTS_OF_COLUMN, PS_OPTION_SAMPLER, "samplers make points only", ~BIT(variance)},
+
     {PS_OPTION_SHIFTS, PS_OPTION_IN_PLACE, "sets are moved, or they are not", 0},
     {PS_OPTION_WEIGHTS, PS_OPTION_SAMPLER, "all of its points count the same", BIT(variance)},
     {PS_OPTION_HEMISPHERE, PS_OPTION_SAMPLER, "it says where its points are", BIT(variance)},
@@ -58,8 +72,39 @@ static const option_pair pairs[] = {
 enum { NUM_PAIRS = sizeof pairs / sizeof pairs[0] };
 
 /* Scenes name sets of files by the key of samplers. */
-static bool is_there(const ps_request *request, ps_option_id id) {
-    return request->is_given[id] && (id != PS_OPTION_SAMPLER || ps_request_has_samplers(request));
+static bool is_there(const ps_request *request, int id) {
+    switch (id) {
+    case ARRAYS:
+        return request->wants_array;
+    case COEFFICIENTS:
+        return request->wants_coefficients;
+    case WEIGHTS_OF_COLUMN:
+        return request->weights.kind == PS_WEIGHTS_COLUMN;
+    case SEVERAL:
+        return ps_request_num_questions(request) > 1;
+    default:
+        return request->is_given[id] &&
+               (id != PS_OPTION_SAMPLER || ps_request_has_samplers(request));
+    }
+}
+
+static ps_shown_option show(const ps_request *request, int id) {
+    ps_shown_option out;
+    switch (id) {
+    case ARRAYS:
+        return (ps_shown_option){"arrays"};
+    case COEFFICIENTS:
+        return (ps_shown_option){"arrays: coefficients"};
+    case WEIGHTS_OF_COLUMN:
+        snprintf(out.text, sizeof out.text, "%.20s column",
+                 ps_option_show(request, PS_OPTION_WEIGHTS).text);
+        return out;
+    case SEVERAL:
+        return request->num_sources > 1 ? (ps_shown_option){"several samplers or sets"}
+                                        : (ps_shown_option){"several numbers of points"};
+    default:
+        return ps_option_show(request, (ps_option_id)id);
+    }
 }
 
 pspec_status ps_option_pairs_check(const ps_request *request, ps_command_id taker,
@@ -69,8 +114,7 @@ pspec_status ps_option_pairs_check(const ps_request *request, ps_command_id take
         const bool is_refused = pair->takers == 0 || (pair->takers >> taker & 1) != 0;
         if (is_refused && is_there(request, pair->a) && is_there(request, pair->b)) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s",
-                           ps_option_show(request, pair->a).text,
-                           ps_option_show(request, pair->b).text, pair->why);
+                           show(request, pair->a).text, show(request, pair->b).text, pair->why);
         }
     }
     return PSPEC_OK;
@@ -78,7 +122,7 @@ pspec_status ps_option_pairs_check(const ps_request *request, ps_command_id take
 
 bool ps_option_is_refused(ps_option_id a, ps_option_id b) {
     size_t i = 0;
-    while (i < NUM_PAIRS && (pairs[i].a != a || pairs[i].b != b)) {
+    while (i < NUM_PAIRS && (pairs[i].a != (int)a || pairs[i].b != (int)b)) {
         i++;
     }
     return i < NUM_PAIRS;

@@ -17,10 +17,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     }
     PS_TRY(ps_sources_check(arguments, "no rule", error));
     PS_TRY(ps_point_options_check(arguments, error));
-    return arguments->weights.kind == PS_WEIGHTS_COLUMN && ps_request_has_samplers(arguments)
-               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "--weights column does not go with --sampler: samplers make points only")
-               : PSPEC_OK;
+    return ps_option_pairs_check(arguments, PS_COMMAND_quadrature, error);
 }
 
 static pspec_status check_weights(const ps_request *arguments, ps_error *error) {

@@ -9,39 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
-}
-
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_sources_check(arguments, "nothing to take a spectrum of", error));
-    PS_TRY(ps_point_options_check(arguments, error));
-    if (arguments->weights.kind == PS_WEIGHTS_COLUMN && ps_request_has_samplers(arguments)) {
-        return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
-    }
-    return PSPEC_OK;
-}
-
-/* "several samplers" */
-static const char *name_several(const ps_request *arguments) {
-    return arguments->num_sources > 1 ? "several samplers or sets" : "several numbers of points";
+    return ps_point_options_check(arguments, error);
 }
 
 /* What there is one of. */
 static pspec_status check_several(const ps_request *arguments, ps_error *error) {
     const size_t num = ps_request_num_questions(arguments);
-    const char *const several = name_several(arguments);
-    if (num == 1) {
-        return PSPEC_OK;
-    }
-    if (arguments->full != NULL) {
-        return fail_conflict("--full", several, "one array has one file", error);
-    }
-    if (arguments->coefficients != NULL) {
-        return fail_conflict("--coefficients", several, "one array has one file", error);
-    }
-    if (arguments->plot != NULL && arguments->frequencies.num_shown > 0) {
-        return fail_conflict("--scatter", several, "a picture shows the sets of one", error);
+    if (num > 1 && arguments->plot != NULL && arguments->frequencies.num_shown > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--scatter does not go with several %s: a picture shows the sets of one",
+                       arguments->num_sources > 1 ? "samplers or sets" : "numbers of points");
     }
     PS_TRY(ps_weights_check_counts(arguments, error));
     return arguments->plot == NULL || num <= PS_MAX_CURVES
@@ -76,20 +55,9 @@ static int count_arrays(const ps_request *arguments) {
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_power, error));
     PS_TRY(check_fit(arguments, error));
-    if (arguments->wants_array &&
-        (arguments->frequencies.path != NULL || arguments->frequencies.per_ring > 0)) {
-        return fail_conflict(arguments->frequencies.path != NULL ? "frequencies" : "per-ring",
-                             "arrays", "they do not fill an array", error);
-    }
     if (count_arrays(arguments) > 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "an answer has one array: that of arrays, of pictures or of scatter");
-    }
-    if (arguments->wants_coefficients &&
-        (arguments->accuracy.standard_error > 0 || arguments->frequencies.per_ring > 0)) {
-        return fail_conflict(arguments->frequencies.per_ring > 0 ? "per-ring" : "standard-error",
-                             "arrays: coefficients", "they are of whole arrays of every set",
-                             error);
     }
     return check_several(arguments, error);
 }
