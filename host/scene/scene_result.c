@@ -107,18 +107,14 @@ static pspec_status take_name(const ps_scene_reader *reader, const ps_scene_node
 static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node *node,
                               const ps_kind **out) {
     const char *text = NULL;
-    ps_scene_nearest best = {NULL, 0};
+    size_t distance = 0;
     PS_TRY(ps_scene_take_text(reader->file, node, "result", &text));
-    for (size_t i = 0; ps_scene_kinds[i] != NULL; i++) {
-        ps_scene_consider(&best, text, ps_scene_kinds[i]->name);
-        if (strcmp(text, ps_scene_kinds[i]->name) == 0) {
-            *out = ps_scene_kinds[i];
-            return PSPEC_OK;
-        }
-    }
-    return ps_scene_complain(
-        reader->file, node->line, "result", "\"%s\" is no kind of answer%s", text,
-        ps_text_suggest(text, best.word, best.distance, "; did you mean ", "?").text);
+    *out = ps_command_nearest(ps_scene_kinds, text, &distance);
+    return distance == 0
+               ? PSPEC_OK
+               : ps_scene_complain(
+                     reader->file, node->line, "result", "\"%s\" is no kind of answer%s", text,
+                     ps_text_suggest(text, (*out)->name, distance, "; did you mean ", "?").text);
 }
 
 /* true, false or coefficients, as the kind has them. */

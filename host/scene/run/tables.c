@@ -181,23 +181,19 @@ out:
 
 enum { MOST_KEYS = 16, MOST_SUMMARY_COLUMNS = PS_NUM_OPTIONS + 1 + MOST_KEYS };
 
-static bool has_entry(const ps_table *table, const char *wanted) {
-    const char *key = NULL;
-    bool is_there = false;
-    for (size_t i = 0; i < ps_table_num_meta(table) && !is_there; i++) {
-        (void)ps_table_meta(table, i, &key);
-        is_there = strcmp(key, wanted) == 0;
-    }
-    return is_there;
-}
-
 /* Entries that no answer has, as the range of N where all sets have one N, are no columns. */
-static bool has_answers_with(const ps_run_result *result, const char *key) {
-    size_t q = 0;
-    while (q < result->num && !has_entry(result->questions[q].answer.table, key)) {
-        q++;
+static bool has_answers_with(const ps_run_result *result, const char *wanted) {
+    for (size_t q = 0; q < result->num; q++) {
+        const ps_table *const answer = result->questions[q].answer.table;
+        for (size_t i = 0; i < ps_table_num_meta(answer); i++) {
+            const char *key = NULL;
+            (void)ps_table_meta(answer, i, &key);
+            if (strcmp(key, wanted) == 0) {
+                return true;
+            }
+        }
     }
-    return q < result->num;
+    return false;
 }
 
 static size_t put_keys(const ps_run_result *result, const char **names, size_t num) {
@@ -267,8 +263,9 @@ static pspec_status add_summary_row(const ps_run_result *result, size_t number, 
     return status;
 }
 
-static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
-                                 ps_cell *cells, ps_error *error) {
+static pspec_status make_summary(const ps_run *run, ps_run_result *result, ps_error *error) {
+    const char *names[MOST_SUMMARY_COLUMNS];
+    ps_cell cells[MOST_SUMMARY_COLUMNS];
     const size_t num_values = put_names(result, NULL, names);
     const size_t num = put_keys(result, names, num_values);
     PS_TRY(begin(&result->summary, run, result, names, num, error));
@@ -276,20 +273,6 @@ static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const
         PS_TRY(add_summary_row(result, q, num_values, names, num, cells, error));
     }
     return PSPEC_OK;
-}
-
-static pspec_status make_summary(const ps_run *run, ps_run_result *result, ps_error *error) {
-    void *names = NULL;
-    void *cells = NULL;
-    pspec_status status = PSPEC_OK;
-    const size_t num = count_varying(result) + MOST_KEYS;
-    PS_TRY_OUT(status, ps_allocate(&names, num, sizeof(char *), "names of columns", error));
-    PS_TRY_OUT(status, ps_allocate(&cells, num, sizeof(ps_cell), "a row", error));
-    status = fill_summary(run, result, names, cells, error);
-out:
-    free(names);
-    free(cells);
-    return status;
 }
 
 pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result, ps_error *error) {
