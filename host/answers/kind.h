@@ -74,6 +74,26 @@ typedef struct ps_line_kind {
     bool is_log_x, is_log_y;
 } ps_line_kind;
 
+/* Tables of two answers to the same question, made with other engines, or of other realizations, at
+ * a row; modes: of all rows. */
+typedef struct ps_both_tables {
+    const ps_table *a, *b;
+    size_t row;
+    double modes;
+} ps_both_tables;
+
+/* A value that is compared in every row, or that of the header. */
+typedef struct ps_compared_field {
+    const char *value, *error; /* its name, and that of its standard error */
+    bool is_of_header;         /* rows may be others then */
+    /* By how much both sides' headers allow it to differ; NULL: it is a text, and does not */
+    double (*bound)(const ps_both_tables *both, const char *value);
+} ps_compared_field;
+double ps_compared_power_bound(const ps_both_tables *both, const char *value);
+double ps_compared_predicted_bound(const ps_both_tables *both, const char *value);
+double ps_compared_rule_bound(const ps_both_tables *both, const char *value);
+double ps_compared_variance_bound(const ps_both_tables *both, const char *value);
+
 typedef struct ps_command {
     const char *name;
 
@@ -137,9 +157,8 @@ typedef struct ps_command {
     pspec_status (*chart)(const ps_chart *chart, ps_error *error);
     const char *const *sentences; /* header entries that pages show; ended by NULL, NULL: none */
     bool has_few_rows;            /* pages show all of them, before the summary */
-    /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
-     * infinite where one has what the other lacks. */
-    double (*compare)(const ps_table *a, const ps_table *b);
+    const ps_compared_field
+        *compared; /* of two answers to the same question; ended by .value = NULL */
 } ps_command;
 
 /* A command that has an answer, and all that is below its question. */
@@ -189,6 +208,10 @@ const ps_command *ps_command_nearest(const ps_command *const *table, const char 
 pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);
+
+/* How far the tables are apart, in units of what their headers announce, so that 1 is what is
+ * allowed. Infinite where one has rows that the other lacks. */
+double ps_answer_compare(const ps_kind *kind, const ps_table *a, const ps_table *b);
 
 /* What a command that prints the kind does: whatever can be refused is refused before hours of
  * work, then it is computed, and the files are written that the request names: table (an output

@@ -1,7 +1,6 @@
 /* Is the spectrum of a sampler, or of files, the saved one? Or are realizations homogeneous? */
 #include "answers/check/check_question.h"
 #include "answers/check/check_table.h"
-#include "answers/compare.h"
 #include "answers/homogeneity/homogeneity.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
@@ -273,6 +272,8 @@ static const ps_field_row own_fields[] = {
 static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
                                              ps_fields_computed, NULL};
 
+static const ps_compared_field compared[] = {{"verdict", NULL, true, NULL}, {.value = NULL}};
+
 const ps_kind ps_kind_check = {
     .name = "check",
     .purpose = "is this the spectrum that was saved, statistically?",
@@ -311,5 +312,5 @@ const ps_kind ps_kind_check = {
     .fields = fields,
     .summary = summary,
     .lines = lines,
-    .compare = ps_compare_verdicts,
+    .compared = compared,
 };

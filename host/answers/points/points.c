@@ -12,7 +12,6 @@
 #include "jobs/spectrum/power_phases.h"
 #include "request/point_source.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -223,17 +222,6 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     return self->num_kept > 0 ? add_points(out->table, self, error) : PSPEC_OK;
 }
 
-/* The same points, or others. */
-static double compare(const ps_table *a, const ps_table *b) {
-    enum { DIGEST = 2 };
-    bool is_same = ps_table_num_rows(a) == ps_table_num_rows(b);
-    for (size_t row = 0; is_same && row < ps_table_num_rows(a); row++) {
-        is_same =
-            strcmp(ps_table_cell(a, row, DIGEST).text, ps_table_cell(b, row, DIGEST).text) == 0;
-    }
-    return is_same ? 0 : INFINITY;
-}
-
 static const char *const summary[] = {"points",    "realizations", "domain",
                                       "dimension", "seed",         NULL};
 
@@ -247,6 +235,8 @@ static const ps_field_row own_fields[] = {
 
 static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
                                              ps_fields_computed, NULL};
+
+static const ps_compared_field compared[] = {{"digest", NULL, false, NULL}, {.value = NULL}};
 
 const ps_kind ps_kind_points = {
     .name = "sample",
@@ -263,5 +253,5 @@ const ps_kind ps_kind_points = {
     .discard = discard,
     .fields = fields,
     .summary = summary,
-    .compare = compare,
+    .compared = compared,
 };

@@ -1,5 +1,4 @@
 /* Quadrature spectrum and worst-case error of rules for a BRDF. */
-#include "answers/compare.h"
 #include "answers/quadrature/quadrature_question.h"
 #include "answers/quadrature/quadrature_table.h"
 #include "answers/spectra/spectra.h"
@@ -229,6 +228,10 @@ static const ps_field_row own_fields[] = {
 static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
                                              ps_fields_computed, NULL};
 
+static const ps_compared_field compared[] = {
+    {"worst_case_error", "worst_case_error_standard_error", true, ps_compared_rule_bound},
+    {.value = NULL}};
+
 const ps_kind ps_kind_quadrature = {
     .name = "quadrature",
     .purpose = "quadrature spectrum and worst-case error of rules for a BRDF",
@@ -262,5 +265,5 @@ const ps_kind ps_kind_quadrature = {
     .summary = summary,
     .lines = lines,
     .convergence = &convergence,
-    .compare = ps_compare_rules,
+    .compared = compared,
 };

@@ -1,5 +1,4 @@
 /* The averaged angular power spectrum of sets on the sphere. */
-#include "answers/compare.h"
 #include "answers/spectra/job_table.h"
 #include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
@@ -96,6 +95,9 @@ static const ps_field_row *const fields[] = {ps_fields_asked,
                                              ps_fields_computed,
                                              NULL};
 
+static const ps_compared_field compared[] = {
+    {"power", "standard_error", false, ps_compared_power_bound}, {.value = NULL}};
+
 const ps_kind ps_kind_angular = {
     .name = "angular",
     .purpose = "averaged angular power spectrum of point sets on the sphere",
@@ -124,5 +126,5 @@ const ps_kind ps_kind_angular = {
     .fields = fields,
     .summary = ps_spectra_summary,
     .spectrum = &axes,
-    .compare = ps_compare_powers,
+    .compared = compared,
 };

@@ -1,5 +1,4 @@
 /* Legendre sums over all pairs of points of sets on the sphere. */
-#include "answers/compare.h"
 #include "answers/spectra/job_table.h"
 #include "answers/spectra/spectrum_header.h"
 #include "answers/spectra/spectra.h"
@@ -62,6 +61,9 @@ static const ps_line_kind lines[] = {
 static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, ps_fields_powers,
                                              ps_fields_computed, NULL};
 
+static const ps_compared_field compared[] = {
+    {"legendre_sum", "legendre_sum_error", false, ps_compared_predicted_bound}, {.value = NULL}};
+
 const ps_kind ps_kind_pairs = {
     .name = "pairs",
     .purpose = "Legendre sums over all pairs of points on the sphere",
@@ -90,5 +92,5 @@ const ps_kind ps_kind_pairs = {
     .fields = fields,
     .summary = ps_spectra_summary,
     .lines = lines,
-    .compare = ps_compare_pair_sums,
+    .compared = compared,
 };

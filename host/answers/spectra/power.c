@@ -1,5 +1,4 @@
 /* The averaged periodogram of sets on the torus. */
-#include "answers/compare.h"
 #include "answers/spectra/power_table.h"
 #include "answers/spectra/scatter.h"
 #include "answers/spectra/spectra.h"
@@ -75,6 +74,9 @@ static const ps_field_row *const fields[] = {ps_fields_asked,
                                              ps_fields_computed,
                                              NULL};
 
+static const ps_compared_field compared[] = {
+    {"power", "standard_error", false, ps_compared_power_bound}, {.value = NULL}};
+
 const ps_kind ps_kind_power = {
     .name = "power",
     .purpose = "averaged periodogram of point sets on the torus",
@@ -106,5 +108,5 @@ const ps_kind ps_kind_power = {
     .fields = fields,
     .summary = ps_spectra_summary,
     .spectrum = &axes,
-    .compare = ps_compare_powers,
+    .compared = compared,
 };

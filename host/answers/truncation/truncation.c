@@ -1,6 +1,5 @@
 /* The error of shading integrals as truncated products in harmonics, and how many points of a
  * rule have the same. */
-#include "answers/compare.h"
 #include "answers/kind.h"
 #include "answers/truncation/truncation_table.h"
 #include "base/memory.h"
@@ -119,6 +118,8 @@ static const ps_field_row own_fields[] = {
 
 static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, ps_fields_computed, NULL};
 
+static const ps_compared_field compared[] = {{"degree", NULL, false, NULL}, {.value = NULL}};
+
 const ps_kind ps_kind_truncation = {
     .name = "truncation",
     .purpose = "error of shading integrals by truncated harmonics, and equivalent points",
@@ -145,5 +146,5 @@ const ps_kind ps_kind_truncation = {
     .fields = fields,
     .summary = summary,
     .lines = lines,
-    .compare = ps_compare_verdicts,
+    .compared = compared,
 };

@@ -1,5 +1,4 @@
 /* The variance of Monte Carlo integration, predicted from spectra and measured beside it. */
-#include "answers/compare.h"
 #include "answers/spectra/spectra.h"
 #include "answers/variance/tail_verdict.h"
 #include "answers/variance/variance_question.h"
@@ -220,6 +219,11 @@ static const ps_field_row *const fields[] = {
     ps_fields_asked, ps_fields_points,   own_fields, ps_fields_profiles,
     sentence_fields, ps_fields_computed, NULL};
 
+static const ps_compared_field compared[] = {
+    {"predicted", "predicted_error", false, ps_compared_variance_bound},
+    {"measured", "measured_error", false, ps_compared_variance_bound},
+    {.value = NULL}};
+
 const ps_kind ps_kind_variance = {
     .name = "variance",
     .purpose = "variance of Monte Carlo integration, predicted from spectra and measured",
@@ -255,5 +259,5 @@ const ps_kind ps_kind_variance = {
     .chart = ps_variance_chart,
     .sentences = sentences,
     .has_few_rows = true,
-    .compare = ps_compare_variances,
+    .compared = compared,
 };

@@ -13,8 +13,8 @@ enum { RUNS = 2 };
 static double compare_result(const ps_run_result *a, const ps_run_result *b) {
     double worst = 0;
     for (size_t q = 0; q < a->num; q++) {
-        worst = fmax(worst, a->asked->kind->compare(a->questions[q].answer.table,
-                                                    b->questions[q].answer.table));
+        worst = fmax(worst, ps_answer_compare(a->asked->kind, a->questions[q].answer.table,
+                                              b->questions[q].answer.table));
     }
     return worst;
 }
