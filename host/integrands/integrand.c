@@ -141,6 +141,10 @@ double ps_integrand_energy(const ps_integrand *integrand) {
     return integrand->kind->energy(integrand);
 }
 
+bool ps_integrand_is_predicted(const ps_integrand *integrand) {
+    return !isnan(ps_integrand_energy(integrand));
+}
+
 double ps_integrand_factor(const ps_integrand *integrand) {
     static const double factors[] = {
         [PS_SAMPLES_TORUS] = 1, [PS_SAMPLES_SPHERE] = PS_FOUR_PI, [PS_SAMPLES_HEMISPHERE] = PS_PI};
@@ -188,6 +192,10 @@ pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degr
 void ps_integrand_values(const ps_integrand *integrand, const double *points, size_t num,
                          double *values) {
     integrand->kind->values(integrand, points, num, values);
+}
+
+const ps_error *ps_integrand_failure(const ps_integrand *integrand) {
+    return integrand->kind->failure != NULL ? integrand->kind->failure(integrand) : NULL;
 }
 
 bool ps_integrand_is_isotropic(const ps_integrand *integrand) {

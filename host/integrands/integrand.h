@@ -63,6 +63,9 @@ typedef struct ps_integrand_kind {
     pspec_status (*degrees)(const ps_integrand *, size_t max_degree, double *powers, ps_error *);
     /* F at num points, [num][dimension] coordinates in [0,1) or unit vectors. */
     void (*values)(const ps_integrand *, const double *points, size_t num, double *values);
+    /* Of values that may fail, which then are nan, and are asked for by one thread: why, or status
+     * PSPEC_OK. NULL: they cannot. */
+    const ps_error *(*failure)(const ps_integrand *);
     /* A(x) = int F(y) F(y + x) dy; of the sphere C(cos g) = 4 pi E_R[F(Ru) F(Rv)] of points at the
      * angle g, of the hemisphere that of the even extension; x is that cosine then. NULL, or not a
      * number: no closed form, of the kind or in its place. */
@@ -101,7 +104,27 @@ struct ps_integrand {
     bool needs_doubles; /* there is no kernel in single precision */
 };
 
-/* All of them, ended by NULL. */
+/* An integrand of a caller of the library, by its values: it is measured, and not predicted. */
+typedef struct ps_given_integrand {
+    const char *name;
+    double integral; /* over the torus, the sphere, of area 4 pi, or the hemisphere, of 2 pi */
+    /* Fills values [num] at points [num][dimension], some hundred at a time, for the thread that
+     * measures; alike for the same points. A failure goes to who measures, with its sentence. */
+    pspec_status (*values)(void *payload, size_t num, unsigned dimension, const double *points,
+                           double *values, ps_error *error);
+    void *payload;
+} ps_given_integrand;
+
+typedef struct ps_given_integrands {
+    const ps_given_integrand *all;
+    size_t num;
+} ps_given_integrands;
+
+/* NULL: a text is that of an integrand of the table. */
+const ps_given_integrand *ps_given_integrands_find(const ps_given_integrands *list,
+                                                   const char *text);
+
+/* All of the table, ended by NULL. */
 extern const ps_integrand_kind *const ps_integrand_kinds[];
 
 /* The kind that a text names. */
@@ -111,6 +134,10 @@ pspec_status ps_integrand_find(const ps_integrand_kind **kind, const char *text,
  * not in such a place, and radii and the like that make none, are errors with a sentence. */
 pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,
                                 ps_error *error) PS_MUST_CHECK;
+/* The same of one that is given, else of the text. The list must outlive *out. */
+pspec_status ps_integrand_make(ps_integrand **out, const ps_given_integrands *list,
+                               const char *text, ps_integrand_place place,
+                               ps_error *error) PS_MUST_CHECK;
 void ps_integrand_destroy(ps_integrand *integrand); /* NULL is allowed */
 
 /* The name of its kernel, as the member of the kind; NULL: there is none in that precision. */
@@ -121,6 +148,8 @@ double ps_integrand_integral(const ps_integrand *integrand);
 /* E, so that N Var I = E, 4 pi E, pi E for white noise: torus int F^2 - (int F)^2; sphere int F^2 -
  * (int F)^2/(4 pi); hemisphere 2 int F^2 - (int F)^2/pi. */
 double ps_integrand_energy(const ps_integrand *integrand);
+/* Is E known? Else nothing is of powers, nor of variances ahead. */
+bool ps_integrand_is_predicted(const ps_integrand *integrand);
 /* The factor of E in N Var I: 1, 4 pi, pi. */
 double ps_integrand_factor(const ps_integrand *integrand);
 /* powers[num]; PSPEC_ERROR_INVALID_ARGUMENT where they are by points. */
@@ -140,6 +169,8 @@ pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degr
 /* values[num] */
 void ps_integrand_values(const ps_integrand *integrand, const double *points, size_t num,
                          double *values);
+/* The member: NULL where values cannot fail, and any number of threads may ask for them. */
+const ps_error *ps_integrand_failure(const ps_integrand *integrand);
 /* (V2), (S1'), (H1'): the variance of (1/W) sum_j w_j F of one set under a random shift, of (4
  * pi/W) sum under a random rotation, of (2 pi/W) sum. weights NULL: 1 each. N^2 steps on the host:
  * the check of the others. PSPEC_ERROR_INVALID_ARGUMENT where there is no closed form. */

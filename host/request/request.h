@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "frequencies/frequencies_spec.h"
+#include "integrands/integrand.h"
 #include "plan/specs.h"
 #include "plots/plot.h"
 #include "points/points.h"
@@ -130,9 +131,10 @@ typedef struct ps_request {
     ps_source_words sources[PS_MAX_SAMPLERS];
     size_t num_integrands;
     const char *integrands[PS_MAX_INTEGRANDS];
-    uint64_t num_shifts; /* 1 unless given */
-    bool in_place;       /* sets are not moved */
-    double tail;         /* 0 unless given */
+    ps_given_integrands integrands_given; /* by a caller, which they may name; borrowed */
+    uint64_t num_shifts;                  /* 1 unless given */
+    bool in_place;                        /* sets are not moved */
+    double tail;                          /* 0 unless given */
     bool paper_formula;
     /* Zeros unless given: the defaults of docs/user/conventions.md. */
     ps_weights_spec weights;

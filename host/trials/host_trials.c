@@ -93,5 +93,9 @@ void ps_host_trials_sums(const ps_integrand *integrand, const pspec_pattern *pat
     for (size_t i = 0; i < num_patterns; i++) {
         num_values += patterns[i].num_points * num_trials;
     }
+    if (ps_integrand_failure(integrand) != NULL) { /* a caller is asked by one thread */
+        add_some(&all, 0, 1);
+        return;
+    }
     ps_workers_share(num_values, add_some, &all);
 }

@@ -111,7 +111,10 @@ static pspec_status find_sums(ps_trials *self, const pspec_pattern *patterns, si
     const size_t numbers = num_trials * ps_trials_move_numbers(self->integrand);
     if (self->device == NULL) {
         ps_host_trials_sums(self->integrand, patterns, num_patterns, num_trials, moves, sums);
-        return PSPEC_OK;
+        const ps_error *const failure = ps_integrand_failure(self->integrand);
+        return failure == NULL || failure->status == PSPEC_OK
+                   ? PSPEC_OK
+                   : ps_fail(error, failure->status, "%s", failure->message);
     }
     for (size_t done = 0; done < num_patterns; done += self->options.batch) {
         const size_t rest = num_patterns - done;

@@ -1,5 +1,7 @@
 #include "harness_given.h"
 
+#include "request/option_text.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,4 +86,50 @@ void test_given_save(const test_given *self, const char *format) {
     }
     assert_ok(test_points_write(self->name, format, sets, self->num_sets,
                                 strcmp(format, "npy") == 0, NULL, error));
+}
+
+/* ---- questions ------------------------------------------------------------------------------- */
+
+static ps_option_id find_option(const char *name) {
+    int id = 0;
+    while (id < PS_NUM_OPTIONS && strcmp(ps_options[id].name, name) != 0) {
+        id++;
+    }
+    assert_true(id < PS_NUM_OPTIONS);
+    return (ps_option_id)id;
+}
+
+static void take(test_question *out, char *word) {
+    char *const value = strchr(word, '=');
+    if (value != NULL) {
+        *value = '\0';
+    }
+    if (strcmp(word, "files") == 0) {
+        assert_true(out->request.num_files < TEST_MOST_FILES);
+        out->files[out->request.num_files++] = value + 1;
+        return;
+    }
+    const ps_option_id id = find_option(word);
+    assert_ok(ps_option_apply(&out->request, id, ps_command_words(out->kind, id),
+                              value != NULL ? value + 1 : "true", error));
+}
+
+void test_ask(test_question *out, const char *format, ...) {
+    va_list arguments;
+    size_t i = 0;
+    char *rest = NULL;
+    *out = (test_question){.request = ps_request_default};
+    va_start(arguments, format);
+    vsnprintf(out->text, sizeof out->text, format, arguments);
+    va_end(arguments);
+    const char *const name = strtok_r(out->text, " ", &rest);
+    while (ps_kinds[i] != NULL && strcmp(ps_kinds[i]->name, name) != 0) {
+        i++;
+    }
+    out->kind = ps_kinds[i];
+    assert_non_null(out->kind);
+    for (char *word = strtok_r(NULL, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+        take(out, word);
+    }
+    out->request.files = out->files;
 }

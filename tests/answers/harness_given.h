@@ -1,12 +1,13 @@
-/* Sets that a caller of the library has in memory, and the same in a file. */
+/* Sets that a caller of the library has in memory, the same in a file, and questions. */
 #ifndef TEST_HARNESS_GIVEN_H
 #define TEST_HARNESS_GIVEN_H
 
 #include "harness.h"
 
+#include "answers/kind.h"
 #include "harness_points.h"
 
-enum { TEST_MOST_SETS = 64 };
+enum { TEST_MOST_SETS = 64, TEST_LINE = 512, TEST_MOST_FILES = 4 };
 
 /* Sets of a caller. What it shows is a copy, gone at the next call: sanitizers find who reads it
  * then. */
@@ -30,5 +31,17 @@ void test_given_free(test_given *self);
 ps_given_set test_given_set(test_given *self);
 /* Writes them to a file of that name: "npy", in double precision, or "utk-text". */
 void test_given_save(const test_given *self, const char *format);
+
+/* A question of a kind, as a command line has it; the text has the words that the request borrows.
+ */
+typedef struct test_question {
+    char text[TEST_LINE];
+    const ps_kind *kind;
+    ps_request request;
+    const char *files[TEST_MOST_FILES];
+} test_question;
+
+/* "power files=%s max-frequency=4 rank", as printf has it. */
+void test_ask(test_question *out, const char *format, ...);
 
 #endif

@@ -2,73 +2,17 @@
  * does of the same points in a file, whose path is their name, to the bit. */
 #include "harness_given.h"
 
-#include "answers/kind.h"
-#include "request/option_text.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUM_POINTS = 36, MOST_FILES = 4, LINE = 512 };
+enum { NUM_POINTS = 36 };
 
 static const test_folder *folder;
 static ps_device *device;
 
-/* ---- questions ------------------------------------------------------------------------------- */
-
-typedef struct question {
-    char text[LINE]; /* whose words the request borrows */
-    const ps_kind *kind;
-    ps_request request;
-    const char *files[MOST_FILES];
-} question;
-
-static ps_option_id find_option(const char *name) {
-    int id = 0;
-    while (id < PS_NUM_OPTIONS && strcmp(ps_options[id].name, name) != 0) {
-        id++;
-    }
-    assert_true(id < PS_NUM_OPTIONS);
-    return (ps_option_id)id;
-}
-
-static void take(question *out, char *word) {
-    char *const value = strchr(word, '=');
-    if (value != NULL) {
-        *value = '\0';
-    }
-    if (strcmp(word, "files") == 0) {
-        out->files[out->request.num_files++] = value + 1;
-        return;
-    }
-    const ps_option_id id = find_option(word);
-    assert_ok(ps_option_apply(&out->request, id, ps_command_words(out->kind, id),
-                              value != NULL ? value + 1 : "true", error));
-}
-
-/* "power files=%1$s files=%2$s full=%3$s": the names of two given sets, and that of a file. */
-static void ask(question *out, const char *format, const test_given *sets,
-                const test_given *others) {
-    size_t i = 0;
-    char *rest = NULL;
-    *out = (question){.request = ps_request_default};
-    char path[TEST_PATH_BYTES];
-    snprintf(out->text, sizeof out->text, format, sets->name, others->name,
-             test_path(folder, "array.npy", path));
-    const char *const name = strtok_r(out->text, " ", &rest);
-    while (ps_kinds[i] != NULL && strcmp(ps_kinds[i]->name, name) != 0) {
-        i++;
-    }
-    out->kind = ps_kinds[i];
-    assert_non_null(out->kind);
-    for (char *word = strtok_r(NULL, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
-        take(out, word);
-    }
-    out->request.files = out->files;
-}
-
 /* The table as CSV, without the lines of formats, to be freed. */
-static char *answer(question *asked) {
+static char *answer(test_question *asked) {
     char table[TEST_PATH_BYTES];
     const ps_answer_hooks hooks = {.device = device};
     ps_answer out;
@@ -106,13 +50,14 @@ static void check(const char *format, test_given *sets, test_given *others, cons
     char *array = NULL;
     size_t array_bytes = 0;
     char path[TEST_PATH_BYTES];
+    test_path(folder, "array.npy", path);
     for (int is_given = 0; is_given < 2; is_given++) {
-        question asked;
+        test_question asked;
         ps_given_set all[] = {test_given_set(others), test_given_set(sets)};
-        ask(&asked, format, sets, others);
+        test_ask(&asked, format, sets->name, others->name, path);
         remove(sets->name);
         remove(others->name);
-        remove(test_path(folder, "array.npy", path));
+        remove(path);
         asked.request.reading.given = (ps_given_sets){all, is_given ? 2 : 0};
         if (!is_given) {
             test_given_save(sets, file_format);
@@ -219,9 +164,9 @@ static void kinds_say_why(void **state) {
     for (int i = 0; i < 2; i++) {
         ps_error error = {0};
         ps_answer out;
-        question asked;
+        test_question asked;
         ps_given_set one = test_given_set(&sets);
-        ask(&asked, i == 0 ? "power files=%1$s" : "power set=a=%1$s set=b=%1$s", &sets, &sets);
+        test_ask(&asked, i == 0 ? "power files=%1$s" : "power set=a=%1$s set=b=%1$s", sets.name);
         asked.request.reading.given = (ps_given_sets){&one, 1};
         sets.failing = 3;
         assert_int_equal(

@@ -191,10 +191,13 @@ static bool measure(ps_log_variance *out, const ps_ranked *self, size_t sampler,
     return isfinite(out->value) && !isnan(out->error);
 }
 
-/* Sets that stay in place are measured for another variance than that of the predictions. */
+/* Sets that stay in place are measured for another variance than that of the predictions, where
+ * there are such. */
 static bool is_left_open(const ps_ranked *self, const ps_ranked_pair *pair) {
-    return !pair->is_told && !self->request->in_place &&
-           (pair->is_told_if_white || (pair->least < 1 && pair->largest > 1));
+    const ps_variance_job *const job = ps_ranked_job(self, 0);
+    return !ps_integrand_is_predicted(ps_variance_job_integrand(job, self->integrand)) ||
+           (!pair->is_told && !self->request->in_place &&
+            (pair->is_told_if_white || (pair->least < 1 && pair->largest > 1)));
 }
 
 ps_ranked_pair ps_ranked_compare(const ps_ranked *self, size_t a, size_t b) {

@@ -193,7 +193,10 @@ static pspec_status write_sentence(ps_text *out, const ps_ranked *rows, const pl
         const ps_ranked_pair found = ps_ranked_compare(rows, places[i].sampler, first);
         PS_TRY(write_more(out, rows, places[i].sampler, first, &found, error));
     }
-    PS_TRY(write_more(out, rows, rows->num, first, &white, error));
+    if (ps_integrand_is_predicted(
+            ps_variance_job_integrand(ps_ranked_job(rows, first), rows->integrand))) {
+        PS_TRY(write_more(out, rows, rows->num, first, &white, error));
+    }
     return ps_text_check(out, error);
 }
 

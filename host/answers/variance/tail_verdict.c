@@ -187,7 +187,9 @@ pspec_status ps_variance_judge_tails(ps_error *verdict, const ps_request *reques
         return PSPEC_OK;
     }
     for (size_t k = 0; k < request->num_integrands; k++) {
-        PS_TRY(add_integrand(&self, num, k, error));
+        if (ps_integrand_is_predicted(ps_variance_job_integrand(jobs[0], k))) {
+            PS_TRY(add_integrand(&self, num, k, error));
+        }
     }
     describe(&self, &sentence);
     const pspec_status status = ps_text_check(&sentence, error);

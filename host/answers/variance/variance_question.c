@@ -66,6 +66,10 @@ static pspec_status find_domains(unsigned *domains, const ps_request *arguments,
     *domains = ~0U;
     for (size_t i = 0; i < arguments->num_integrands; i++) {
         const ps_integrand_kind *kind = NULL;
+        if (ps_given_integrands_find(&arguments->integrands_given, arguments->integrands[i]) !=
+            NULL) {
+            continue; /* it is anywhere */
+        }
         PS_TRY(ps_integrand_find(&kind, arguments->integrands[i], error));
         *domains &= kind->domains;
     }
@@ -141,6 +145,7 @@ static ps_variance_question make_question(const ps_request *arguments) {
                      .limits = arguments->limits},
         .texts = arguments->integrands,
         .num_integrands = arguments->num_integrands,
+        .given = arguments->integrands_given,
         .over_shells = over_shells,
         .wants_paper = arguments->paper_formula,
         .num_shifts = arguments->num_shifts,

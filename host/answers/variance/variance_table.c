@@ -52,14 +52,14 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
     const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
     ps_cell cells[MOST_COLUMNS] = {
         points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
-        PS_NUMBER(row->prediction.variance),
+        ps_number_or_missing(row->prediction.variance),
         ps_number_or_missing(row->prediction.standard_error),
-        PS_NUMBER(row->prediction.lower),
-        PS_NUMBER(row->prediction.upper),
+        ps_number_or_missing(row->prediction.lower),
+        ps_number_or_missing(row->prediction.upper),
         ps_number_or_missing(row->measured),
         ps_number_or_missing(row->measured_error),
         ps_number_or_missing(row->z_score),
-        PS_NUMBER(row->prediction.white),
+        ps_number_or_missing(row->prediction.white),
     };
     const size_t num =
         ps_variance_parts_cells(cells, NUM_COLUMNS, request, jobs, question, integrand);

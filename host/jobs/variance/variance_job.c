@@ -68,8 +68,8 @@ pspec_status ps_variance_question_check(const ps_variance_question *question, ps
     }
     for (size_t i = 0; i < question->num_integrands; i++) {
         ps_integrand *integrand = NULL;
-        PS_TRY(ps_integrand_parse(&integrand, question->texts[i], place_of(question, dimension),
-                                  error));
+        PS_TRY(ps_integrand_make(&integrand, &question->given, question->texts[i],
+                                 place_of(question, dimension), error));
         const pspec_status status = check_integrand(question, integrand, error);
         ps_integrand_destroy(integrand);
         PS_TRY(status);
@@ -87,7 +87,8 @@ static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     PS_TRY(PS_NEW(&job->measured_blocks, num, "variances", error));
     PS_TRY(PS_NEW(&job->rows, num, "variances", error));
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_integrand_parse(&job->integrands[i], question->texts[i], place, error));
+        PS_TRY(ps_integrand_make(&job->integrands[i], &question->given, question->texts[i], place,
+                                 error));
         PS_TRY(check_integrand(question, job->integrands[i], error));
     }
     return PSPEC_OK;
@@ -106,6 +107,14 @@ static pspec_status open_files(ps_variance_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
+static bool are_predicted(const ps_variance_job *job) {
+    size_t i = 0;
+    while (i < job->question->num_integrands && !ps_integrand_is_predicted(job->integrands[i])) {
+        i++;
+    }
+    return i < job->question->num_integrands;
+}
+
 /* Frequencies that matter to no integrand are left out, unless profiles are to be found of them. */
 static void find_useful(ps_variance_job *job) {
     const ps_variance_question *const question = job->question;
@@ -115,7 +124,9 @@ static void find_useful(ps_variance_job *job) {
     const bool finds_profiles = question->bounds.is_wanted && !question->bounds.is_given;
     if (job->reach <= PS_MAX_FREQUENCY && !finds_profiles) {
         spectrum->useful = (int32_t)job->reach;
-        spectrum->useful_why = "less than 1e-16 of the energy of every integrand is there";
+        spectrum->useful_why = are_predicted(job)
+                                   ? "less than 1e-16 of the energy of every integrand is there"
+                                   : "of no integrand a variance is predicted";
     }
 }
 
@@ -219,6 +230,10 @@ static pspec_status add_bounds(ps_variance_job *job, size_t integrand, ps_error 
     const ps_point_way way = way_of(job);
     row->best_bound = NAN;
     row->worst_bound = NAN;
+    if (!ps_integrand_is_predicted(job->integrands[integrand])) {
+        row->prediction = (ps_prediction){NAN, NAN, NAN, NAN, NAN};
+        return PSPEC_OK;
+    }
     if (question->bounds.is_wanted && shape->below_reason.status == PSPEC_OK) {
         PS_TRY(ps_bounds_variance(&row->best_bound, job->integrands[integrand], spectrum,
                                   question->over_shells, &way, &shape->below, true, error));

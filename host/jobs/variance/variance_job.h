@@ -21,7 +21,8 @@ typedef struct ps_variance_question {
      * their points are; its weighted sums, and the sets of files, are set here. The measurement of
      * a sampler has as many realizations, and the same watch and device. */
     ps_power_question spectrum;
-    const char *const *texts; /* of the integrands */
+    const char *const *texts;  /* of the integrands */
+    ps_given_integrands given; /* those that some of them may name; borrowed */
     size_t num_integrands;
     /* The sum is over the exact shells of a ball instead of a box: of isotropic integrands */
     bool over_shells;
@@ -34,7 +35,7 @@ typedef struct ps_variance_question {
     bool is_moved; /* trials are shifted or rotated at random; else sets stay where they are */
 } ps_variance_question;
 
-/* Of one integrand. nan: there is none. */
+/* Of one integrand. nan: there is none; of the prediction of one that is given, too. */
 typedef struct ps_variance_row {
     ps_prediction prediction;
     double best_bound, worst_bound;  /* by the profiles below and above; nan unless asked for */
