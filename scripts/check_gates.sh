@@ -23,7 +23,7 @@ forbid "a receiver is named for the thing:" "host bench tests" '(^|[^[:alnum:]_]
 names=$(sed -n 's/^    \.name = "\(.*\)",$/\1/p' host/samplers/*/*.c | paste -sd '|')
 forbid "what there is to know of a sampler stands in its row (samplers/sampler.h), whose name nobody else knows:" host \
     "\"($names)[\":]" 'host/samplers/.*' 'host/verify/.*' 'host/include/.*' host/commands/doctor_devices.c \
-    'host/answers/variance/variance(_plot|_table)?.c' host/answers/compare.c host/integrands/torus/half_plane.c
+    'host/answers/variance/variance(_figure|_table)?.c' host/answers/compare.c host/integrands/torus/half_plane.c
 # `white` is also a column, the variance of white noise, and `step` an alias of an integrand
 
 # Formulas and tables in comments are indented, and strings may be long.

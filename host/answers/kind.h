@@ -3,15 +3,15 @@
  * A command is what program and library can be asked to do: one row says which options it takes, in
  * which words people read of it, and how it is run and planned. A kind of answer is a command that
  * prints one, which scenes have several of; both go the same way: check -> compute -> tabulate,
- * with pictures and other files made of what was computed, or of the table. Its row says also what
+ * with pictures and other files made of the table. Its row says also what
  * its tables mean to who draws or compares them. A new one is a new file, a name and the rows of
  * its options in request/options.h and .c.
  */
 #ifndef PS_ANSWERS_KIND_H
 #define PS_ANSWERS_KIND_H
 
-#include "answers/chart.h"
 #include "answers/field.h"
+#include "answers/figure.h"
 #include "answers/plan_table.h"
 #include "base/watch.h"
 #include "device/device.h"
@@ -66,14 +66,6 @@ typedef struct ps_answer {
     ps_error verdict;
 } ps_answer;
 
-/* Two columns of a table, or two entries of its header, against each other: a line for each
- * question. */
-typedef struct ps_line_kind {
-    const char *suffix; /* of the file's name; NULL ends a list of them */
-    const char *what, *x, *y, *x_label, *y_label;
-    bool is_log_x, is_log_y;
-} ps_line_kind;
-
 /* Tables of two answers to the same question, made with other engines, or of other realizations, at
  * a row; modes: of all rows. */
 typedef struct ps_both_tables {
@@ -127,7 +119,6 @@ typedef struct ps_command {
     bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
     bool has_coefficients; /* or coefficients, by arrays: coefficients */
     bool has_verdict;      /* whose rows are words, too: no NPY */
-    bool has_points; /* its arrays are points [M][N][D], and pictures show those of the first */
 
     /* Does a scene's default of this option say nothing to it? NULL: all are taken. */
     bool (*leaves_default)(ps_option_id id);
@@ -143,20 +134,13 @@ typedef struct ps_command {
     /* *out is {0} before, and freed by ps_answer_free, also after an error. */
     pspec_status (*tabulate)(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error);
-    /* Draws the picture request->plot; NULL: there is no such option. */
-    pspec_status (*draw)(const void *computed, const ps_request *request, ps_error *error);
     void (*discard)(void *computed); /* NULL is allowed */
 
     /* What the tables mean. */
-    const char *const *summary;   /* header entries that are columns of a summary, ended by NULL */
-    const ps_line_kind *spectrum; /* axes of the powers of spectra; NULL: it is none */
-    const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */
-    /* Header entries against each other where numbers of points vary; NULL: none */
-    const ps_line_kind *convergence;
-    /* A picture of the rows of many answers, against numbers of points or not; NULL: none */
-    pspec_status (*chart)(const ps_chart *chart, ps_error *error);
-    const char *const *sentences; /* header entries that pages show; ended by NULL, NULL: none */
-    bool has_few_rows;            /* pages show all of them, before the summary */
+    const char *const *summary; /* header entries that are columns of a summary, ended by NULL */
+    const ps_picture_kind *pictures; /* one at least; ended by one that nothing makes */
+    const char *const *sentences;    /* header entries that pages show; ended by NULL, NULL: none */
+    bool has_few_rows;               /* pages show all of them, before the summary */
     const ps_compared_field
         *compared; /* of two answers to the same question; ended by .value = NULL */
 } ps_command;

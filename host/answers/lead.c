@@ -20,18 +20,6 @@ ps_lead ps_lead_make(const ps_request *request, size_t question) {
     return out;
 }
 
-void ps_lead_label(const ps_lead *lead, ps_text *out) {
-    for (size_t i = 0; i < lead->num; i++) {
-        const ps_cell *const cell = &lead->cells[i];
-        ps_text_append(out, "%s", i > 0 ? ", " : "");
-        if (cell->kind == PS_CELL_TEXT) {
-            ps_text_append(out, "%s", cell->text);
-        } else {
-            ps_text_append(out, "N = %lld", (long long)cell->integer);
-        }
-    }
-}
-
 pspec_status ps_lead_add_source(ps_table *table, const ps_request *request, size_t question,
                                 ps_error *error) {
     return request->num_sources == 0

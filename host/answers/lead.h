@@ -2,7 +2,6 @@
 #ifndef PS_ANSWERS_LEAD_H
 #define PS_ANSWERS_LEAD_H
 
-#include "base/text.h"
 #include "request/request.h"
 #include "tables/table.h"
 
@@ -20,8 +19,6 @@ typedef struct ps_lead {
  * `points` where it has several numbers
  * of points, of which this is the one that was asked for. */
 ps_lead ps_lead_make(const ps_request *request, size_t question);
-/* The same for people, "jittered, N = 64"; nothing where there is one question. */
-void ps_lead_label(const ps_lead *lead, ps_text *out);
 
 /* The header line `sampler` of a question: the sampler, or the name of the set; none of files
  * alone. */

@@ -16,6 +16,10 @@ pspec_status ps_picture_check_axes(const ps_plot_axes *axes, ps_error *error) PS
 pspec_status ps_picture_check(const ps_request *request, bool is_all, const ps_answer_hooks *hooks,
                               ps_error *error) PS_MUST_CHECK;
 
+/* The picture request->plot, of the table of an answer; pictures: those of its kind. */
+pspec_status ps_picture_draw(const ps_picture_kind *pictures, const ps_request *request,
+                             const ps_table *table, ps_error *error) PS_MUST_CHECK;
+
 /* After the numbers: what drawing came to, as what the answer comes to. A failure becomes a
  * warning, except for an interruption and where the picture is all. */
 pspec_status ps_picture_settle(const ps_request *request, bool is_all, const ps_answer_hooks *hooks,

@@ -112,7 +112,8 @@ static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void 
     return request->plot == NULL
                ? PSPEC_OK
                : ps_picture_settle(request, ps_picture_is_all(request, true), hooks,
-                                   kind->draw(computed, request, error), error);
+                                   ps_picture_draw(kind->pictures, request, out->table, error),
+                                   error);
 }
 
 pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_request *request,

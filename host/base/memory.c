@@ -105,3 +105,32 @@ pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t eleme
     *capacity = count;
     return PSPEC_OK;
 }
+
+struct ps_pool_block {
+    struct ps_pool_block *next;
+    max_align_t bytes[];
+};
+
+pspec_status ps_pool_new(ps_pool *pool, void *pointer, size_t count, size_t element_bytes,
+                         const char *what, ps_error *error) {
+    struct ps_pool_block *block = NULL;
+    void *bytes = NULL;
+    size_t num_bytes = 0;
+    if (!ps_size_multiply(count, element_bytes, &num_bytes)) {
+        return fail_memory(count, element_bytes, what, error);
+    }
+    PS_TRY(ps_allocate_for(&block, 1, sizeof *block + num_bytes, what, error));
+    block->next = pool->blocks;
+    pool->blocks = block;
+    bytes = block->bytes;
+    memcpy(pointer, &bytes, sizeof bytes);
+    return PSPEC_OK;
+}
+
+void ps_pool_free(ps_pool *pool) {
+    while (pool->blocks != NULL) {
+        struct ps_pool_block *const next = pool->blocks->next;
+        free(pool->blocks);
+        pool->blocks = next;
+    }
+}

@@ -39,4 +39,16 @@ void ps_memory_use_large_pages(void *memory, size_t bytes);
 pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t element_bytes,
                      const char *what, ps_error *error) PS_MUST_CHECK;
 
+/* Memory of many things that end together; {0}: none yet. */
+typedef struct ps_pool {
+    struct ps_pool_block *blocks;
+} ps_pool;
+
+/* The same as PS_NEW of what ps_pool_free frees, all at once. */
+#define PS_POOL_NEW(pool, pointer, count, what, error)                                             \
+    ps_pool_new((pool), (pointer), (count), sizeof **(pointer), (what), (error))
+pspec_status ps_pool_new(ps_pool *pool, void *pointer, size_t count, size_t element_bytes,
+                         const char *what, ps_error *error) PS_MUST_CHECK;
+void ps_pool_free(ps_pool *pool);
+
 #endif

@@ -73,6 +73,20 @@ pspec_status ps_text_check(const ps_text *text, ps_error *error) {
                         : PSPEC_OK;
 }
 
+pspec_status ps_text_keep(const char **out, ps_pool *pool, ps_text *text, ps_error *error) {
+    char *kept = NULL;
+    pspec_status status = ps_text_check(text, error);
+    if (status == PSPEC_OK) {
+        status = PS_POOL_NEW(pool, &kept, text->length + 1, "text", error);
+    }
+    if (status == PSPEC_OK) {
+        memcpy(kept, ps_text_string(text), text->length);
+    }
+    *out = kept;
+    ps_text_free(text);
+    return status;
+}
+
 void ps_text_free(ps_text *text) {
     free(text->data);
     *text = (ps_text){0};

@@ -2,6 +2,7 @@
 #ifndef PS_BASE_TEXT_H
 #define PS_BASE_TEXT_H
 
+#include "base/memory.h"
 #include "base/status.h"
 
 #include <stdbool.h>
@@ -22,6 +23,9 @@ void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes);
 void ps_text_append_word(ps_text *text, const char *word);
 const char *ps_text_string(const ps_text *text); /* never NULL */
 void ps_text_free(ps_text *text);
+/* The text as one of the pool; *text is empty then, also after an error. */
+pspec_status ps_text_keep(const char **out, ps_pool *pool, ps_text *text,
+                          ps_error *error) PS_MUST_CHECK;
 /* PSPEC_ERROR_MEMORY when an append ran out of memory. */
 pspec_status ps_text_check(const ps_text *text, ps_error *error) PS_MUST_CHECK;
 

@@ -200,7 +200,8 @@ static pspec_status check_samplers(const ps_request *request, ps_error *error) {
 pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) {
     const size_t num = ps_request_num_questions(request);
-    ps_points_picture picture = {.num_sets = num};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = num, .memory = &memory};
     pspec_status status = PSPEC_OK;
     PS_TRY(ps_points_check_words(request, ps_request_only_draws(request), error));
     PS_TRY(ps_points_drawing_check(request, hooks, error));
@@ -211,7 +212,7 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
     if (status == PSPEC_OK && request->plot != NULL) {
         status = ps_points_draw(&picture, request, hooks, error);
     }
-    ps_points_picture_free(&picture);
+    ps_pool_free(&memory);
     return status;
 }
 
@@ -264,7 +265,8 @@ static pspec_status convert_all(const ps_request *request, ps_points_picture *pi
 pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
                                ps_error *error) {
     const bool is_apart = ps_request_only_draws(request) && !request->merge;
-    ps_points_picture picture = {.num_sets = is_apart ? request->num_files : 1};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = is_apart ? request->num_files : 1, .memory = &memory};
     if (request->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "nothing to convert: name point files (- for standard input)");
@@ -276,6 +278,6 @@ pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks 
     if (status == PSPEC_OK && request->plot != NULL) {
         status = ps_points_draw(&picture, request, hooks, error);
     }
-    ps_points_picture_free(&picture);
+    ps_pool_free(&memory);
     return status;
 }

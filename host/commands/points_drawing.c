@@ -63,20 +63,20 @@ static void write_title(ps_text *title, const ps_points_picture *picture,
     }
 }
 
-static pspec_status draw(ps_points_picture *picture, const ps_request *request, ps_error *error) {
+static pspec_status draw(const ps_points_picture *picture, const ps_request *request,
+                         ps_error *error) {
     ps_text title = {0};
-    ps_figure figure;
-    pspec_status status = PSPEC_OK;
     write_title(&title, picture, request);
-    PS_TRY_OUT(status, ps_text_check(&title, error));
-    PS_TRY_OUT(status, ps_points_picture_figure(picture, ps_text_string(&title), &figure, error));
-    PS_TRY_OUT(status, ps_figure_write(request->plot, &figure, error));
-out:
+    pspec_status status = ps_text_check(&title, error);
+    if (status == PSPEC_OK) {
+        const ps_figure figure = ps_points_picture_figure(picture, ps_text_string(&title));
+        status = ps_figure_write(request->plot, &figure, error);
+    }
     ps_text_free(&title);
     return status;
 }
 
-pspec_status ps_points_draw(ps_points_picture *picture, const ps_request *request,
+pspec_status ps_points_draw(const ps_points_picture *picture, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) {
     return ps_picture_settle(request, is_all(request), hooks, draw(picture, request, error), error);
 }

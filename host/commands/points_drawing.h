@@ -15,7 +15,7 @@ pspec_status ps_points_draw_file(ps_points_picture *picture, const char *path,
                                  ps_error *error) PS_MUST_CHECK;
 /* Draws what was added to the picture, after the points are written: a failure is then told, and no
  * error. */
-pspec_status ps_points_draw(ps_points_picture *picture, const ps_request *request,
+pspec_status ps_points_draw(const ps_points_picture *picture, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
 #endif

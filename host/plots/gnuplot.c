@@ -1,8 +1,12 @@
-#include "plots/gnuplot.h"
+/* The program gnuplot: where it is, and a script that it turns into a picture.
+ *
+ * The script is its standard input, a file without a name; the picture its standard output, a pipe
+ * that is read here to its end. So no name needs quoting, nothing blocks, nothing is left behind,
+ * and it is we who write the picture: gnuplot does not notice a disk that is full. */
+#include "plots/plot_script.h"
 
 #include "files/temporary_file.h"
 #include "files/text_lines.h"
-#include "plots/plot.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -141,10 +141,11 @@ bool ps_plot_is_supported(const char *path);
  * sentence when gnuplot is not installed. */
 pspec_status ps_figure_write(const char *path, const ps_figure *figure,
                              ps_error *error) PS_MUST_CHECK;
-/* Appends the picture to a text. */
-pspec_status ps_figure_draw_svg(ps_text *svg, const ps_figure *figure,
-                                ps_error *error) PS_MUST_CHECK;
-/* Appends all that the picture depends on. */
-void ps_figure_add_key(ps_text *key, const ps_figure *figure);
+/* The same in two steps: the script by which gnuplot draws the figure as SVG, which is all that the
+ * picture depends on, in an empty text, and the picture of it, which is appended. */
+pspec_status ps_figure_write_script(ps_text *script, const ps_figure *figure,
+                                    ps_error *error) PS_MUST_CHECK;
+pspec_status ps_plot_draw_script(ps_text *svg, const ps_text *script,
+                                 ps_error *error) PS_MUST_CHECK;
 
 #endif

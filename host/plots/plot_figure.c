@@ -92,7 +92,7 @@ static ps_figure with_axes(const ps_figure *figure) {
     return out;
 }
 
-pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal, FILE *stream,
+pspec_status ps_script_print_figure(const ps_figure *asked, const char *terminal, FILE *stream,
                                     ps_error *error) {
     const ps_figure own = with_axes(asked);
     const ps_figure *const figure = &own;

@@ -34,27 +34,21 @@ void ps_script_size_frames(const ps_figure *figure, int *width, int *height) {
     }
 }
 
-/* The cell of a panel, in pixels from the upper left corner of the page. */
-typedef struct cell {
-    double x, y, width, height, above;
-    double page_width, page_height;
-} cell;
-
-static cell find_cell(const ps_figure *figure, size_t index) {
+/* The frame of a panel, above a key of that height. */
+static ps_script_box find_frame(const ps_figure *figure, size_t index, double key_height) {
     int width = PS_SCRIPT_WIDTH;
     int height = PS_SCRIPT_HEIGHT;
-    ps_script_size_frames(figure, &width, &height);
-    if (figure->num_panels <= 1) {
-        return (cell){0, 0, width, height, ABOVE, width, height};
-    }
     const size_t columns = num_columns(figure);
-    return (cell){(double)(index % columns) * WIDTH,
-                  HEAD + (double)(index / columns) * HEIGHT,
-                  WIDTH,
-                  HEIGHT,
-                  ABOVE_AMONG_OTHERS,
-                  width,
-                  height};
+    const bool is_alone = figure->num_panels <= 1;
+    ps_script_size_frames(figure, &width, &height);
+    const double x = is_alone ? 0 : (double)(index % columns) * WIDTH;
+    const double y = is_alone ? 0 : HEAD + (double)(index / columns) * HEIGHT;
+    return (ps_script_box){x + LEFT,
+                           y + (is_alone ? ABOVE : ABOVE_AMONG_OTHERS),
+                           x + (is_alone ? width : WIDTH) - RIGHT,
+                           y + (is_alone ? height : HEIGHT) - BELOW - key_height,
+                           width,
+                           height};
 }
 
 /* ---- ranges ---------------------------------------------------------------------------------- */
@@ -124,12 +118,10 @@ static bool is_named(const ps_series *series) {
 }
 
 /* A single series needs none. */
-static ps_script_key make_key(const ps_panel *panel, const cell *where) {
-    ps_script_key key = {.where = {.left = where->x + LEFT,
-                                   .right = where->x + where->width - RIGHT,
-                                   .bottom = where->y + where->height,
-                                   .page_width = where->page_width,
-                                   .page_height = where->page_height}};
+static ps_script_key make_key(const ps_figure *figure, size_t index) {
+    const ps_panel *const panel = &figure->panels[index];
+    ps_script_key key = {.where = find_frame(figure, index, 0)};
+    key.where.bottom += BELOW;
     for (size_t i = 0; panel->num_series > 1 && i < panel->num_series; i++) {
         const ps_series *const series = &panel->series[i];
         if (is_named(series)) {
@@ -244,28 +236,6 @@ static void print_series(const drawn *what, const ps_series *series, FILE *strea
 
 /* ---- panels ---------------------------------------------------------------------------------- */
 
-/* gnuplot makes no axes for nothing. */
-static bool has_places(const ps_figure *figure, const ps_panel *panel) {
-    for (size_t i = 0; i < panel->num_series; i++) {
-        for (size_t place = 0; place < panel->series[i].num; place++) {
-            if (ps_script_is_shown(figure, &panel->series[i], place)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-static void print_margins(const cell *where, double key_height, FILE *stream) {
-    fprintf(stream,
-            "set bmargin at screen %.4f\nset lmargin at screen %.4f\n"
-            "set rmargin at screen %.4f\nset tmargin at screen %.4f\n",
-            1 - (where->y + where->height - BELOW - key_height) / where->page_height,
-            (where->x + LEFT) / where->page_width,
-            (where->x + where->width - RIGHT) / where->page_width,
-            1 - (where->y + where->above) / where->page_height);
-}
-
 static void print_ranges(const ps_figure *figure, const ps_panel *panel, double bottom,
                          FILE *stream) {
     if (figure->is_log_x) {
@@ -301,24 +271,22 @@ static void print_labels(const ps_figure *figure, size_t index, FILE *stream) {
 
 static void print_panel(const ps_figure *figure, size_t index, FILE *stream) {
     const ps_panel *const panel = &figure->panels[index];
-    const cell where = find_cell(figure, index);
-    const ps_script_key key = make_key(panel, &where);
-    const double key_height = ps_script_key_height(&key);
+    const ps_script_key key = make_key(figure, index);
+    const ps_script_box where = find_frame(figure, index, ps_script_key_height(&key));
     const double bottom = figure->is_log_y ? find_bottom(panel) : 0;
-    print_margins(&where, key_height, stream);
+    ps_script_print_margins(&where, stream);
     print_labels(figure, index, stream);
     if (figure->num_panels > 1) {
         fputs(index > 0 ? "unset label 1\nset autoscale\nset title " : "set title ", stream);
         ps_script_print_text(panel->title, stream);
         fputs(" noenhanced offset 0,-0.6\n", stream);
     }
-    if (figure->num_panels > 1 && !has_places(figure, panel)) {
+    if (figure->num_panels > 1 && !ps_script_has_places(figure, panel)) {
         fputs("unset key\nset xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\n", stream);
         return;
     }
     if (axes_of(figure, index).is_plane) {
-        print_plane_range(panel, where.width - LEFT - RIGHT,
-                          where.height - where.above - BELOW - key_height, stream);
+        print_plane_range(panel, where.right - where.left, where.bottom - where.top, stream);
     }
     print_ranges(figure, panel, bottom, stream);
     ps_script_print_key(&key, stream);

@@ -59,18 +59,6 @@ static ps_script_key make_key(const ps_figure *figure) {
 
 /* ---- panels ---------------------------------------------------------------------------------- */
 
-/* gnuplot makes no axes for nothing. */
-static bool has_places(const ps_figure *figure, const ps_panel *panel) {
-    for (size_t j = 0; j < panel->num_series; j++) {
-        for (size_t place = 0; place < panel->series[j].num; place++) {
-            if (ps_script_is_shown(figure, &panel->series[j], place)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
 static void print_look(const ps_figure *figure, const ps_series *series, double width,
                        FILE *stream) {
     if (figure->form == PS_FIGURE_PANELS) {
@@ -110,7 +98,7 @@ static void print_panel(const ps_figure *figure, size_t i, FILE *stream) {
     fputs("set title ", stream);
     ps_script_print_text(panel->title, stream);
     fputs(" noenhanced offset 0,-0.6\n", stream);
-    if (!has_places(figure, panel)) {
+    if (!ps_script_has_places(figure, panel)) {
         fputs(figure->form == PS_FIGURE_PANELS
                   ? "plot NaN notitle\n"
                   : "set xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\nset autoscale\n",

@@ -153,6 +153,17 @@ bool ps_script_is_shown(const ps_figure *figure, const ps_series *series, size_t
            (!figure->is_log_y || y > 0);
 }
 
+bool ps_script_has_places(const ps_figure *figure, const ps_panel *panel) {
+    for (size_t i = 0; i < panel->num_series; i++) {
+        for (size_t place = 0; place < panel->series[i].num; place++) {
+            if (ps_script_is_shown(figure, &panel->series[i], place)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static bool is_place(const ps_figure *figure, const ps_series *series, const double *numbers,
                      size_t place) {
     return place < series->num && isfinite(numbers[place]) &&

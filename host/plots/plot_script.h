@@ -7,8 +7,13 @@
 #include <stdio.h>
 
 /* terminal: "pngcairo", "svg" or "pdfcairo". Errors of the stream are the caller's to check. */
-pspec_status ps_figure_write_script(const ps_figure *figure, const char *terminal, FILE *stream,
+pspec_status ps_script_print_figure(const ps_figure *figure, const char *terminal, FILE *stream,
                                     ps_error *error) PS_MUST_CHECK;
+
+/* Appends the picture that gnuplot makes of a script, which is at its start, to a text. last: the
+ * bytes that a whole picture ends in, but for empty lines. */
+pspec_status ps_gnuplot_run(FILE *script, const char *last, ps_text *picture,
+                            ps_error *error) PS_MUST_CHECK;
 
 /* ---- what stands between the page and its end ------------------------------------------------ */
 
@@ -128,8 +133,38 @@ void ps_script_print_log_ticks(const char *axis, ps_plot_span shown, FILE *strea
 extern const char ps_script_ticks[];
 /* Can this place of a series be shown with these axes? */
 bool ps_script_is_shown(const ps_figure *figure, const ps_series *series, size_t place);
+/* Any place of any series? gnuplot makes no axes for nothing. */
+bool ps_script_has_places(const ps_figure *figure, const ps_panel *panel);
 /* Does a line through these numbers of a series, NaN being gaps, miss one that stands alone? */
 bool ps_script_has_lone(const ps_figure *figure, const ps_series *series, const double *numbers);
+
+/* ---- spectra --------------------------------------------------------------------------------- */
+
+/* A number of a curve at one of its places. */
+typedef double ps_take_number(const ps_series *curve, size_t bin);
+
+/* The power with its bar. */
+double ps_spectra_top(const ps_series *curve, size_t bin);
+double ps_spectra_error(const ps_series *curve, size_t bin);
+double ps_spectra_anisotropy(const ps_series *curve, size_t bin);
+/* In dB, of pure noise beside which the anisotropy of the curve stands; nan: there is none. */
+double ps_spectra_level(const ps_series *curve, size_t bin);
+/* The upper profile, and what goes through powers; nan: there is none. */
+double ps_spectra_profile(const ps_series *curve, size_t bin);
+double ps_spectra_fit(const ps_series *curve, size_t bin);
+bool ps_spectra_has(const ps_panel *curves, ps_take_number *take);
+
+/* The largest power of a curve with its bar; and of all, but for curves that are louder than all
+ * others, which would flatten these: peaks of lattices beside noise. */
+double ps_spectra_find_top(const ps_series *curve);
+double ps_spectra_find_most(const ps_panel *curves);
+
+/* What axes show unless something else was asked for. */
+ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves);
+ps_plot_span ps_spectra_frequencies(const ps_figure *figure, const ps_panel *curves);
+ps_plot_span ps_spectra_anisotropies(const ps_panel *curves);
+
+/* ---- images ---------------------------------------------------------------------------------- */
 
 /* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
  * transposed so that x_1 runs to the right. */

@@ -1,5 +1,5 @@
 /* The gnuplot script of spectra: image, powers, and what stands below them. */
-#include "plots/spectra_axes.h"
+#include "plots/plot_script.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "plots/spectra_axes.h"
+#include "plots/plot_script.h"
 
 #include <math.h>
 

@@ -14,6 +14,7 @@
 #define PS_SCENE_SCENE_H
 
 #include "answers/kind.h"
+#include "base/memory.h"
 #include "base/text.h"
 
 /* One value of a key: a text; of `files`, and of a set, the paths that belong together. */
@@ -75,7 +76,7 @@ typedef struct ps_scene {
     size_t num_files;
     /* That the run wrote, each "DIGEST NAME"; - for the digest of one that it did not finish */
     const char **files;
-    struct ps_scene_memory *memory; /* what the texts and arrays are in */
+    ps_pool memory; /* what the texts and arrays are in */
 } ps_scene;
 
 /* Complaints are PSPEC_ERROR_INPUT and begin with file and line. Every value was looked at by

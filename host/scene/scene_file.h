@@ -56,10 +56,6 @@ pspec_status ps_scene_pair(const ps_scene_file *file, const ps_scene_node *mappi
                            const char **key, const ps_scene_node **value) PS_MUST_CHECK;
 
 /* Memory that lives as long as the scene. */
-struct ps_scene_memory {
-    struct ps_scene_memory *next;
-    max_align_t bytes[];
-};
 pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_bytes, void **out,
                                ps_error *error) PS_MUST_CHECK;
 /* A copy of prefix followed by text. */

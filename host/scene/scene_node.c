@@ -86,18 +86,7 @@ pspec_status ps_scene_pair(const ps_scene_file *file, const ps_scene_node *mappi
 
 pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_bytes, void **out,
                                ps_error *error) {
-    void *memory = NULL;
-    size_t bytes = 0;
-    if (!ps_size_multiply(count, element_bytes, &bytes)) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu values of %zu bytes are too many", count,
-                       element_bytes);
-    }
-    PS_TRY(ps_allocate(&memory, 1, sizeof(struct ps_scene_memory) + bytes, "a scene", error));
-    struct ps_scene_memory *const block = memory;
-    block->next = scene->memory;
-    scene->memory = block;
-    *out = block->bytes;
-    return PSPEC_OK;
+    return ps_pool_new(&scene->memory, out, count, element_bytes, "a scene", error);
 }
 
 pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text, const char **out,
@@ -113,10 +102,6 @@ pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text
 }
 
 void ps_scene_free(ps_scene *scene) {
-    for (struct ps_scene_memory *block = scene->memory; block != NULL;) {
-        struct ps_scene_memory *const next = block->next;
-        free(block);
-        block = next;
-    }
+    ps_pool_free(&scene->memory);
     *scene = (ps_scene){0};
 }

@@ -360,3 +360,14 @@ out:
     ps_output_discard(&file);
     return status;
 }
+
+ps_cell ps_table_find_meta(const ps_table *table, const char *key) {
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        const char *own = NULL;
+        const ps_cell value = ps_table_meta(table, i, &own);
+        if (strcmp(own, key) == 0) {
+            return value;
+        }
+    }
+    return PS_MISSING;
+}

@@ -132,9 +132,6 @@ const ps_npy_array *ps_table_array(const ps_table *table, size_t i, const char *
 const ps_npy_array *ps_table_find_array(const ps_table *table, const char *name);
 /* A number, or nan. */
 double ps_cell_number(ps_cell cell);
-/* The column of that name as numbers, nan where there is none; all of them where there is no such
- * column. */
-void ps_table_read_column(const ps_table *table, const char *name, double *out);
 
 /* NULL is allowed. */
 void ps_table_destroy(ps_table *table);

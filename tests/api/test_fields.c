@@ -16,7 +16,8 @@ static char folder[] = "/tmp/test_fields_XXXXXX";
  * takes some hundredths of a second. */
 static const char *const questions[] = {
     "power sampler=sobol sampler=white points=8,16 max-frequency=2 homogenize",
-    "power sampler=white points=144 max-frequency=6 realizations=8 fit=auto bins=floor",
+    "power sampler=white points=144 max-frequency=6 realizations=8 fit=auto bins=floor "
+    "plot=a.svg",
     "power sampler=white points=8 max-frequency=2 realizations=9 scatter=1,1 output=saved.json",
     "power sampler=white points=8 realizations=2 max-frequency=2 full=full.npy",
     "power sampler=white points=4 max-frequency=1 standard-error=0.9 realizations=40",
@@ -27,11 +28,11 @@ static const char *const questions[] = {
     "power sampler=white dimension=6 points=4 frequencies=six.txt",
     "power sampler=sobol dimension=3 points=4 per-ring=2 max-frequency=2",
     "angular sampler=white-sphere points=8 max-degree=3 coefficients=lm.npy",
-    "angular sampler=white-sphere points=64 max-degree=32 realizations=8 fit=auto",
+    "angular sampler=white-sphere points=64 max-degree=32 realizations=8 fit=auto plot=b.svg",
     "angular sampler=white-sphere points=8 realizations=9 max-degree=2 output=sphere.json",
     "angular files=long.txt max-degree=2",
     "angular files=points.txt lift=hemisphere morph=glossy:n=3 max-degree=2",
-    "pairs sampler=white-sphere points=8 max-degree=2",
+    "pairs sampler=white-sphere points=8 max-degree=2 plot=c.svg",
     "variance sampler=white sampler=jittered points=4,9 max-frequency=2 realizations=8 "
     "integrand=disk integrand=gaussian rates=auto rank bounds=auto paper-formula "
     "tail=0.9",

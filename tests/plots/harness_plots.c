@@ -15,7 +15,7 @@ char *test_script(const ps_figure *plot) {
     ps_error error = {0};
     FILE *const stream = open_memstream(&script, &length);
     assert_non_null(stream);
-    assert_int_equal(ps_figure_write_script(plot, "svg", stream, &error), PSPEC_OK);
+    assert_int_equal(ps_script_print_figure(plot, "svg", stream, &error), PSPEC_OK);
     assert_int_equal(fclose(stream), 0);
     return script;
 }

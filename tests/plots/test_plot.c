@@ -302,6 +302,7 @@ static void formulas(void **state) {
 static void formulas_in_svg(void **state) {
     (void)state;
     example data;
+    ps_text script = {0};
     ps_text svg = {0};
     ps_error said = {0};
     if (!test_has_gnuplot()) {
@@ -310,7 +311,9 @@ static void formulas_in_svg(void **state) {
     make_example(&data, 2, false, true);
     data.plot.form = PS_FIGURE_FRAME;
     data.curves[0].formula = "d_l^2";
-    assert_int_equal(ps_figure_draw_svg(&svg, &data.plot, &said), PSPEC_OK);
+    assert_int_equal(ps_figure_write_script(&script, &data.plot, &said), PSPEC_OK);
+    assert_int_equal(ps_plot_draw_script(&svg, &script, &said), PSPEC_OK);
+    ps_text_free(&script);
     const char *const begin = strstr(ps_text_string(&svg), ">d</tspan>");
     assert_non_null(begin);
     assert_non_null(strstr(begin, "dy=\"-17.28px\">2</tspan>"));

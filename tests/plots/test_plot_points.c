@@ -42,7 +42,7 @@ static char *write_script(const ps_figure *figure, const char *terminal) {
     ps_error error = {0};
     FILE *const stream = open_memstream(&script, &length);
     assert_non_null(stream);
-    assert_int_equal(ps_figure_write_script(figure, terminal, stream, &error), PSPEC_OK);
+    assert_int_equal(ps_script_print_figure(figure, terminal, stream, &error), PSPEC_OK);
     assert_int_equal(fclose(stream), 0);
     return script;
 }
@@ -98,26 +98,6 @@ static void frames_are_square(void **state) {
     }
 }
 
-static void the_key_has_all_that_is_drawn(void **state) {
-    example data;
-    ps_text keys[4] = {{0}};
-    (void)state;
-    for (size_t i = 0; i < 4; i++) {
-        make_example(&data, PS_FRAME_SQUARE);
-        data.frames[0].last = i == 1 ? 0.25 : 0.5;
-        data.frames[1].is_mirrored = i == 2;
-        data.figure.num_columns = i == 3 ? 3 : 2;
-        ps_figure_add_key(&keys[i], &data.figure);
-    }
-    for (size_t i = 1; i < 4; i++) {
-        assert_true(keys[i].length != keys[0].length ||
-                    memcmp(keys[i].data, keys[0].data, keys[0].length) != 0);
-    }
-    for (size_t i = 0; i < 4; i++) {
-        ps_text_free(&keys[i]);
-    }
-}
-
 static size_t count(const char *text, const char *part) {
     size_t num = 0;
     while ((text = strstr(text, part)) != NULL) {
@@ -160,7 +140,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_for_frames_and_points),
         cmocka_unit_test(frames_are_square),
-        cmocka_unit_test(the_key_has_all_that_is_drawn),
         cmocka_unit_test_setup_teardown(draws_every_kind, test_folder_create, test_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

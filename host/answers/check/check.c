@@ -231,9 +231,15 @@ static const char *const summary[] = {
     "points",    "points_smallest",  "points_largest", "realizations",
     "different", "adjusted_p_value", "verdict",        NULL};
 /* A table of rings has bins, one of degrees has degrees. */
-static const ps_line_kind lines[] = {
-    {"-scores", "difference", "bin", "z_score", "ring", "in standard errors", false, false},
-    {.suffix = NULL}};
+static const ps_picture_kind pictures[] = {{.suffix = "-scores",
+                                            .what = "difference",
+                                            .make = ps_lines_figure,
+                                            .by = PS_BY_SCENE,
+                                            .x = "bin",
+                                            .y = {"z_score"},
+                                            .x_label = "ring",
+                                            .y_label = "in standard errors"},
+                                           {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
     {"against", "", PS_ENTRY, 0, "--against", "the saved spectrum"},
@@ -311,6 +317,6 @@ const ps_kind ps_kind_check = {
     .discard = discard,
     .fields = fields,
     .summary = summary,
-    .lines = lines,
+    .pictures = pictures,
     .compared = compared,
 };

@@ -3,6 +3,7 @@
 #include "answers/points/points.h"
 
 #include "answers/kind.h"
+#include "answers/points/points_picture.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"
@@ -238,6 +239,9 @@ static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, 
 
 static const ps_compared_field compared[] = {{"digest", NULL, false, NULL}, {.value = NULL}};
 
+static const ps_picture_kind pictures[] = {
+    {.make = ps_points_figure, .dealing = PS_OF_SETS, .by = PS_BY_SCENE}, {.make = NULL}};
+
 const ps_kind ps_kind_points = {
     .name = "sample",
     .takes = PS_COMMAND_BIT(sample),
@@ -245,7 +249,7 @@ const ps_kind ps_kind_points = {
     .counted = "realizations",
     .is_of_host = true,
     .has_arrays = true,
-    .has_points = true,
+    .pictures = pictures,
     .check_question = check_question,
     .plan = plan,
     .compute = compute,

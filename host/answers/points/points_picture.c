@@ -1,9 +1,9 @@
 #include "answers/points/points_picture.h"
 
-#include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 /* ---- where points are shown ------------------------------------------------------------------ */
 
@@ -138,42 +138,53 @@ static ps_point_frame make_frame(const ps_drawn_set *set, const view *how, doubl
                             .is_mirrored = how->side < 0};
 }
 
-static pspec_status fill(ps_points_panel *out, const survey *self, size_t v, const ps_watch *watch,
-                         ps_error *error) {
+static pspec_status fill(ps_series *out, ps_pool *memory, const survey *self, size_t v,
+                         const ps_watch *watch, ps_error *error) {
     const ps_drawn_set *const set = self->set;
     const view *const how = &self->views[v];
     const size_t num = self->counts[v][self->part];
+    double *places = NULL;
     size_t place = 0;
-    PS_TRY(PS_NEW(&out->places, 2 * num + 1, "a picture", error)); /* + 1: a side may be empty */
+    PS_TRY(PS_POOL_NEW(memory, &places, 2 * num, "a picture", error));
     for (size_t i = 0; i < set->num_points; i++) {
         const double *const point = set->points + i * set->dimension;
         PS_TRY(tell(self, i, watch, error));
         if (find_part(how, point) >= self->part) {
-            out->places[place] = point[how->first];
-            out->places[num + place] = point[how->second];
-            place++;
+            places[place] = point[how->first];
+            places[num + place++] = point[how->second];
         }
     }
-    out->series = (ps_series){.num = num, .x = out->places, .y = out->places + num};
+    *out = (ps_series){.num = num, .x = places, .y = places + num};
     return PSPEC_OK;
 }
 
 static pspec_status add_panel(ps_points_picture *self, const survey *how, size_t v,
                               const ps_watch *watch, ps_error *error) {
     const double reach = ldexp(1, -how->part);
-    void *memory = self->all;
-    PS_TRY(ps_grow(&memory, &self->capacity, self->num + 1, sizeof *self->all, "a picture", error));
-    self->all = memory;
-    ps_points_panel *const panel = &self->all[self->num++];
-    *panel = (ps_points_panel){.frame = make_frame(how->set, &how->views[v], reach)};
-    write_title(&panel->title, how->set, self->num_sets == 1, &how->views[v], reach);
-    PS_TRY(ps_text_check(&panel->title, error));
-    return fill(panel, how, v, watch, error);
+    ps_text title = {0};
+    ps_series *series = NULL;
+    ps_panel *const panel = &self->panels[self->num];
+    PS_TRY(PS_POOL_NEW(self->memory, &series, 1, "a picture", error));
+    self->frames[self->num++] = make_frame(how->set, &how->views[v], reach);
+    write_title(&title, how->set, self->num_sets == 1, &how->views[v], reach);
+    *panel = (ps_panel){.num_series = 1, .series = series};
+    PS_TRY(ps_text_keep(&panel->title, self->memory, &title, error));
+    return fill(series, self->memory, how, v, watch, error);
+}
+
+/* Room for all panels that there may be. */
+static pspec_status begin(ps_points_picture *self, ps_error *error) {
+    const size_t most = self->num_sets * (self->num_sets > 1 ? 2 : MOST_VIEWS);
+    PS_TRY(PS_POOL_NEW(self->memory, &self->panels, most, "a picture", error));
+    return PS_POOL_NEW(self->memory, &self->frames, most, "a picture", error);
 }
 
 pspec_status ps_points_picture_add(ps_points_picture *self, const ps_drawn_set *set,
                                    const ps_watch *watch, ps_error *error) {
     survey how = {.set = set};
+    if (self->panels == NULL) {
+        PS_TRY(begin(self, error));
+    }
     how.num_views = list_views(how.views, set, self->num_sets == 1);
     PS_TRY(count_parts(&how, watch, error));
     choose_part(&how);
@@ -189,10 +200,10 @@ pspec_status ps_points_picture_add(ps_points_picture *self, const ps_drawn_set *
 /* Nearly a square of panels, but three side by side; sides of a sphere stay together; lines are one
  * below the other. */
 static size_t find_columns(const ps_points_picture *self) {
-    const bool has_sides = self->num > 1 && self->all[1].frame.is_mirrored;
+    const bool has_sides = self->num > 1 && self->frames[1].is_mirrored;
     const size_t few = 3;
     size_t columns = 1;
-    if (self->all[0].frame.form == PS_FRAME_LINE) {
+    if (self->frames[0].form == PS_FRAME_LINE) {
         return 1;
     }
     while (columns * columns < self->num && columns < PS_MOST_POINT_COLUMNS) {
@@ -204,30 +215,33 @@ static size_t find_columns(const ps_points_picture *self) {
     return self->num == few ? few : columns;
 }
 
-pspec_status ps_points_picture_figure(ps_points_picture *self, const char *title, ps_figure *out,
-                                      ps_error *error) {
-    PS_TRY(PS_NEW(&self->panels, self->num, "a picture", error));
-    PS_TRY(PS_NEW(&self->frames, self->num, "a picture", error));
-    for (size_t i = 0; i < self->num; i++) {
-        self->panels[i] = (ps_panel){ps_text_string(&self->all[i].title), 1, &self->all[i].series};
-        self->frames[i] = self->all[i].frame;
-    }
-    *out = (ps_figure){.form = PS_FIGURE_POINTS,
+ps_figure ps_points_picture_figure(const ps_points_picture *self, const char *title) {
+    return (ps_figure){.form = PS_FIGURE_POINTS,
                        .title = title,
                        .num_panels = self->num,
                        .panels = self->panels,
                        .frames = self->frames,
                        .num_columns = find_columns(self)};
-    return PSPEC_OK;
 }
 
-void ps_points_picture_free(ps_points_picture *self) {
-    for (size_t i = 0; i < self->num; i++) {
-        ps_text_free(&self->all[i].title);
-        free(self->all[i].places);
+static ps_sampler_domain find_domain(const ps_table *table) {
+    const ps_cell domain = ps_table_find_meta(table, "domain");
+    const char *const text = domain.kind == PS_CELL_TEXT ? domain.text : "";
+    return strcmp(text, "sphere") == 0       ? PS_SAMPLES_SPHERE
+           : strcmp(text, "hemisphere") == 0 ? PS_SAMPLES_HEMISPHERE
+                                             : PS_SAMPLES_TORUS;
+}
+
+pspec_status ps_points_figure(ps_figure *out, ps_pool *memory, const ps_chart *chart,
+                              ps_error *error) {
+    ps_points_picture picture = {.num_sets = chart->num_parts, .memory = memory};
+    for (size_t i = 0; i < chart->num_parts; i++) {
+        const ps_chart_part *const part = &chart->parts[i];
+        const ps_npy_array *const sets = ps_table_find_array(part->table, "coordinates");
+        const ps_drawn_set set = {part->label, find_domain(part->table), (unsigned)sets->shape[2],
+                                  sets->shape[1], sets->data};
+        PS_TRY(ps_points_picture_add(&picture, &set, chart->watch, error));
     }
-    free(self->all);
-    free(self->panels);
-    free(self->frames);
-    *self = (ps_points_picture){0};
+    *out = ps_points_picture_figure(&picture, chart->title);
+    return PSPEC_OK;
 }

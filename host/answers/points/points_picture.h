@@ -2,7 +2,7 @@
 #ifndef PS_ANSWERS_POINTS_POINTS_PICTURE_H
 #define PS_ANSWERS_POINTS_POINTS_PICTURE_H
 
-#include "plots/plot.h"
+#include "answers/figure.h"
 #include "samplers/sampler.h"
 
 /* Of more points a picture shows a corner of the square, or the middle of the sides of the sphere,
@@ -19,19 +19,12 @@ typedef struct ps_drawn_set {
     const double *points;
 } ps_drawn_set;
 
-typedef struct ps_points_panel {
-    ps_text title;
-    ps_point_frame frame;
-    ps_series series; /* its numbers are places */
-    double *places;   /* x of all, then y of all */
-} ps_points_panel;
-
-/* {.num_sets = N}: nothing yet. Freed by ps_points_picture_free, also after an error. */
+/* {.num_sets = N, .memory = ..}: nothing yet. What it has is freed with the pool. */
 typedef struct ps_points_picture {
-    size_t num_sets;   /* that there will be: panels of one of several are named */
+    size_t num_sets; /* that there will be: panels of one of several are named */
+    ps_pool *memory;
     size_t num_points; /* of the set that came last */
-    size_t num, capacity;
-    ps_points_panel *all;
+    size_t num;
     ps_panel *panels; /* of the figure */
     ps_point_frame *frames;
 } ps_points_picture;
@@ -42,9 +35,9 @@ typedef struct ps_points_picture {
  * of the hemisphere the first of these. watch is told of large sets. */
 pspec_status ps_points_picture_add(ps_points_picture *self, const ps_drawn_set *set,
                                    const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
-/* The figure of all of them; it borrows from self, and from the title. */
-pspec_status ps_points_picture_figure(ps_points_picture *self, const char *title, ps_figure *out,
-                                      ps_error *error) PS_MUST_CHECK;
-void ps_points_picture_free(ps_points_picture *self);
+/* The figure of all of them, of one at least; it borrows from the title. */
+ps_figure ps_points_picture_figure(const ps_points_picture *self, const char *title);
+/* The first realization of each part, whose array is coordinates, [M][N][D]. */
+ps_make_figure ps_points_figure;
 
 #endif

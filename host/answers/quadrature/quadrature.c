@@ -143,18 +143,6 @@ static pspec_status check_weights_out(const ps_request *request, ps_error *error
                                         : PSPEC_OK;
 }
 
-/* Of a scene and of a command. */
-static const ps_line_kind convergence = {
-    "-convergence", "worst-case error", "points", "worst_case_error", "points N", "E", true, true};
-
-static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
-    const rules *const work = computed;
-    return request->num_counts > 1
-               ? ps_quadrature_plot_errors(request, convergence.x_label, convergence.y_label,
-                                           work->results, error)
-               : ps_quadrature_plot(request, &work->list, work->results, error);
-}
-
 static void discard(void *computed) {
     rules *const work = computed;
     if (work == NULL) {
@@ -184,13 +172,33 @@ static const char *const summary[] = {"points",
                                       "tail",
                                       "predicted_error",
                                       NULL};
-static const ps_line_kind lines[] = {
-    {"-d2", "zonal part", "degree", "d2", "degree l", "{/*1.35 d_l^2}", false, true},
-    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "{/*1.35 C_l^2}", false,
-     true},
-    {"-e2", "share of the squared error", "degree", "e2", "degree l", "{/*1.35 e_l^2}", false,
-     true},
-    {.suffix = NULL}};
+static const ps_picture_kind pictures[] = {
+    {.make = ps_lines_figure,
+     .by = PS_BY_COMMAND,
+     .x = "degree",
+     .y = {"d2", "c2", "e2"},
+     .formulas = {"d_l^2", "C_l^2", "e_l^2"},
+     .x_label = "degree l",
+     .y_label = "{/*1.35 d_l^2 ,  C_l^2 ,  e_l^2 = a_l (d_l^2 + C_l^2 )}",
+     .is_log_x = true,
+     .is_log_y = true},
+    {.suffix = "-convergence",
+     .what = "worst-case error",
+     .make = ps_counts_figure,
+     .dealing = PS_OF_COUNTS,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .needs = PS_NEEDS_COUNTS,
+     .x = "points",
+     .y = {"worst_case_error"},
+     .x_label = "points N",
+     .y_label = "E",
+     .is_log_x = true,
+     .is_log_y = true},
+    PS_PICTURE_OF_DEGREES("-d2", "zonal part", "d2", "degree l", "{/*1.35 d_l^2}"),
+    PS_PICTURE_OF_DEGREES("-c2", "part that depends on the azimuth", "c2", "degree l",
+                          "{/*1.35 C_l^2}"),
+    PS_PICTURE_OF_DEGREES("-e2", "share of the squared error", "e2", "degree l", "{/*1.35 e_l^2}"),
+    {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
     {"weights", "", PS_ENTRY, 0, "", "equal, optimal, or where they come from"},
@@ -259,11 +267,9 @@ const ps_kind ps_kind_quadrature = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .draw = draw,
     .discard = discard,
     .fields = fields,
     .summary = summary,
-    .lines = lines,
-    .convergence = &convergence,
+    .pictures = pictures,
     .compared = compared,
 };

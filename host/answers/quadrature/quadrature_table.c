@@ -106,14 +106,10 @@ static double root(double square) {
     return sqrt(fmax(square, 0));
 }
 
-double ps_quadrature_error(const ps_quadrature_result *result) {
-    return root(result->squared.mean);
-}
-
 static pspec_status add_answer(ps_table *table, const ps_quadrature_result *result,
                                ps_error *error) {
     char check[200];
-    const double e = ps_quadrature_error(result);
+    const double e = root(result->squared.mean);
     snprintf(check, sizeof check,
              "kernel form minus spectral form: %.6g; independent points of the lobe's density have "
              "%.6g in the mean",

@@ -84,8 +84,17 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                : PSPEC_OK;
 }
 
-static const ps_line_kind axes = {
-    NULL, "", "normalized_degree", "power", "normalized degree l N^{-1/2}", "power", true, true};
+static const ps_picture_kind pictures[] = {{.make = ps_spectra_figure,
+                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
+                                            .x = "normalized_degree",
+                                            .y = {"power"},
+                                            .x_label = "normalized degree l N^{-1/2}",
+                                            .y_label = "power",
+                                            .is_log_x = true,
+                                            .is_log_y = true,
+                                            .is_spectrum = true,
+                                            .error = "standard_error"},
+                                           {.make = NULL}};
 
 static const ps_field_row *const fields[] = {ps_fields_asked,
                                              ps_fields_points,
@@ -121,10 +130,9 @@ const ps_kind ps_kind_angular = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .draw = ps_spectra_draw,
     .discard = ps_spectra_discard,
     .fields = fields,
     .summary = ps_spectra_summary,
-    .spectrum = &axes,
+    .pictures = pictures,
     .compared = compared,
 };

@@ -47,16 +47,37 @@ static pspec_status make_table(ps_table **out, const ps_request *arguments,
     return ps_job_table_make(out, &kind, arguments, jobs, num, error);
 }
 
-static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
-                             ps_error *error) {
-    return ps_spectra_tabulate(out, computed, request, make_table, error);
+/* What white noise of the weights of each question has: mean(W)^2 over mean(W^2/V), 1/N of equal
+ * ones. */
+static pspec_status add_white_sums(ps_table *table, const ps_spectra *spectra, ps_error *error) {
+    ps_npy_array array;
+    PS_TRY(ps_npy_make_array(&array, 1, &spectra->list.num, false, error));
+    for (size_t i = 0; i < spectra->list.num; i++) {
+        const ps_spectrum *const own = ps_power_job_spectrum(spectra->jobs[i]);
+        const double white = own->mean_weight_sum * own->mean_weight_sum / own->sample_size.mean;
+        array.data[i] = white > 0 ? white : 1;
+    }
+    return ps_table_add_array(table, "white_sums", true, &array, error);
 }
 
-static const ps_line_kind lines[] = {
-    {"-sums", "Legendre sums", "degree", "legendre_sum", "degree l", "Q(l)", false, true},
-    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "{/*1.35 C_l^2}", false,
-     true},
-    {.suffix = NULL}};
+static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error) {
+    PS_TRY(ps_spectra_tabulate(out, computed, request, make_table, error));
+    return request->plot != NULL ? add_white_sums(out->table, computed, error) : PSPEC_OK;
+}
+
+static const ps_picture_kind pictures[] = {
+    {.make = ps_spectra_figure,
+     .by = PS_BY_COMMAND,
+     .x = "degree",
+     .y = {"legendre_sum"},
+     .y_label = "Legendre sum / Σ w^2",
+     .is_spectrum = true,
+     .error = "legendre_sum_error"},
+    PS_PICTURE_OF_DEGREES("-sums", "Legendre sums", "legendre_sum", "degree l", "Q(l)"),
+    PS_PICTURE_OF_DEGREES("-c2", "part that depends on the azimuth", "c2", "degree l",
+                          "{/*1.35 C_l^2}"),
+    {.make = NULL}};
 
 static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, ps_fields_powers,
                                              ps_fields_computed, NULL};
@@ -87,10 +108,9 @@ const ps_kind ps_kind_pairs = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .draw = ps_spectra_draw,
     .discard = ps_spectra_discard,
     .fields = fields,
     .summary = ps_spectra_summary,
-    .lines = lines,
+    .pictures = pictures,
     .compared = compared,
 };

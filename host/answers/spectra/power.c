@@ -42,29 +42,30 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                : PSPEC_OK;
 }
 
-static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
-    const ps_spectra *const spectra = computed;
-    ps_text title = {0};
-    if (request->frequencies.num_shown == 0) {
-        return ps_spectra_draw(computed, request, error);
-    }
-    ps_spectrum_title(&title, request, (const ps_power_job *const *)spectra->jobs, 1);
-    pspec_status status = ps_text_check(&title, error);
-    if (status == PSPEC_OK) {
-        status = ps_scatter_plot(request, spectra->jobs[0], ps_text_string(&title), error);
-    }
-    ps_text_free(&title);
-    return status;
-}
-
-static const ps_line_kind axes = {NULL,
-                                  "",
-                                  "normalized_frequency",
-                                  "power",
-                                  "normalized frequency |k| N^{-1/d}",
-                                  "radial mean power",
-                                  false,
-                                  false};
+static const ps_picture_kind pictures[] = {{.make = ps_spectra_figure,
+                                            .by = PS_BY_SCENE,
+                                            .x = "normalized_frequency",
+                                            .y = {"power"},
+                                            .x_label = "normalized frequency |k| N^{-1/d}",
+                                            .y_label = "radial mean power",
+                                            .is_spectrum = true,
+                                            .error = "standard_error"},
+                                           {.suffix = "-picture",
+                                            .make = ps_spectra_figure,
+                                            .dealing = PS_OF_EACH,
+                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
+                                            .needs = PS_NEEDS_PICTURES,
+                                            .x = "normalized_frequency",
+                                            .y = {"power"},
+                                            .y_label = "radial mean power",
+                                            .is_spectrum = true,
+                                            .error = "standard_error"},
+                                           {.suffix = "-scatter",
+                                            .make = ps_scatter_figure,
+                                            .dealing = PS_OF_EACH,
+                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
+                                            .needs = PS_NEEDS_SCATTER},
+                                           {.make = NULL}};
 
 static const ps_field_row *const fields[] = {ps_fields_asked,
                                              ps_fields_points,
@@ -103,10 +104,9 @@ const ps_kind ps_kind_power = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .draw = draw,
     .discard = ps_spectra_discard,
     .fields = fields,
     .summary = ps_spectra_summary,
-    .spectrum = &axes,
+    .pictures = pictures,
     .compared = compared,
 };

@@ -40,7 +40,10 @@ pspec_status ps_power_add_full(ps_table *table, const ps_request *request,
                                const ps_spectrum *spectrum, ps_error *error) {
     enum { PLANE = 2 };
     const bool is_array = request->wants_array || request->full != NULL;
-    const bool is_picture = request->wants_picture && spectrum->frequencies.dimension == PLANE;
+    const bool is_drawn = request->plot != NULL && ps_request_num_questions(request) == 1;
+    const bool is_picture = (request->wants_picture || is_drawn) &&
+                            spectrum->frequencies.dimension == PLANE &&
+                            request->frequencies.per_ring == 0;
     if (spectrum->frequencies.kind != PS_FREQUENCIES_BOX || (!is_array && !is_picture)) {
         return PSPEC_OK;
     }

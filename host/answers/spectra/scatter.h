@@ -3,9 +3,8 @@
 #ifndef PS_ANSWERS_SPECTRA_SCATTER_H
 #define PS_ANSWERS_SPECTRA_SCATTER_H
 
-#include "answers/chart.h"
+#include "answers/figure.h"
 #include "jobs/spectrum/power_job.h"
-#include "request/request.h"
 
 /* S(j, k_2, .., k_d) of every set for j = -K .. K: the row of the grid that goes through the
  * frequency k. */
@@ -23,11 +22,7 @@ pspec_status ps_scatter_take(ps_scatter *out, double **rows, const ps_frequencie
 pspec_status ps_scatter_add_header(ps_table *table, const ps_frequencies_spec *asked,
                                    const ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 
-/* Real and imaginary parts of the first sets along the row, and S(k) of all sets. */
-pspec_status ps_scatter_draw(const ps_scatter *self, const char *title, ps_take_figure *take,
-                             void *payload, ps_error *error) PS_MUST_CHECK;
-/* The same as the picture that a command is asked for. */
-pspec_status ps_scatter_plot(const ps_request *request, const ps_power_job *job, const char *title,
-                             ps_error *error) PS_MUST_CHECK;
+/* Real and imaginary parts of the first sets along the row, S(k) of all sets: the array scatter. */
+ps_make_figure ps_scatter_figure;
 
 #endif

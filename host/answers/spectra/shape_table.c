@@ -9,8 +9,8 @@
 
 const char *const ps_shape_columns[PS_SHAPE_COLUMNS] = {"lower", "upper", "fit"};
 
-void ps_shape_powers(double out[PS_SHAPE_COLUMNS], const ps_shape *shape,
-                     const ps_spectrum *spectrum, const ps_spectrum_bin *bin) {
+static void find_powers(double out[PS_SHAPE_COLUMNS], const ps_shape *shape,
+                        const ps_spectrum *spectrum, const ps_spectrum_bin *bin) {
     const double nu = bin->normalized_frequency;
     const bool is_fitted = shape->low_reason.status == PSPEC_OK && nu <= shape->low.reach;
     out[0] = shape->below_reason.status == PSPEC_OK ? ps_bound_power(&shape->below, nu) : NAN;
@@ -34,7 +34,7 @@ size_t ps_shape_add_cells(ps_cell *cells, size_t num, const ps_request *request,
     if (!request->wants_fit) {
         return num;
     }
-    ps_shape_powers(powers, shape, spectrum, bin);
+    find_powers(powers, shape, spectrum, bin);
     for (size_t i = 0; i < PS_SHAPE_COLUMNS; i++) {
         cells[num++] = ps_number_or_missing(powers[i]);
     }

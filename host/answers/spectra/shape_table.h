@@ -9,9 +9,6 @@
 /* Columns of rows: the profile below, the one above, and up to where it goes the fit. */
 enum { PS_SHAPE_COLUMNS = 3 };
 extern const char *const ps_shape_columns[PS_SHAPE_COLUMNS];
-/* nan: there is none. */
-void ps_shape_powers(double out[PS_SHAPE_COLUMNS], const ps_shape *shape,
-                     const ps_spectrum *spectrum, const ps_spectrum_bin *bin);
 
 /* The columns of a row of the spectrum behind num others; how many there are then. Without --fit
  * there are none. */

@@ -5,6 +5,7 @@
 #include "store/figures_file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 const char *const ps_spectra_summary[] = {
     "points",     "points_smallest", "points_largest", "realizations",
@@ -169,15 +170,21 @@ pspec_status ps_spectra_plan(ps_planner *planner, const ps_request *request, ps_
     return status;
 }
 
+/* For its picture. */
+static pspec_status add_first_set(ps_table *table, const ps_point_set *set, ps_error *error) {
+    const size_t shape[] = {set->num_points, set->dimension};
+    ps_npy_array array;
+    PS_TRY(ps_npy_make_array(&array, 2, shape, false, error));
+    memcpy(array.data, set->points, array.num * sizeof *array.data);
+    return ps_table_add_array(table, "first_set", true, &array, error);
+}
+
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
                                  ps_make_spectra_table *make, ps_error *error) {
     const ps_spectra *const spectra = computed;
-    return make(&out->table, request, (const ps_power_job *const *)spectra->jobs, spectra->list.num,
-                error);
-}
-
-pspec_status ps_spectra_draw(const void *computed, const ps_request *request, ps_error *error) {
-    const ps_spectra *const spectra = computed;
-    return ps_spectrum_plot(request, (const ps_power_job *const *)spectra->jobs, spectra->list.num,
-                            error);
+    const ps_point_set *const first = ps_power_job_first_set(spectra->jobs[0]);
+    PS_TRY(make(&out->table, request, (const ps_power_job *const *)spectra->jobs, spectra->list.num,
+                error));
+    return request->plot != NULL && first != NULL ? add_first_set(out->table, first, error)
+                                                  : PSPEC_OK;
 }

@@ -55,13 +55,11 @@ typedef pspec_status ps_make_spectra_table(ps_table **out, const ps_request *req
 /* The table of all jobs. */
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
                                  ps_make_spectra_table *make, ps_error *error) PS_MUST_CHECK;
-/* --plot: curves of all jobs, and the picture of the spectrum where there is one. */
-pspec_status ps_spectra_draw(const void *computed, const ps_request *request,
-                             ps_error *error) PS_MUST_CHECK;
-
-/* Samplers or files, numbers of points and realizations. */
-void ps_spectrum_title(ps_text *title, const ps_request *arguments, const ps_power_job *const *jobs,
-                       size_t num);
+/* Curves of all jobs, as PS_FIGURE_SPECTRA; of one question alone beside its averaged periodogram
+ * and the points of its first set, where the table has these. */
+ps_make_figure ps_spectra_figure;
+/* The periodogram of a table of one question in the plane; false: it has none. */
+bool ps_spectra_find_image(ps_plot_image *out, const ps_table *table);
 
 /* Header entries that are columns of a summary of spectra. */
 extern const char *const ps_spectra_summary[];
@@ -69,10 +67,5 @@ extern const char *const ps_spectra_summary[];
 /* Columns, entries and arrays of power, angular and pairs; the shape of a spectrum (--fit);
  * profiles of it, which variances have, too (--bounds). */
 extern const ps_field_row ps_fields_powers[], ps_fields_shape[], ps_fields_profiles[];
-
-/* The same of jobs of power and angular: curves of all jobs; the picture of the spectrum when there
- * is one 2-D job on the torus. */
-pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *const *jobs,
-                              size_t num, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -39,7 +39,8 @@ const ps_field_row ps_fields_powers[] = {
     {"c2", "", PS_COLUMN, OF(pairs), "", "mean of C_l^2; a rounding below 0 where it is 0"},
     {"c2_error", "", PS_COLUMN, OF(pairs), "", "its standard error"},
     {"full", "", PS_ARRAY, OF(power), "--full",
-     "averaged periodogram, float64 [2K+1]^d, index k_i + K on axis i"},
+     "averaged periodogram, float64 [2K+1]^d, index k_i + K on axis i; of --plot in the plane, "
+     "too"},
     {"full_standard_error", "", PS_ARRAY, OF(power), "--full",
      "its standard errors, of the same shape; a file of its own, FILE.standard_error.npy"},
     {"scatter", "", PS_ARRAY, OF(power), "--scatter",
@@ -47,6 +48,11 @@ const ps_field_row ps_fields_powers[] = {
     {"coefficients", "", PS_ARRAY, OF(power) | OF(angular), "--coefficients",
      "S(k) of each set, complex128 in the places of full; on the sphere c_lm of the only set at "
      "index m(2L+1-m)/2 + l"},
+    {"first_set", "", PS_ARRAY, OF(power) | OF(angular), "--plot",
+     "points of the first set where the picture shows them, float64 [N][D]; no file of its own"},
+    {"white_sums", "", PS_ARRAY, OF(pairs), "--plot",
+     "for each question what Q(l) of white noise of these weights is in the mean, sum w^2; no file "
+     "of its own"},
     {.name = NULL}};
 
 const ps_field_row ps_fields_shape[] = {

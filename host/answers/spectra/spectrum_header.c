@@ -53,27 +53,6 @@ pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points
                               error);
 }
 
-void ps_points_span_add(ps_points_span *span, const ps_points_range *points) {
-    const bool is_first = span->num++ == 0;
-    span->least_mean = is_first ? points->mean : fmin(span->least_mean, points->mean);
-    span->most_mean = fmax(span->most_mean, points->mean);
-    span->smallest =
-        is_first || points->smallest < span->smallest ? points->smallest : span->smallest;
-    span->largest = points->largest > span->largest ? points->largest : span->largest;
-    span->varies = span->varies || points->smallest < points->largest;
-}
-
-void ps_points_span_show(const ps_points_span *span, ps_text *title) {
-    ps_text_append(title, ", %sN = %.6g", span->varies ? "mean " : "", span->least_mean);
-    if (span->most_mean > span->least_mean) {
-        ps_text_append(title, " to %.6g", span->most_mean);
-    }
-    if (span->varies) {
-        ps_text_append(title, " (sets of %" PRIu64 " to %" PRIu64 ")", span->smallest,
-                       span->largest);
-    }
-}
-
 static bool is_on_sphere(const ps_frequencies *set) {
     return set->kind == PS_FREQUENCIES_DEGREES;
 }

@@ -25,18 +25,6 @@ typedef struct ps_points_range {
 pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* Numbers of points of all that a picture shows; {0}: of nothing yet. */
-typedef struct ps_points_span {
-    size_t num;
-    double least_mean, most_mean;
-    uint64_t smallest, largest;
-    bool varies; /* N of sets that are averaged */
-} ps_points_span;
-void ps_points_span_add(ps_points_span *span, const ps_points_range *points);
-/* ", N = 64", ", N = 64 to 1024" or, of sets with different N, ", mean N = 62 (sets of 60 to 64)".
- */
-void ps_points_span_show(const ps_points_span *span, ps_text *title);
-
 /* "2 files, 200 realizations, one average", where files are several; are_for: these realizations. */
 pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num_realizations,
                                  const char *are_for, ps_error *error) PS_MUST_CHECK;

@@ -3,8 +3,6 @@
 #include "answers/kind.h"
 #include "answers/truncation/truncation_table.h"
 #include "base/memory.h"
-#include "base/text.h"
-#include "plots/plot.h"
 #include "request/options.h"
 
 #include <stdlib.h>
@@ -71,38 +69,21 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     return ps_truncation_table(&out->table, computed, request, error);
 }
 
-static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
-    const ps_truncation_job *const job = computed;
-    ps_text title = {0};
-    ps_text_append(&title, "%s, %s harmonics, smoothness %g", job->question.brdf,
-                   job->question.is_hemispherical ? "hemispherical" : "spherical",
-                   job->question.smoothness);
-    const ps_series line = {
-        .num = job->question.max_degree + 1, .x = job->degrees, .y = job->errors};
-    const ps_panel panel = {NULL, 1, &line};
-    const ps_figure figure = {.form = PS_FIGURE_FRAME,
-                              .title = ps_text_string(&title),
-                              .x_label = "largest degree L",
-                              .y_label = "worst-case error E(L)",
-                              .axes = request->plot_axes,
-                              .is_log_y = true,
-                              .num_panels = 1,
-                              .panels = &panel};
-    pspec_status status = ps_text_check(&title, error);
-    if (status == PSPEC_OK) {
-        status = ps_figure_write(request->plot, &figure, error);
-    }
-    ps_text_free(&title);
-    return status;
-}
-
 static const char *const summary[] = {"brdf",    "smoothness",      "harmonics",
                                       "kappa_0", "predicted_error", NULL};
-static const ps_line_kind lines[] = {
-    {"-error", "worst-case error", "degree", "error", "largest degree L", "E(L)", false, true},
-    {"-points", "points with the same error", "degree", "equivalent_points", "largest degree L",
-     "N", false, true},
-    {.suffix = NULL}};
+static const ps_picture_kind pictures[] = {
+    {.suffix = "-error",
+     .what = "worst-case error",
+     .make = ps_lines_figure,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .x = "degree",
+     .y = {"error"},
+     .x_label = "largest degree L",
+     .y_label = "worst-case error E(L)",
+     .is_log_y = true},
+    PS_PICTURE_OF_DEGREES("-points", "points with the same error", "equivalent_points",
+                          "largest degree L", "N"),
+    {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
     {"harmonics", "", PS_ENTRY, 0, "", "spherical or hemispherical"},
@@ -141,10 +122,9 @@ const ps_kind ps_kind_truncation = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .draw = draw,
     .discard = discard,
     .fields = fields,
     .summary = summary,
-    .lines = lines,
+    .pictures = pictures,
     .compared = compared,
 };

@@ -1,4 +1,3 @@
-#include "answers/variance/rates_table.h"
 
 #include "answers/spectra/spectrum_header.h"
 #include "answers/variance/parts.h"
@@ -158,26 +157,6 @@ static pspec_status add_exponents(view *self, ps_table *table, size_t sampler, s
         {"measured_rate_error", number_if(reasons[1].status, rates[1].rate.error)},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
-}
-
-ps_uncertain ps_rates_find(const ps_table *table, const char *sampler, const char *integrand) {
-    ps_uncertain out = PS_UNCERTAIN_NONE;
-    bool is_sampler = false;
-    bool is_it = false;
-    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
-        const char *key = NULL;
-        const ps_cell value = ps_table_meta(table, i, &key);
-        if (strcmp(key, "rate_sampler") == 0) {
-            is_sampler = sampler[0] == '\0' || strcmp(value.text, sampler) == 0;
-        } else if (strcmp(key, "rate_integrand") == 0) {
-            is_it = is_sampler && strcmp(value.text, integrand) == 0;
-        } else if (is_it && strcmp(key, "rate") == 0) {
-            out.value = ps_cell_number(value);
-        } else if (is_it && strcmp(key, "rate_error") == 0) {
-            out.error = ps_cell_number(value);
-        }
-    }
-    return out;
 }
 
 /* ---- crossings ------------------------------------------------------------------------------- */

@@ -102,17 +102,6 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                              error);
 }
 
-/* By a table, as scenes have it. */
-static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
-    ps_answer rows = {0};
-    pspec_status status = tabulate(&rows, computed, request, error);
-    if (status == PSPEC_OK) {
-        status = ps_variance_plot(request, rows.table, error);
-    }
-    ps_answer_free(&rows);
-    return status;
-}
-
 static void discard(void *computed) {
     variances *const work = computed;
     if (work == NULL) {
@@ -132,7 +121,13 @@ static void discard(void *computed) {
 static const char *const summary[] = {"points", "points_smallest", "points_largest", "realizations",
                                       "shifts", "most_power",      "most_power_is",  NULL};
 static const char *const sentences[] = {"rates", "crossing", "ranking", NULL};
-static const ps_line_kind lines[] = {{.suffix = NULL}}; /* a question is a row for each integrand */
+/* A question is a row for each integrand. */
+static const ps_picture_kind pictures[] = {{.make = ps_variance_figure,
+                                            .dealing = PS_OF_COUNTS,
+                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
+                                            .has_panels = true,
+                                            .write_title = ps_variance_write_title},
+                                           {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
     {"trials", "", PS_ENTRY, 0, "", "what a trial is, where there are any"},
@@ -251,12 +246,10 @@ const ps_kind ps_kind_variance = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
-    .draw = draw,
     .discard = discard,
     .fields = fields,
     .summary = summary,
-    .lines = lines,
-    .chart = ps_variance_chart,
+    .pictures = pictures,
     .sentences = sentences,
     .has_few_rows = true,
     .compared = compared,

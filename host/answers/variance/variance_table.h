@@ -2,7 +2,7 @@
 #ifndef PS_ANSWERS_VARIANCE_VARIANCE_TABLE_H
 #define PS_ANSWERS_VARIANCE_VARIANCE_TABLE_H
 
-#include "answers/chart.h"
+#include "answers/figure.h"
 #include "jobs/variance/variance_job.h"
 #include "request/request.h"
 #include "tables/table.h"
@@ -14,10 +14,8 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
 /* Variances against N, by the rows of such tables: a panel for each integrand, in which each
  * sampler has a colour. Predictions are lines on a band from lower to upper, measurements are marks
  * with bars of their errors, and white noise is a line of dashes. */
-pspec_status ps_variance_chart(const ps_chart *chart, ps_error *error) PS_MUST_CHECK;
-/* Draws it into request->plot. */
-pspec_status ps_variance_plot(const ps_request *request, const ps_table *table,
-                              ps_error *error) PS_MUST_CHECK;
+ps_make_figure ps_variance_figure;
+void ps_variance_write_title(ps_text *out, const ps_request *request, const ps_table *table);
 
 /* The number of sets of all samplers, or nan; with a text, which may be NULL, that of each. */
 double ps_variance_sets(const ps_request *request, const ps_table *table, ps_text *each);

@@ -176,7 +176,7 @@ static pspec_status add_pages(ps_pictures *list, ps_picture *whole, bool is_chun
 /* The picture of one group, or its pages. */
 static pspec_status add_group(ps_pictures *list, const ps_scene_result *asked, ps_picture one,
                               const layout *how, size_t index, ps_error *error) {
-    const char *const stem = one.lines != NULL ? one.lines->suffix : "";
+    const char *const stem = one.kind->suffix != NULL ? one.kind->suffix : "";
     const bool is_group = how->group < asked->num_entries;
     one.group = how->group;
     one.points = how->points;
@@ -204,106 +204,106 @@ static size_t find_points(const ps_scene_result *asked) {
     return i;
 }
 
-static pspec_status list_errors(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    const size_t points = find_points(asked);
-    const layout how = find_layout(asked, points, false);
-    if (asked->kind->convergence == NULL || points == asked->num_entries) {
-        return PSPEC_OK;
+/* A picture of the questions first .. end - 1, of whose panels nothing is to be said. */
+static pspec_status add_run(ps_pictures *list, const ps_scene_result *asked,
+                            const ps_picture_kind *kind, size_t first, size_t end,
+                            ps_error *error) {
+    const size_t none = asked->num_entries;
+    const ps_picture one = {
+        .kind = kind, .group = none, .points = none, .panel = none, .num_panels = 1};
+    PS_TRY(add(list, &one, end - first, error));
+    ps_picture *const picture = &list->all[list->num - 1];
+    for (size_t q = first; q < end; q++) {
+        picture->curves[picture->num_curves++] = q;
     }
-    const ps_picture one = {.form = PS_PICTURE_ERRORS, .lines = asked->kind->convergence};
-    for (size_t g = 0; g < count_values(asked, how.group); g++) {
-        PS_TRY(add_group(out, asked, one, &how, g, error));
+    picture->ends[0] = picture->num_curves;
+    return PSPEC_OK;
+}
+
+/* A picture of every question. */
+static pspec_status list_singles(ps_pictures *out, const ps_scene_result *asked,
+                                 const ps_picture_kind *kind, ps_error *error) {
+    for (size_t q = 0; q < ps_scene_num_questions(asked); q++) {
+        PS_TRY(add_run(out, asked, kind, q, q + 1, error));
+        snprintf(out->all[out->num - 1].suffix, PS_SUFFIX_BYTES, "%s-%zu", kind->suffix, q + 1);
+    }
+    return PSPEC_OK;
+}
+
+/* Sets side by side; pages of them, as few as there can be. */
+static pspec_status list_sets(ps_pictures *out, const ps_scene_result *asked,
+                              const ps_picture_kind *kind, ps_error *error) {
+    const size_t num = ps_scene_num_questions(asked);
+    const size_t num_pages = (num + MOST_PANELS - 1) / MOST_PANELS;
+    for (size_t page = 0; page < num_pages; page++) {
+        PS_TRY(
+            add_run(out, asked, kind, page * num / num_pages, (page + 1) * num / num_pages, error));
+        if (page > 0) {
+            snprintf(out->all[out->num - 1].suffix, PS_SUFFIX_BYTES, "-page-%zu", page + 1);
+        }
     }
     return PSPEC_OK;
 }
 
 /* What has panels of its own, and labels that tell its curves apart, gets no others. */
-static pspec_status list_charts(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
+static pspec_status list_counts(ps_pictures *out, const ps_scene_result *asked,
+                                const ps_picture_kind *kind, ps_error *error) {
     layout how = find_layout(asked, find_points(asked), false);
-    const ps_picture one = {.form = PS_PICTURE_CHART};
-    how.panel = asked->num_entries;
-    how.chunk = 0;
-    for (size_t g = 0; asked->kind->chart != NULL && g < count_values(asked, how.group); g++) {
-        PS_TRY(add_group(out, asked, one, &how, g, error));
+    if (kind->has_panels) {
+        how.panel = asked->num_entries;
+        how.chunk = 0;
     }
-    return PSPEC_OK;
-}
-
-static pspec_status list_lines(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    const ps_line_kind *const kinds = asked->kind->lines;
-    const layout how = find_layout(asked, asked->num_entries, false);
-    PS_TRY(list_errors(out, asked, error));
-    PS_TRY(list_charts(out, asked, error));
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
-        for (size_t k = 0; kinds[k].suffix != NULL; k++) {
-            const ps_picture one = {.form = PS_PICTURE_COLUMNS, .lines = &kinds[k]};
-            PS_TRY(add_group(out, asked, one, &how, g, error));
-        }
+        PS_TRY(add_group(out, asked, (ps_picture){.kind = kind}, &how, g, error));
     }
     return PSPEC_OK;
 }
 
-/* A picture of every question. */
-static pspec_status add_singles(ps_pictures *out, const ps_scene_result *asked,
-                                ps_picture_form form, const char *stem, ps_error *error) {
-    const size_t num = ps_scene_num_questions(asked);
-    const size_t none = asked->num_entries;
-    for (size_t q = 0; q < num; q++) {
-        ps_picture one = {.form = form, .group = none, .points = none, .panel = none};
-        snprintf(one.suffix, sizeof one.suffix, "-%s-%zu", stem, q + 1);
-        PS_TRY(add(out, &one, 1, error));
-        ps_picture *const picture = &out->all[out->num - 1];
-        picture->num_curves = picture->num_panels = picture->ends[0] = 1;
-        picture->curves[0] = q;
-    }
-    return PSPEC_OK;
+static bool is_wanted(const ps_scene_result *asked, const ps_picture_kind *kind) {
+    return (kind->by & PS_BY_SCENE) != 0 &&
+           (kind->needs != PS_NEEDS_COUNTS || find_points(asked) < asked->num_entries) &&
+           (kind->needs != PS_NEEDS_SCATTER ||
+            ps_scene_find_entry(asked, PS_OPTION_SCATTER) != NULL) &&
+           (kind->needs != PS_NEEDS_PICTURES || asked->wants_pictures);
 }
 
-static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    const layout how = find_layout(asked, asked->num_entries, true);
+/* All pictures of curves, those of a group together. */
+static pspec_status list_curves(ps_pictures *out, const ps_scene_result *asked,
+                                const ps_picture_kind *kinds, ps_error *error) {
+    const layout how = find_layout(asked, asked->num_entries, kinds->is_spectrum);
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
-        PS_TRY(add_group(out, asked, (ps_picture){.form = PS_PICTURE_SPECTRA}, &how, g, error));
-    }
-    if (asked->wants_pictures) {
-        PS_TRY(add_singles(out, asked, PS_PICTURE_IMAGE, "picture", error));
-    }
-    return ps_scene_find_entry(asked, PS_OPTION_SCATTER) != NULL
-               ? add_singles(out, asked, PS_PICTURE_SCATTER, "scatter", error)
-               : PSPEC_OK;
-}
-
-/* Sets side by side; pages of them, as few as there can be. */
-static pspec_status list_points(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    const size_t num = ps_scene_num_questions(asked);
-    const size_t none = asked->num_entries;
-    const size_t num_pages = (num + MOST_PANELS - 1) / MOST_PANELS;
-    for (size_t page = 0; page < num_pages; page++) {
-        const size_t first = page * num / num_pages;
-        const size_t end = (page + 1) * num / num_pages;
-        ps_picture one = {.form = PS_PICTURE_POINTS, .group = none, .points = none, .panel = none};
-        if (page > 0) {
-            snprintf(one.suffix, sizeof one.suffix, "-page-%zu", page + 1);
-        }
-        PS_TRY(add(out, &one, end - first, error));
-        ps_picture *const picture = &out->all[out->num - 1];
-        picture->num_panels = 1; /* nothing to be said of them */
-        picture->num_curves = picture->ends[0] = end - first;
-        for (size_t i = 0; i < end - first; i++) {
-            picture->curves[i] = first + i;
+        for (const ps_picture_kind *kind = kinds; kind->dealing == PS_OF_CURVES && kind->make;
+             kind++) {
+            PS_TRY(add_group(out, asked, (ps_picture){.kind = kind}, &how, g, error));
         }
     }
     return PSPEC_OK;
 }
 
 pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    if (!asked->wants_plot) {
-        return PSPEC_OK;
+    const ps_picture_kind *before = NULL;
+    for (const ps_picture_kind *kind = asked->kind->pictures; kind->make != NULL; kind++) {
+        if (!asked->wants_plot || !is_wanted(asked, kind)) {
+            continue;
+        }
+        const bool is_first = before == NULL || before->dealing != PS_OF_CURVES;
+        before = kind;
+        switch (kind->dealing) {
+        case PS_OF_CURVES:
+            PS_TRY(is_first ? list_curves(out, asked, kind, error) : PSPEC_OK);
+            break;
+        case PS_OF_COUNTS:
+            PS_TRY(list_counts(out, asked, kind, error));
+            break;
+        case PS_OF_EACH:
+            PS_TRY(list_singles(out, asked, kind, error));
+            break;
+        case PS_OF_SETS:
+            PS_TRY(list_sets(out, asked, kind, error));
+            break;
+        }
     }
-    if (asked->kind->has_points) {
-        return list_points(out, asked, error);
-    }
-    return asked->kind->spectrum != NULL ? list_spectra(out, asked, error)
-                                         : list_lines(out, asked, error);
+    return PSPEC_OK;
 }
 
 void ps_picture_say_panels(const ps_picture *picture, const ps_scene_result *asked, ps_text *out) {

@@ -8,22 +8,11 @@
 /* More curves than this in one frame cannot be told apart. */
 enum { PS_MOST_CURVES = 8 };
 
-typedef enum ps_picture_form {
-    PS_PICTURE_SPECTRA, /* powers of a group of questions */
-    PS_PICTURE_IMAGE,   /* of one question, with the averaged periodogram */
-    PS_PICTURE_SCATTER, /* of one question, its sets in the complex plane */
-    PS_PICTURE_COLUMNS, /* lines of one kind */
-    PS_PICTURE_ERRORS,  /* worst-case errors against numbers of points */
-    PS_PICTURE_CHART,   /* rows of all questions, as the kind draws them */
-    PS_PICTURE_POINTS   /* points of questions, side by side */
-} ps_picture_form;
-
 enum { PS_SUFFIX_BYTES = 96 };
 
 typedef struct ps_picture {
     char suffix[PS_SUFFIX_BYTES]; /* of the file: NAME + suffix + .svg */
-    ps_picture_form form;
-    const ps_line_kind *lines; /* of columns and of errors */
+    const ps_picture_kind *kind;
     /* What its questions have and those of other pictures do not; NULL: there are no others */
     const ps_scene_value *value;
     /* Entries of the result: of that value, of the numbers of points along a line, and of the value
@@ -47,6 +36,14 @@ pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked,
 /* Why it has panels, and of what. */
 void ps_picture_say_panels(const ps_picture *picture, const ps_scene_result *asked, ps_text *out);
 void ps_pictures_free(ps_pictures *pictures);
+
+/* What tells the curve of a question from the others of its panel, a panel from others, a set of
+ * points from others, whose pictures say N themselves. */
+void ps_label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                    ps_text *out);
+void ps_label_panel(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                    ps_text *out);
+void ps_label_set(const ps_scene_result *asked, size_t question, ps_text *out);
 
 /* Has this entry several values? */
 bool ps_run_varies(const ps_scene_entry *entry);

@@ -1,103 +1,269 @@
-/* Pictures of the results of a scene, made from their tables by the list of pictures.c. */
-#include "scene/run/drawing.h"
+/* Pictures of the results of a scene: each by the figure that its kind makes of tables, drawn or
+ * taken from the cache. */
+#include "answers/spectra/spectra.h"
+#include "base/memory.h"
+#include "scene/run/run.h"
 
-#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-/* sqrt(N), of the mean N where sets differ: what frequencies are divided by. NAN without rows. */
-static double frequency_unit(const ps_table *table) {
-    size_t frequency = 0;
-    size_t normalized = 0;
-    return ps_table_find_column(table, "frequency", &frequency) &&
-                   ps_table_find_column(table, "normalized_frequency", &normalized) &&
-                   ps_table_num_rows(table) > 0
-               ? ps_cell_number(ps_table_cell(table, 0, frequency)) /
-                     ps_cell_number(ps_table_cell(table, 0, normalized))
-               : NAN;
+typedef struct artist {
+    ps_run *run;
+    ps_run_result *result;
+    ps_error *error;
+    double image_maximum; /* of the scale that images of the result share */
+} artist;
+
+static const ps_table *table_of(const artist *self, size_t question) {
+    return self->result->questions[question].answer.table;
 }
 
-/* Of a question whose array was wanted and is there. */
-static bool find_image(const ps_run_result *result, size_t question, ps_plot_image *out) {
-    const ps_table *const table = result->questions[question].answer.table;
-    const ps_npy_array *const full = ps_table_find_array(table, "full");
-    if (full == NULL || full->rank != 2) {
-        return false;
+/* ---- words ----------------------------------------------------------------------------------- */
+
+/* The title of the result, what its questions have in common, what the picture shows. */
+static void write_title(const artist *self, const ps_picture *what, ps_text *out) {
+    const ps_scene_result *const asked = self->result->asked;
+    const size_t first = what->curves[0];
+    ps_text description = {0};
+    ps_text_append(out, "%s", asked->title != NULL ? asked->title : asked->name);
+    if (what->value != NULL) {
+        ps_text_append(out, ", %s", what->value->label);
     }
-    *out =
-        (ps_plot_image){.size = full->shape[0], .power = full->data, .unit = frequency_unit(table)};
-    return out->unit > 0;
+    if (what->kind->dealing == PS_OF_EACH) {
+        ps_run_label(self->result, first, &description);
+    } else if (what->kind->dealing == PS_OF_SETS && what->num_curves == 1) {
+        ps_label_set(asked, first, &description);
+        ps_text_append(&description, ", N = %zu",
+                       ps_table_find_array(table_of(self, first), "coordinates")->shape[1]);
+    } else if (what->kind->what != NULL) {
+        ps_text_append(&description, "%s", what->kind->what);
+    }
+    if (description.length > 0) {
+        ps_text_append(out, ": %s", ps_text_string(&description));
+    }
+    out->failed = out->failed || description.failed;
+    ps_text_free(&description);
 }
+
+/* One frame has room for more of a label than the key of many panels. Rows of a question of several
+ * samplers say which they are of. */
+static void write_label(const artist *self, const ps_picture *what, size_t question, ps_text *out) {
+    const ps_scene_result *const asked = self->result->asked;
+    const ps_dealing dealing = what->kind->dealing;
+    size_t column = 0;
+    if (dealing == PS_OF_SETS) {
+        ps_label_set(asked, question, out);
+    } else if (dealing == PS_OF_COUNTS || what->num_panels > 1) {
+        ps_label_curve(asked, what, question, out);
+        if (out->length == 0 &&
+            !ps_table_find_column(table_of(self, question), "sampler", &column)) {
+            ps_label_set(asked, question, out);
+        } else {
+            return;
+        }
+    }
+    if (out->length == 0) {
+        ps_run_label(self->result, question, out);
+    }
+}
+
+/* ---- what a figure is made of ---------------------------------------------------------------- */
+
+static size_t count_counts(const ps_scene_result *asked, const ps_picture *what) {
+    return what->kind->dealing == PS_OF_COUNTS && what->points < asked->num_entries
+               ? asked->entries[what->points].num_values
+               : 1;
+}
+
+/* How far apart are questions that differ in the number of points alone, by one value? */
+static size_t find_step(const ps_scene_result *asked, const ps_picture *what) {
+    size_t step = 1;
+    for (size_t i = what->points + 1; i < asked->num_entries; i++) {
+        step *= asked->entries[i].num_values;
+    }
+    return step;
+}
+
+/* Those of a curve, which differ in the number of points alone, together. */
+static pspec_status take_parts(const artist *self, const ps_picture *what, ps_pool *memory,
+                               ps_chart *chart) {
+    const ps_scene_result *const asked = self->result->asked;
+    const size_t num_counts = count_counts(asked, what);
+    const size_t step = find_step(asked, what);
+    ps_chart_part *parts = NULL;
+    chart->num_parts = what->num_curves * num_counts;
+    PS_TRY(PS_POOL_NEW(memory, &parts, chart->num_parts, "a picture", self->error));
+    for (size_t i = 0, panel = 0; i < what->num_curves; i++) {
+        ps_text text = {0};
+        const char *label = NULL;
+        write_label(self, what, what->curves[i], &text);
+        PS_TRY(ps_text_keep(&label, memory, &text, self->error));
+        panel += i == what->ends[panel];
+        for (size_t k = 0; k < num_counts; k++) {
+            const ps_run_question *const question =
+                &self->result->questions[what->curves[i] + k * step];
+            parts[i * num_counts + k] =
+                (ps_chart_part){question->answer.table, &question->asked.request, label, panel};
+        }
+    }
+    chart->parts = parts;
+    return PSPEC_OK;
+}
+
+static pspec_status name_panels(const artist *self, const ps_picture *what, ps_pool *memory,
+                                ps_chart *chart) {
+    const char **titles = NULL;
+    PS_TRY(PS_POOL_NEW(memory, &titles, what->num_panels, "a picture", self->error));
+    for (size_t i = 0, begin = 0; i < what->num_panels; begin = what->ends[i++]) {
+        ps_text title = {0};
+        ps_label_panel(self->result->asked, what, what->curves[begin], &title);
+        PS_TRY(ps_text_keep(&titles[i], memory, &title, self->error));
+    }
+    chart->num_panels = what->num_panels;
+    chart->panels = titles;
+    return PSPEC_OK;
+}
+
+static pspec_status make_figure(const artist *self, const ps_picture *what, ps_pool *memory,
+                                ps_figure *out) {
+    ps_text title = {0};
+    ps_chart chart = {.what = what->kind,
+                      .axes = self->result->asked->axes,
+                      .image_maximum = self->image_maximum,
+                      .watch = &self->run->hooks.watch};
+    write_title(self, what, &title);
+    PS_TRY(ps_text_keep(&chart.title, memory, &title, self->error));
+    PS_TRY(take_parts(self, what, memory, &chart));
+    PS_TRY(name_panels(self, what, memory, &chart));
+    return what->kind->make(out, memory, &chart, self->error);
+}
+
+/* ---- the picture ----------------------------------------------------------------------------- */
+
+/* Takes the text: of the picture, or else why there is none. */
+static pspec_status add_plot(const artist *self, const ps_picture *what, ps_text *svg,
+                             ps_text *reason) {
+    ps_run_result *const result = self->result;
+    void *plots = result->plots;
+    PS_TRY(ps_grow(&plots, &result->plot_capacity, result->num_plots + 1, sizeof *result->plots,
+                   "pictures", self->error));
+    result->plots = plots;
+    result->plots[result->num_plots++] =
+        (ps_run_plot){what, svg != NULL ? svg->data : NULL, reason != NULL ? reason->data : NULL};
+    *(svg != NULL ? svg : reason) = (ps_text){0};
+    return PSPEC_OK;
+}
+
+/* A picture is a function of its script: gnuplot need not run twice for the same. */
+static pspec_status find_svg(const artist *self, const ps_text *key, ps_text *svg) {
+    void *bytes = NULL;
+    size_t num = 0;
+    bool is_found = false;
+    ps_error reason = {0};
+    if (self->run->cache != NULL && ps_cache_get(self->run->cache, key->data, key->length, &bytes,
+                                                 &num, &is_found, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(self->run, &reason);
+    }
+    if (is_found) {
+        ps_text_append_bytes(svg, bytes, num);
+    }
+    free(bytes);
+    return ps_text_check(svg, self->error);
+}
+
+static void keep_svg(const artist *self, const ps_text *key, const ps_text *svg) {
+    ps_error reason = {0};
+    if (self->run->cache != NULL && ps_cache_put(self->run->cache, key->data, key->length,
+                                                 svg->data, svg->length, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(self->run, &reason);
+    }
+}
+
+static pspec_status draw_figure(const artist *self, const ps_picture *what,
+                                const ps_figure *figure) {
+    ps_text script = {0};
+    ps_text key = {0};
+    ps_text svg = {0};
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, ps_figure_write_script(&script, figure, self->error));
+    ps_text_append(&key, "plot\n%s", ps_text_string(&self->run->identity));
+    ps_text_append_bytes(&key, script.data, script.length);
+    PS_TRY_OUT(status, ps_text_check(&key, self->error));
+    PS_TRY_OUT(status, find_svg(self, &key, &svg));
+    if (svg.length == 0) {
+        PS_TRY_OUT(status, ps_plot_draw_script(&svg, &script, self->error));
+        keep_svg(self, &key, &svg);
+    }
+    status = add_plot(self, what, &svg, NULL);
+out:
+    ps_text_free(&script);
+    ps_text_free(&key);
+    ps_text_free(&svg);
+    return status;
+}
+
+/* Lists of frequencies have no normalized ones, subsets of rings no array; of few degrees there is
+ * no line. */
+static bool is_there(const artist *self, const ps_picture *what) {
+    enum { FEWEST_ROWS = 4 };
+    const ps_table *const table = table_of(self, what->curves[0]);
+    const ps_picture_kind *const kind = what->kind;
+    size_t column = 0;
+    ps_plot_image image;
+    return (!kind->is_spectrum || ps_table_find_column(table, kind->x, &column)) &&
+           (kind->needs != PS_NEEDS_PICTURES || ps_spectra_find_image(&image, table)) &&
+           (kind->make != ps_lines_figure || ps_table_num_rows(table) >= FEWEST_ROWS);
+}
+
+static pspec_status draw(const artist *self, const ps_picture *what) {
+    ps_pool memory = {0};
+    ps_figure figure;
+    pspec_status status = PSPEC_OK;
+    if (is_there(self, what)) {
+        PS_TRY_OUT(status, make_figure(self, what, &memory, &figure));
+        PS_TRY_OUT(status, draw_figure(self, what, &figure));
+    }
+out:
+    ps_pool_free(&memory);
+    return status;
+}
+
+/* ---- all of them ----------------------------------------------------------------------------- */
 
 /* Images of a result have the same colours for the same powers. */
-static pspec_status find_maximum(const ps_artist *artist, double *out) {
-    const ps_pictures *const pictures = &artist->result->pictures;
-    *out = 0;
-    for (size_t i = 0; i < pictures->num; i++) {
+static pspec_status find_maximum(artist *self) {
+    for (size_t i = 0; self->result->asked->wants_pictures && i < self->result->num; i++) {
         ps_plot_image image;
         double own = 0;
-        if (pictures->all[i].form == PS_PICTURE_IMAGE &&
-            find_image(artist->result, pictures->all[i].curves[0], &image)) {
-            PS_TRY(ps_plot_find_maximum(&own, &image, artist->error));
-            *out = fmax(*out, own);
+        if (ps_spectra_find_image(&image, table_of(self, i))) {
+            PS_TRY(ps_plot_find_maximum(&own, &image, self->error));
+            self->image_maximum = own > self->image_maximum ? own : self->image_maximum;
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status draw_image(const ps_artist *artist, const ps_picture *what) {
-    ps_plot_image image;
-    if (!find_image(artist->result, what->curves[0], &image)) {
-        return PSPEC_OK;
-    }
-    image.maximum = artist->image_maximum;
-    return ps_draw_curves(artist, what, &image);
-}
-
-/* Lists of frequencies have no normalized ones, and no picture. */
-static bool has_bins(const ps_run_result *result) {
-    size_t column = 0;
-    return ps_table_find_column(result->questions[0].answer.table, result->asked->kind->spectrum->x,
-                                &column);
-}
-
-static pspec_status draw(const ps_artist *artist, const ps_picture *what) {
-    const bool is_image = what->form == PS_PICTURE_IMAGE;
-    if (what->form == PS_PICTURE_POINTS) {
-        return ps_draw_points(artist, what);
-    }
-    if (what->form == PS_PICTURE_SCATTER) {
-        return ps_draw_scatter(artist, what);
-    }
-    if (what->form == PS_PICTURE_CHART) {
-        return ps_draw_chart(artist, what);
-    }
-    const bool is_spectrum = is_image || what->form == PS_PICTURE_SPECTRA;
-    if (is_spectrum && !has_bins(artist->result)) {
-        return PSPEC_OK;
-    }
-    return is_image ? draw_image(artist, what) : ps_draw_curves(artist, what, NULL);
-}
-
 /* What a picture costs is a picture: the numbers are there. */
-static pspec_status note_failure(const ps_artist *artist, const ps_picture *what) {
-    ps_run *const run = artist->run;
+static pspec_status note_failure(const artist *self, const ps_picture *what) {
+    ps_run *const run = self->run;
     ps_text reason = {0};
-    ps_text_append(&reason, "%s", artist->error->message);
+    ps_text_append(&reason, "%s", self->error->message);
     if (run->num_undrawn++ == 0) {
-        run->undrawn = *artist->error;
+        run->undrawn = *self->error;
     }
-    *artist->error = (ps_error){0};
-    pspec_status status = ps_text_check(&reason, artist->error);
+    *self->error = (ps_error){0};
+    pspec_status status = ps_text_check(&reason, self->error);
     if (status == PSPEC_OK) {
-        status = ps_run_add_plot(artist, what, NULL, &reason);
+        status = add_plot(self, what, NULL, &reason);
     }
     ps_text_free(&reason);
     return status;
 }
 
 /* Once for a result: its pictures have the same panels. */
-static void say_panels(const ps_artist *artist) {
-    const ps_scene_result *const asked = artist->result->asked;
-    const ps_pictures *const pictures = &artist->result->pictures;
+static void say_panels(const artist *self) {
+    const ps_scene_result *const asked = self->result->asked;
+    const ps_pictures *const pictures = &self->result->pictures;
     size_t i = 0;
     while (i < pictures->num && pictures->all[i].num_panels == 1) {
         i++;
@@ -107,24 +273,24 @@ static void say_panels(const ps_artist *artist) {
     }
     ps_text text = {0};
     ps_picture_say_panels(&pictures->all[i], asked, &text);
-    ps_answer_warn(&artist->run->hooks, "%s%s.svg: %s", asked->name, pictures->all[i].suffix,
+    ps_answer_warn(&self->run->hooks, "%s%s.svg: %s", asked->name, pictures->all[i].suffix,
                    ps_text_string(&text));
     ps_text_free(&text);
 }
 
 pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *error) {
-    ps_artist artist = {run, result, error, 0};
-    say_panels(&artist);
-    PS_TRY(find_maximum(&artist, &artist.image_maximum));
+    artist self = {run, result, error, 0};
+    say_panels(&self);
+    PS_TRY(find_maximum(&self));
     for (size_t i = 0; i < result->pictures.num; i++) {
         const ps_picture *const what = &result->pictures.all[i];
-        const pspec_status status = draw(&artist, what);
+        const pspec_status status = draw(&self, what);
         if (status == PSPEC_ERROR_CANCELLED ||
             (status != PSPEC_OK && ps_answer_is_interrupted(&run->hooks))) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted while pictures were drawn");
         }
         if (status != PSPEC_OK) {
-            PS_TRY(note_failure(&artist, what));
+            PS_TRY(note_failure(&self, what));
         }
     }
     return PSPEC_OK;

@@ -6,8 +6,7 @@
  *     cache.c      keys and bytes of answers in the cache
  *     tables.c     tables of the results, and summaries
  *     pictures.c   which pictures there are
- *     plots.c      those pictures, drawn: lines.c, charts.c and points.c have their numbers,
- *                  drawing.c their SVG
+ *     plots.c      those pictures, drawn; labels.c has the words that tell curves apart
  *     page.c       the page that shows them
  *     record.c     the record that repeats them
  *     files.c      names of the files that there will be

@@ -1,6 +1,7 @@
 #include "verify/bench/bench.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "plots/plot.h"
 
 #include <stdio.h>
@@ -30,7 +31,6 @@ void ps_bench_rows_free(ps_bench_rows *rows) {
 enum { MOST_SERIES = PS_FIGURES_ENGINES * 2 + 1 };
 
 typedef struct panel {
-    char title[128];
     char labels[MOST_SERIES][64];
     ps_series series[MOST_SERIES];
     double *numbers; /* [MOST_SERIES][2][rows] */
@@ -92,20 +92,20 @@ static size_t pack_series(panel *out) {
     return num;
 }
 
-static pspec_status make_panel(panel *out, ps_panel *plot, const ps_bench_row *rows, size_t num,
-                               ps_error *error) {
+static pspec_status make_panel(ps_panel *plot, ps_pool *memory, const ps_bench_row *rows,
+                               size_t num, ps_error *error) {
+    panel *out = NULL;
     const ps_bench_row **sorted = NULL;
-    PS_TRY(PS_NEW(&out->numbers, MOST_SERIES * 2 * num, "a picture", error));
-    PS_TRY(PS_NEW(&sorted, num, "a picture", error));
+    PS_TRY(PS_POOL_NEW(memory, &out, 1, "a picture", error));
+    PS_TRY(PS_POOL_NEW(memory, &out->numbers, MOST_SERIES * 2 * num, "a picture", error));
+    PS_TRY(PS_POOL_NEW(memory, &sorted, num, "a picture", error));
     for (size_t i = 0; i < num; i++) {
         sorted[i] = &rows[i];
     }
     qsort(sorted, num, sizeof *sorted, compare_seconds);
     out->series[0] = (ps_series){.label = "Pareto front", .is_front = true};
     fill_series(out, sorted, num);
-    free(sorted);
-    snprintf(out->title, sizeof out->title, "%s", rows[0].what->what.name);
-    *plot = (ps_panel){out->title, pack_series(out), out->series};
+    *plot = (ps_panel){rows[0].what->what.name, pack_series(out), out->series};
     return PSPEC_OK;
 }
 
@@ -126,41 +126,37 @@ static size_t count_panels(const ps_bench_rows *measured) {
     return num;
 }
 
-static pspec_status draw(const char *path, const ps_bench_rows *measured, const char *device,
-                         panel *panels, ps_panel *plots, ps_error *error) {
-    char title[256];
-    size_t num = 0;
-    for (size_t i = 0; i < measured->num; i += count_of_case(measured, i)) {
-        PS_TRY(make_panel(&panels[num], &plots[num], measured->rows + i, count_of_case(measured, i),
-                          error));
-        num++;
+static pspec_status make_figure(ps_figure *out, ps_pool *memory, const ps_bench_rows *measured,
+                                const char *device, ps_error *error) {
+    const size_t num = count_panels(measured);
+    ps_panel *plots = NULL;
+    ps_text title = {0};
+    size_t at = 0;
+    PS_TRY(PS_POOL_NEW(memory, &plots, num, "a picture", error));
+    for (size_t i = 0; i < num; i++) {
+        const size_t num_rows = count_of_case(measured, at);
+        PS_TRY(make_panel(&plots[i], memory, measured->rows + at, num_rows, error));
+        at += num_rows;
     }
-    snprintf(title, sizeof title, "run time against error, %s", device);
-    const ps_figure figure = {.form = PS_FIGURE_MARKS,
-                              .title = title,
-                              .x_label = "seconds per realization",
-                              .y_label = "error",
-                              .is_log_x = true,
-                              .is_log_y = true,
-                              .num_panels = num,
-                              .panels = plots};
-    return ps_figure_write(path, &figure, error);
+    ps_text_append(&title, "run time against error, %s", device);
+    *out = (ps_figure){.form = PS_FIGURE_MARKS,
+                       .x_label = "seconds per realization",
+                       .y_label = "error",
+                       .is_log_x = true,
+                       .is_log_y = true,
+                       .num_panels = num,
+                       .panels = plots};
+    return ps_text_keep(&out->title, memory, &title, error);
 }
 
 pspec_status ps_bench_plot(const char *path, const ps_bench_rows *measured, const char *device,
                            ps_error *error) {
-    const size_t num = count_panels(measured);
-    ps_panel *plots = NULL;
-    panel *panels = NULL;
-    PS_TRY(PS_NEW(&panels, num, "a picture", error));
-    pspec_status status = PS_NEW(&plots, num, "a picture", error);
+    ps_pool memory = {0};
+    ps_figure figure;
+    pspec_status status = make_figure(&figure, &memory, measured, device, error);
     if (status == PSPEC_OK) {
-        status = draw(path, measured, device, panels, plots, error);
+        status = ps_figure_write(path, &figure, error);
     }
-    for (size_t i = 0; i < num; i++) {
-        free(panels[i].numbers);
-    }
-    free(panels);
-    free(plots);
+    ps_pool_free(&memory);
     return status;
 }
