@@ -9,6 +9,7 @@
 static pspec_status give(void *payload, uint64_t realization, pspec_pattern *out, bool *has_set,
                          ps_error *error) {
     test_given *const self = payload;
+    assert_true(pthread_equal(pthread_self(), self->thread));
     assert_true(realization == self->next || realization + 1 == self->next || realization == 0);
     self->next = realization + 1;
     self->num_calls++;
@@ -50,7 +51,10 @@ void test_given_make(test_given *self, const test_folder *folder, const char *na
                      unsigned dimension, bool has_weights, size_t num_sets, size_t num,
                      size_t more) {
     uint64_t state = num_sets + 7;
-    *self = (test_given){.dimension = dimension, .num_sets = num_sets, .has_weights = has_weights};
+    *self = (test_given){.dimension = dimension,
+                         .num_sets = num_sets,
+                         .has_weights = has_weights,
+                         .thread = pthread_self()};
     test_path(folder, name, self->name);
     for (size_t r = 0; r < num_sets; r++) {
         self->num_points[r] = num + r * more;

@@ -7,6 +7,8 @@
 #include "answers/kind.h"
 #include "harness_points.h"
 
+#include <pthread.h>
+
 enum { TEST_MOST_SETS = 64, TEST_LINE = 512, TEST_MOST_FILES = 4 };
 
 /* Sets of a caller. What it shows is a copy, gone at the next call: sanitizers find who reads it
@@ -18,6 +20,7 @@ typedef struct test_given {
     bool has_weights;
     double *points[TEST_MOST_SETS], *weights[TEST_MOST_SETS];
     double *view;
+    pthread_t thread;       /* which made them, and alone may ask */
     size_t next, num_calls; /* the realization that may come, and calls */
     size_t failing, other;  /* sets that fail, or have other dimensions, from 1; 0: none */
 } test_given;
