@@ -3,7 +3,7 @@
  *     bench_blue_noise [times]           milliseconds beside plain C loops (blue_noise/plain.h)
  *     bench_blue_noise cost              seconds beside those of prototypes
  *     bench_blue_noise hours [SETS]      hours of 1000 sets on two cores, from 20 or so many
- *     bench_blue_noise means [SETS]      N r^d, of which radii are made (samplers/darts/radius.c)
+ *     bench_blue_noise means [SETS]      N r^d, of which radii are made (samplers/darts)
  *     bench_blue_noise peers FOLDER [ROW]  beside programs of others, all or those whose rows begin so
  *                                        (bench_blue_noise_peers.sh)
  */
@@ -11,10 +11,7 @@
 
 #include "blue_noise/modes.h"
 #include "blue_noise/plain.h"
-#include "samplers/darts/bridson.h"
-#include "samplers/darts/poisson_disk.h"
-#include "samplers/darts/radius.h"
-#include "samplers/darts/sphere_disk.h"
+#include "samplers/darts/distance.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,26 +23,23 @@ enum { REPEATS = 7 };
 typedef struct blue {
     const char *name;
     unsigned dimension;
-    pspec_status (*make)(const ps_blue_noise *, ps_random *, double *, size_t *, ps_error *);
+    const ps_distance_kind *distance;
     size_t (*plain)(bench_room *, double radius, ps_random *); /* may be NULL */
 } blue;
 
 static const blue KINDS[] = {
-    {"poisson-disk", 2, ps_poisson_disk_points, bench_plain_darts},
-    {"poisson-disk", 3, ps_poisson_disk_points, NULL},
-    {"bridson", 2, ps_bridson_points, bench_plain_bridson},
-    {"bridson", 3, ps_bridson_points, NULL},
-    {"bridson", 4, ps_bridson_points, NULL},
-    {"poisson-disk-sphere", 3, ps_sphere_disk_points, bench_plain_sphere},
+    {"poisson-disk", 2, &ps_poisson_disk_kind, bench_plain_darts},
+    {"poisson-disk", 3, &ps_poisson_disk_kind, NULL},
+    {"bridson", 2, &ps_bridson_kind, bench_plain_bridson},
+    {"bridson", 3, &ps_bridson_kind, NULL},
+    {"bridson", 4, &ps_bridson_kind, NULL},
+    {"poisson-disk-sphere", 3, &ps_sphere_disk_kind, bench_plain_sphere},
 };
 enum { NUM_KINDS = sizeof KINDS / sizeof KINDS[0] };
 
 static double radius_of(const blue *kind, unsigned tries, size_t num) {
-    if (kind->make == ps_sphere_disk_points) {
-        return ps_sphere_disk_radius(num);
-    }
-    return kind->make == ps_bridson_points ? ps_bridson_radius(kind->dimension, tries, num)
-                                           : ps_poisson_disk_radius(kind->dimension, num);
+    const ps_blue_noise asked = {.dimension = kind->dimension, .tries = tries};
+    return kind->distance->radius(&asked, num);
 }
 
 static size_t make(const blue *kind, const bench_room *r, double radius, unsigned tries,
@@ -56,7 +50,7 @@ static size_t make(const blue *kind, const bench_room *r, double radius, unsigne
                                  .most_points = BENCH_MOST_POINTS};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, set);
     size_t num = 0;
-    BENCH_TRY(kind->make(&asked, &random, r->points, &num, error));
+    BENCH_TRY(kind->distance->make(&asked, &random, r->points, &num, error));
     return num;
 }
 
@@ -98,7 +92,7 @@ static void count_kind(const blue *kind, const bench_room *r, unsigned tries, in
     }
     const double mean = sum / num_sets;
     const double variance = squares / num_sets - mean * mean;
-    const int power = kind->make == ps_sphere_disk_points ? 2 : (int)kind->dimension;
+    const int power = kind->distance == &ps_sphere_disk_kind ? 2 : (int)kind->dimension;
     printf("%-20s %u %6u %9.2f %6.2f %8.5f\n", kind->name, kind->dimension, tries, mean,
            sqrt(variance / num_sets), mean * pow(radius, power));
 }
@@ -107,7 +101,7 @@ static void count_kinds(const bench_room *r, int num_sets) {
     const unsigned tries[] = {2, 3, 5, 10, 20, 30, 50, 100, 200, 400, 1000};
     printf("%-20s d %6s %9s %6s %8s\n", "sampler", "tries", "mean N", "error", "N r^d");
     for (size_t k = 0; k < NUM_KINDS; k++) {
-        const bool has_tries = KINDS[k].make == ps_bridson_points;
+        const bool has_tries = KINDS[k].distance == &ps_bridson_kind;
         for (size_t i = 0; i < (has_tries ? sizeof tries / sizeof *tries : 1); i++) {
             count_kind(&KINDS[k], r, has_tries ? tries[i] : 0, num_sets);
         }

@@ -5,7 +5,7 @@
 
 #include "bench.h"
 #include "blue_noise/peers.h"
-#include "samplers/darts/radius.h"
+#include "samplers/darts/distance.h"
 #include "samplers/optimized/bnot.h"
 
 #include <dlfcn.h>
@@ -93,7 +93,8 @@ static unsigned rounds_of(const contest *c, size_t num) {
 }
 
 static double parameter_of(const contest *c, size_t num) {
-    return c->parameter > 0 ? c->parameter : ps_poisson_disk_radius(2, num);
+    const ps_blue_noise asked = {.dimension = 2};
+    return c->parameter > 0 ? c->parameter : ps_poisson_disk_kind.radius(&asked, num);
 }
 
 /* Both from the same points where the peer takes some. */

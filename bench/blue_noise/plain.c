@@ -1,8 +1,7 @@
 #include "blue_noise/plain.h"
 
 #include "math/pi.h"
-#include "samplers/darts/radius.h"
-#include "samplers/darts/sphere_disk.h"
+#include "samplers/darts/distance.h"
 
 #include <math.h>
 
@@ -52,7 +51,8 @@ static int start(bench_room *r, double radius) {
 }
 
 size_t bench_plain_darts(bench_room *r, double radius, ps_random *random) {
-    const int darts = (int)(DARTS_PER_POINT * ps_poisson_disk_expected(2, radius));
+    const ps_blue_noise asked = {.dimension = 2, .radius = radius};
+    const int darts = (int)(DARTS_PER_POINT * ps_poisson_disk_kind.expected(&asked));
     const int side = start(r, radius);
     int num = 0;
     for (int i = 0; i < darts; i++) {
@@ -121,7 +121,8 @@ static int is_free_on_sphere(const bench_room *r, int side, double chord, const 
 size_t bench_plain_sphere(bench_room *r, double radius, ps_random *random) {
     const double chord = 2 * sin(radius / 2);
     const int side = (int)(2 / chord) + 2;
-    const int darts = (int)(DARTS_PER_POINT * ps_sphere_disk_expected(radius));
+    const ps_blue_noise asked = {.radius = radius};
+    const int darts = (int)(DARTS_PER_POINT * ps_sphere_disk_kind.expected(&asked));
     int num = 0;
     for (int i = 0; i < side * side * side; i++) {
         r->cells[i] = -1;

@@ -62,7 +62,9 @@ typedef enum ps_sampler_domain {
 typedef ps_parameter ps_sampler_parameter;
 
 typedef struct ps_sampler ps_sampler;
-typedef struct ps_lender ps_lender; /* device/lender.h */
+typedef struct ps_lender ps_lender;               /* device/lender.h */
+typedef struct ps_distance_kind ps_distance_kind; /* samplers/darts/distance.h */
+typedef struct ps_digital_net ps_digital_net;     /* samplers/torus/digital_net.h */
 
 /* What to sample. values[i] belongs to sampler->parameters[i]. */
 typedef struct ps_sampler_request {
@@ -153,6 +155,10 @@ struct ps_sampler {
                                   size_t *num_points, ps_error *);
     /* The points of `generate`, rounded to multiples of 2^-64; {0}: not by index. */
     ps_sampler_by_index by_index;
+    /* Of samplers that keep a least distance; NULL: it keeps none. */
+    const ps_distance_kind *distance;
+    /* Of digital nets, whose first parameter is the scramble: makes the axes. NULL: it is none. */
+    pspec_status (*build_net)(const ps_sampler_request *, ps_digital_net *, ps_error *);
 };
 
 /* All samplers, ended by NULL. */

@@ -16,8 +16,11 @@ static inline double radical_mirror(const ps_u64 base, ps_u64 index) {
     return (double)numerator / (double)denominator;
 }
 
-/* Digits of index < 2^48 in the prime base number i_prime (2, 3, 5, 7, 11, 13), mirrored at the
- * point: whole numbers throughout, one correctly rounded division at the end. */
+/* Indices below this are mirrored exactly: the numerator stays below 13 * 2^48 < 2^53. */
+#define RADICAL_INVERSE_LIMIT ((ps_u64)1 << 48)
+
+/* Digits of an index below it in the prime base number i_prime (2, 3, 5, 7, 11, 13), mirrored at
+ * the point: whole numbers throughout, one correctly rounded division at the end. */
 static inline double radical_inverse(const ps_u32 i_prime, const ps_u64 index) {
     /* Not a table of bases: a base known to the compiler turns divisions into multiplications. */
     switch (i_prime) {

@@ -1,23 +1,42 @@
-/* Requests of samplers that keep a least distance: what their parameters radius=, exact= and tries=
- * say, how many points there will be, and sets of an exact number.
+/* Samplers that keep a least distance: what they are asked for, what their parameters radius=,
+ * exact= and tries= say, how many points there will be, and sets of an exact number.
  */
 #ifndef PS_SAMPLERS_DARTS_DISTANCE_H
 #define PS_SAMPLERS_DARTS_DISTANCE_H
 
-#include "samplers/darts/blue_noise.h"
+#include "math/random/random.h"
 #include "samplers/sampler.h"
 
+typedef struct ps_blue_noise {
+    unsigned dimension;    /* of the torus; on the sphere points have three numbers */
+    double radius;         /* points nearer than this are refused; on the sphere an angle */
+    unsigned tries;        /* of Bridson's, around a point */
+    size_t most_points;    /* room of the array of points */
+    const ps_watch *watch; /* may be NULL */
+} ps_blue_noise;
+
+/* Tells the watch; more points than were expected are told as all of them. */
+pspec_status ps_blue_noise_tell(const ps_blue_noise *asked, size_t num_points, double expected,
+                                ps_error *error) PS_MUST_CHECK;
+/* The room is full, which the bounds on numbers of points exclude. */
+pspec_status ps_blue_noise_fail_room(const ps_blue_noise *asked, ps_error *error) PS_MUST_CHECK;
+
 /* What such a sampler is besides its row. asked has the dimension and the tries. */
-typedef struct ps_distance_kind {
+struct ps_distance_kind {
     /* The radius at which num_points are made in the mean, and the mean at asked's radius. */
     double (*radius)(const ps_blue_noise *asked, size_t num_points);
     double (*expected)(const ps_blue_noise *asked);
+    /* More points than this are never at the radius from each other; SIZE_MAX for radii that are
+     * refused. */
     size_t (*most_points)(const ps_blue_noise *asked);
     double (*nanoseconds)(const ps_blue_noise *asked); /* of a point, plan/host_cost.c's machine */
+    /* Are radius and tries possible? */
     pspec_status (*check)(const ps_blue_noise *asked, ps_error *error);
+    /* Points [*num_points][dimension] in the order of their acceptance. */
     pspec_status (*make)(const ps_blue_noise *asked, ps_random *random, double *points,
                          size_t *num_points, ps_error *error);
-} ps_distance_kind;
+};
+extern const ps_distance_kind ps_poisson_disk_kind, ps_bridson_kind, ps_sphere_disk_kind;
 
 /* The parameters in their order; tries= is Bridson's alone. */
 #define PS_DISTANCE_RADIUS                                                                         \
@@ -27,42 +46,20 @@ typedef struct ps_distance_kind {
 #define PS_DISTANCE_TRIES                                                                          \
     { "tries", "30", "2 to 1000 around a point before it is left" }
 
-/* What members of the rows (samplers/sampler.h) do for a kind. */
+/* Members of the rows (samplers/sampler.h) with a .distance. */
 bool ps_distance_varies(const ps_sampler_request *request);
-size_t ps_distance_most_points(const ps_distance_kind *kind, const ps_sampler_request *request);
-double ps_distance_seconds(const ps_distance_kind *kind, const ps_sampler_request *request);
-pspec_status ps_distance_open_points(const ps_distance_kind *kind,
-                                     const ps_sampler_request *request, size_t *num_points,
+size_t ps_distance_most_points(const ps_sampler_request *request);
+double ps_distance_seconds(const ps_sampler_request *request);
+pspec_status ps_distance_open_points(const ps_sampler_request *request, size_t *num_points,
                                      ps_error *error) PS_MUST_CHECK;
-pspec_status ps_distance_check(const ps_distance_kind *kind, const ps_sampler_request *request,
-                               ps_error *error) PS_MUST_CHECK;
-pspec_status ps_distance_generate(const ps_distance_kind *kind, const ps_sampler_request *request,
-                                  uint64_t realization, double *points, size_t *num_points,
+pspec_status ps_distance_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_distance_generate(const ps_sampler_request *request, uint64_t realization,
+                                  double *points, size_t *num_points,
                                   ps_error *error) PS_MUST_CHECK;
-
-/* These members for the file's kind, and their place in its row. */
-#define PS_DISTANCE_FUNCTIONS(kind)                                                                \
-    static size_t row_most_points(const ps_sampler_request *request) {                             \
-        return ps_distance_most_points(&(kind), request);                                          \
-    }                                                                                              \
-    static double row_seconds(const ps_sampler_request *request) {                                 \
-        return ps_distance_seconds(&(kind), request);                                              \
-    }                                                                                              \
-    static pspec_status row_open_points(const ps_sampler_request *request, size_t *num_points,     \
-                                        ps_error *error) {                                         \
-        return ps_distance_open_points(&(kind), request, num_points, error);                       \
-    }                                                                                              \
-    static pspec_status row_check(const ps_sampler_request *request, ps_error *error) {            \
-        return ps_distance_check(&(kind), request, error);                                         \
-    }                                                                                              \
-    static pspec_status row_generate(const ps_sampler_request *request, uint64_t realization,      \
-                                     double *points, size_t *num_points, ps_error *error) {        \
-        return ps_distance_generate(&(kind), request, realization, points, num_points, error);     \
-    }
-
 #define PS_DISTANCE_MEMBERS                                                                        \
-    .varies = ps_distance_varies, .most_points = row_most_points, .seconds = row_seconds,          \
-    .is_deterministic = ps_sampler_never, .open_points = row_open_points, .check = row_check,      \
-    .generate_some = row_generate
+    .varies = ps_distance_varies, .most_points = ps_distance_most_points,                          \
+    .seconds = ps_distance_seconds, .is_deterministic = ps_sampler_never,                          \
+    .open_points = ps_distance_open_points, .check = ps_distance_check,                            \
+    .generate_some = ps_distance_generate
 
 #endif

@@ -9,7 +9,7 @@
 #ifndef PS_SAMPLERS_DARTS_PARTS_H
 #define PS_SAMPLERS_DARTS_PARTS_H
 
-#include "samplers/darts/blue_noise.h"
+#include "samplers/darts/distance.h"
 
 #include <stdbool.h>
 #include <stdint.h>

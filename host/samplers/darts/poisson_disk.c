@@ -1,10 +1,14 @@
-/* The torus as a space of cells with one point at most (parts.h). */
-#include "samplers/darts/poisson_disk.h"
+/* Maximal Poisson disk points of the torus: uniform random points in turn, each refused that is
+ * nearer than the radius to an earlier one, until no place is left. The distribution is that of
+ * plain dart throwing to saturation (M. S. Ebeida et al., "A simple algorithm for maximal
+ * Poisson-disk sampling in high dimensions", 2012).
+ * The torus is a space of cells with one point at most (parts.h). */
+#include "samplers/list.h"
 
 #include "base/memory.h"
 #include "samplers/darts/parts.h"
-#include "samplers/darts/radius.h"
 #include "samplers/darts/torus_grid.h"
+#include "samplers/values.h"
 
 #include <stdlib.h>
 
@@ -112,15 +116,32 @@ static unsigned open_children(void *space, uint32_t cell, const uint32_t *at, do
                                      : find_open(self, MOST_DIMENSION, at, side);
 }
 
+/* ---- numbers of points ---------------------------------------------------------------------- */
+
+/* N r^d of random balls at saturation: of disks whose radius is r/2 they cover 0.54707, of balls
+ * 0.38413 (G. Zhang, S. Torquato, "Precise algorithm to generate random sequential addition of hard
+ * hyperspheres at saturation", 2013). Measured over 1500 sets of 4096 points and 30 of 16384:
+ * 0.6966 and 0.7338. */
+static const double SATURATED[MOST_DIMENSION + 1] = {0, 0, 0.69656, 0.73364};
+
+/* From 16 points on the mean is right within 0.2 %, from 8 on within 2 %; 3 make 4. */
+static double radius(const ps_blue_noise *asked, size_t num_points) {
+    return ps_torus_radius_of(asked->dimension, SATURATED[asked->dimension], num_points);
+}
+
+static double expected(const ps_blue_noise *asked) {
+    return SATURATED[asked->dimension] / ps_torus_radius_power(asked->radius, asked->dimension);
+}
+
 /* ---- the whole ----------------------------------------------------------------------------- */
 
-pspec_status ps_poisson_disk_check(const ps_blue_noise *asked, ps_error *error) {
+static pspec_status check(const ps_blue_noise *asked, ps_error *error) {
     PS_TRY(ps_torus_radius_check(asked->dimension, asked->radius, error));
     return ps_torus_grid_check(asked->dimension, asked->radius, error);
 }
 
 static pspec_status create(torus *self, const ps_blue_noise *asked, ps_error *error) {
-    PS_TRY(ps_poisson_disk_check(asked, error));
+    PS_TRY(check(asked, error));
     PS_TRY(
         ps_torus_grid_create(&self->grid, asked->dimension, asked->radius, 0, self->points, error));
     const double reach = self->grid.num_side * asked->radius;
@@ -128,8 +149,8 @@ static pspec_status create(torus *self, const ps_blue_noise *asked, ps_error *er
     return PS_NEW(&self->near, self->grid.near.num * asked->dimension, "near points", error);
 }
 
-pspec_status ps_poisson_disk_points(const ps_blue_noise *asked, ps_random *random, double *points,
-                                    size_t *num_points, ps_error *error) {
+static pspec_status make(const ps_blue_noise *asked, ps_random *random, double *points,
+                         size_t *num_points, ps_error *error) {
     torus self = {.points = points};
     *num_points = 0;
     pspec_status status = create(&self, asked, error);
@@ -142,10 +163,40 @@ pspec_status ps_poisson_disk_points(const ps_blue_noise *asked, ps_random *rando
                                       .put = put,
                                       .enter = enter,
                                       .open_children = open_children};
-        const double expected = ps_poisson_disk_expected(asked->dimension, asked->radius);
-        status = ps_parts_saturate(&space, asked, expected, random, points, num_points, error);
+        status =
+            ps_parts_saturate(&space, asked, expected(asked), random, points, num_points, error);
     }
     ps_torus_grid_free(&self.grid);
     free(self.near);
     return status;
 }
+
+/* ---- the row --------------------------------------------------------------------------------- */
+
+/* bench_blue_noise, N = 1024 to 16384. */
+static double nanoseconds(const ps_blue_noise *asked) {
+    const double plane = 2000;
+    const double cube = 19000;
+    return asked->dimension < MOST_DIMENSION ? plane : cube;
+}
+
+const ps_distance_kind ps_poisson_disk_kind = {
+    .radius = radius,
+    .expected = expected,
+    .most_points = ps_torus_radius_most_points,
+    .nanoseconds = nanoseconds,
+    .check = check,
+    .make = make,
+};
+
+const ps_sampler ps_sampler_poisson_disk = {
+    .name = "poisson-disk",
+    .summary = "random points that keep a distance, until no place is left",
+    .aliases = {"darts", "poissondisk", "pd"},
+    .minimum_dimension = 2,
+    .maximum_dimension = MOST_DIMENSION,
+    .version = 1,
+    .parameters = {PS_DISTANCE_RADIUS, PS_DISTANCE_EXACT},
+    .distance = &ps_poisson_disk_kind,
+    PS_DISTANCE_MEMBERS,
+};

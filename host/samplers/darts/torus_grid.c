@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <stdint.h>
 
 static const double MOST_CELLS = 0x1p32; /* cells and points have numbers of 32 bits */
 
@@ -222,4 +223,55 @@ bool ps_torus_grid_is_free(const ps_torus_grid *grid, const uint32_t *indices,
     default:
         return is_free(grid, PS_GRID_MOST_DIMENSION, indices, place);
     }
+}
+
+/* ---- least distances ------------------------------------------------------------------------- */
+
+/* N r^d of the densest packings, rounded up: hexagonal, face-centred cubic, and in four dimensions
+ * the bound of H. Cohn and N. Elkies (2003). */
+static const double PACKED[PS_GRID_MOST_DIMENSION + 1] = {0, 0, 1.15471, 1.41422, 2.1003};
+
+double ps_torus_radius_power(double x, unsigned exponent) {
+    double product = 1;
+    for (unsigned i = 0; i < exponent; i++) {
+        product *= x;
+    }
+    return product;
+}
+
+static double largest(unsigned dimension) {
+    return sqrt(dimension) / 2;
+}
+
+/* x^(1/d) for x in (0,1] by Newton's method from above: unlike pow(), the same bits on any machine.
+ * At first a step takes the share 1/d away, so 200 reach any x that a number of points makes. */
+static double root(double x, unsigned dimension) {
+    enum { STEPS = 200 };
+    double y = 1;
+    for (unsigned i = 0; i < STEPS; i++) {
+        y -= (y - x / ps_torus_radius_power(y, dimension - 1)) / dimension;
+    }
+    return y;
+}
+
+pspec_status ps_torus_radius_check(unsigned dimension, double radius, ps_error *error) {
+    if (radius > 0 && radius <= largest(dimension)) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "radius %g is not above 0 and at most %g, which is the farthest that points of "
+                   "the torus in %u dimensions are apart",
+                   radius, largest(dimension), dimension);
+}
+
+size_t ps_torus_radius_most_points(const ps_blue_noise *asked) {
+    const double most =
+        PACKED[asked->dimension] / ps_torus_radius_power(asked->radius, asked->dimension);
+    const double possible = 0x1p32; /* a grid has no more */
+    return most < possible ? (size_t)most : SIZE_MAX;
+}
+
+double ps_torus_radius_of(unsigned dimension, double product, size_t num_points) {
+    const double radius = root(product / (double)num_points, dimension);
+    return radius < largest(dimension) ? radius : largest(dimension);
 }

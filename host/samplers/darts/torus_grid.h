@@ -5,6 +5,7 @@
 #define PS_SAMPLERS_DARTS_TORUS_GRID_H
 
 #include "base/status.h"
+#include "samplers/darts/distance.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -86,5 +87,21 @@ static inline uint32_t ps_torus_grid_neighbour(const ps_torus_grid *grid, const 
 
 /* Is every point at least the radius away from a place in this empty cell, and the cell empty? */
 bool ps_torus_grid_is_free(const ps_torus_grid *grid, const uint32_t *indices, const double *place);
+
+/* ---- least distances: from numbers of points and back --------------------------------------- */
+
+/* A radius may be above 0 and up to sqrt(d)/2, the farthest that two points of [0,1)^d are apart,
+ * wrapped. */
+pspec_status ps_torus_radius_check(unsigned dimension, double radius,
+                                   ps_error *error) PS_MUST_CHECK;
+
+/* More points than this are never at the radius from each other: the densest packing of balls.
+ * SIZE_MAX for radii that no grid has. */
+size_t ps_torus_radius_most_points(const ps_blue_noise *asked);
+
+/* x^exponent: the same bits on any machine, and so is the radius at which num_points make
+ * N r^d = product, at most sqrt(d)/2. */
+double ps_torus_radius_power(double x, unsigned exponent);
+double ps_torus_radius_of(unsigned dimension, double product, size_t num_points);
 
 #endif

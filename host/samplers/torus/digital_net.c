@@ -9,27 +9,38 @@
 static const double COORDINATE_STEP = 0x1p-53;
 static const char *const SCRAMBLES[] = {"none", "xor", "owen", NULL};
 
-pspec_status ps_digital_net_scramble(const ps_sampler_request *request, unsigned i_parameter,
-                                     ps_net_scramble *scramble, ps_error *error) {
+static pspec_status scramble_of(const ps_sampler_request *request, ps_net_scramble *scramble,
+                                ps_error *error) {
     unsigned choice = 0;
-    PS_TRY(ps_sampler_choice(request, i_parameter, SCRAMBLES, &choice, error));
+    PS_TRY(ps_sampler_choice(request, 0, SCRAMBLES, &choice, error));
     *scramble = (ps_net_scramble)choice; /* SCRAMBLES is in the order of the enumeration */
     return PSPEC_OK;
 }
 
-bool ps_digital_net_is_plain(const ps_sampler_request *request, unsigned i_parameter) {
+pspec_status ps_digital_net_check(const ps_sampler_request *request, ps_error *error) {
     ps_net_scramble scramble = PS_NET_PLAIN;
-    return ps_digital_net_scramble(request, i_parameter, &scramble, NULL) == PSPEC_OK &&
-           scramble == PS_NET_PLAIN;
+    return scramble_of(request, &scramble, error);
 }
 
-double ps_digital_net_seconds(const ps_sampler_request *request, unsigned i_parameter) {
+bool ps_digital_net_is_plain(const ps_sampler_request *request) {
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    return scramble_of(request, &scramble, NULL) == PSPEC_OK && scramble == PS_NET_PLAIN;
+}
+
+double ps_digital_net_seconds(const ps_sampler_request *request) {
     static const double nanoseconds[] = {
         [PS_NET_PLAIN] = 1.7, [PS_NET_XOR] = 1.7, [PS_NET_OWEN] = 160}; /* of a coordinate */
     ps_net_scramble scramble = PS_NET_PLAIN;
-    return ps_digital_net_scramble(request, i_parameter, &scramble, NULL) == PSPEC_OK
+    return scramble_of(request, &scramble, NULL) == PSPEC_OK
                ? ps_sampler_numbers(request) * nanoseconds[scramble] * PS_NANOSECOND
                : 0;
+}
+
+static pspec_status make(const ps_sampler_request *request, ps_digital_net *net,
+                         ps_net_scramble *scramble, ps_error *error) {
+    *net = (ps_digital_net){.dimension = request->dimension};
+    PS_TRY(scramble_of(request, scramble, error));
+    return request->sampler->build_net(request, net, error);
 }
 
 void ps_digital_net_set_axis(ps_digital_net *net, unsigned axis,
@@ -61,23 +72,25 @@ static void step(const ps_digital_net *net, uint64_t j, uint32_t words[PS_MAX_DI
     }
 }
 
-pspec_status ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble,
-                                     const ps_sampler_request *request, uint64_t realization,
+pspec_status ps_digital_net_generate(const ps_sampler_request *request, uint64_t realization,
                                      double *points, ps_error *error) {
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    ps_digital_net net;
+    PS_TRY(make(request, &net, &scramble, error));
     const ps_random stream = ps_random_init(request->seed, PS_STREAM_SCRAMBLE, realization);
     const philox_stream blocks = {request->seed, realization, PS_STREAM_SCRAMBLE};
     uint64_t shifts[PS_MAX_DIMENSION];
     uint32_t words[PS_MAX_DIMENSION];
     draw_shifts(scramble, &stream, shifts);
-    for (unsigned i = 0; i < net->dimension; i++) {
-        words[i] = net->origin[i];
+    for (unsigned i = 0; i < net.dimension; i++) {
+        words[i] = net.origin[i];
     }
     for (size_t j = 0; j < request->num_points; j++) {
         PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         if (j > 0) {
-            step(net, j, words);
+            step(&net, j, words);
         }
-        for (unsigned i = 0; i < net->dimension; i++) {
+        for (unsigned i = 0; i < net.dimension; i++) {
             const uint64_t digits = net_digits(scramble, blocks, i, words[i], shifts[i]);
             *points++ = (double)(int64_t)digits * COORDINATE_STEP;
         }
@@ -85,11 +98,15 @@ pspec_status ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble 
     return PSPEC_OK;
 }
 
-void ps_digital_net_places(const ps_digital_net *net, ps_net_scramble scramble,
-                           ps_sampler_places *out) {
+pspec_status ps_digital_net_fill(const ps_sampler_request *request, ps_sampler_places *out,
+                                 ps_error *error) {
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    ps_digital_net net;
+    PS_TRY(make(request, &net, &scramble, error));
     out->numbers.scramble = scramble;
-    for (unsigned i = 0; i < net->dimension; i++) {
-        out->numbers.origin[i] = net->origin[i];
-        memcpy(out->table[i], net->steps[i], sizeof out->table[i]);
+    for (unsigned i = 0; i < net.dimension; i++) {
+        out->numbers.origin[i] = net.origin[i];
+        memcpy(out->table[i], net.steps[i], sizeof out->table[i]);
     }
+    return PSPEC_OK;
 }

@@ -5,20 +5,19 @@
 #include "base/text.h"
 #include "samplers/pace.h"
 #include "samplers/radical_inverse.h"
-#include "samplers/torus/radical_inverse.h"
 #include "samplers/values.h"
 
 enum { START };
 
 static pspec_status first_index(const ps_sampler_request *request, uint64_t *start,
                                 ps_error *error) {
-    const uint64_t most = PS_RADICAL_INVERSE_LIMIT - request->num_points;
+    const uint64_t most = RADICAL_INVERSE_LIMIT - request->num_points;
     return ps_parse_count(request->values[START], "sampler halton: start", 0, most, start, error);
 }
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     uint64_t start = 0;
-    PS_TRY(ps_sampler_limit_points(request, PS_RADICAL_INVERSE_LIMIT, error));
+    PS_TRY(ps_sampler_limit_points(request, RADICAL_INVERSE_LIMIT, error));
     return first_index(request, &start, error);
 }
 
@@ -30,7 +29,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     for (size_t j = 0; j < request->num_points; j++) {
         PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         for (unsigned i = 0; i < request->dimension; i++) {
-            points[j * request->dimension + i] = ps_radical_inverse(i, start + j);
+            points[j * request->dimension + i] = radical_inverse(i, start + j);
         }
     }
     return PSPEC_OK;

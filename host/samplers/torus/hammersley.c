@@ -4,11 +4,10 @@
 
 #include "samplers/pace.h"
 #include "samplers/radical_inverse.h"
-#include "samplers/torus/radical_inverse.h"
 #include "samplers/values.h"
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
-    return ps_sampler_limit_points(request, PS_RADICAL_INVERSE_LIMIT, error);
+    return ps_sampler_limit_points(request, RADICAL_INVERSE_LIMIT, error);
 }
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
@@ -19,7 +18,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
         PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         point[0] = (double)j / (double)request->num_points;
         for (unsigned i = 1; i < request->dimension; i++) {
-            point[i] = ps_radical_inverse(i - 1, j);
+            point[i] = radical_inverse(i - 1, j);
         }
     }
     return PSPEC_OK;

@@ -6,7 +6,7 @@
 #include "samplers/torus/digital_net.h"
 #include "samplers/values.h"
 
-enum { SCRAMBLE, CENTRED };
+enum { CENTRED = 1 };
 enum {
     MAXIMUM_LOG_POINTS = PS_NET_DIGITS - 1 /* one digit stays free, for the centre of the cell */
 };
@@ -24,9 +24,13 @@ static unsigned log2_points(const ps_sampler_request *request) {
     return m;
 }
 
-static void build_net(unsigned m, bool is_centred, ps_digital_net *net) {
+static pspec_status build_net(const ps_sampler_request *request, ps_digital_net *net,
+                              ps_error *error) {
+    const unsigned m = log2_points(request);
+    unsigned is_centred = 0;
     uint32_t reversed[PS_NET_DIGITS] = {0};
     uint32_t ones[PS_NET_DIGITS] = {0};
+    PS_TRY(ps_sampler_choice(request, CENTRED, ANSWERS, &is_centred, error));
     for (unsigned b = 0; b < m; b++) {
         reversed[b] = (uint32_t)1 << (PS_NET_DIGITS - m + b); /* j/N: digits in their own order */
         ones[b] = UINT32_MAX << (PS_NET_DIGITS - 1 - b);
@@ -35,22 +39,14 @@ static void build_net(unsigned m, bool is_centred, ps_digital_net *net) {
     ps_digital_net_set_axis(net, 1, ones);
     for (unsigned i = 0; i < net->dimension; i++) {
         /* No direction number has the digit of 1/(2N), so this adds it to every point. */
-        net->origin[i] = is_centred ? (uint32_t)1 << (PS_NET_DIGITS - 1 - m) : 0;
+        net->origin[i] = is_centred == 1 ? (uint32_t)1 << (PS_NET_DIGITS - 1 - m) : 0;
     }
-}
-
-static bool is_deterministic(const ps_sampler_request *request) {
-    return ps_digital_net_is_plain(request, SCRAMBLE);
-}
-
-static double seconds(const ps_sampler_request *request) {
-    return ps_digital_net_seconds(request, SCRAMBLE);
+    return PSPEC_OK;
 }
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
     unsigned answer = 0;
-    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, &scramble, error));
+    PS_TRY(ps_digital_net_check(request, error));
     PS_TRY(ps_sampler_choice(request, CENTRED, ANSWERS, &answer, error));
     PS_TRY(ps_sampler_limit_points(request, (uint64_t)1 << MAXIMUM_LOG_POINTS, error));
     if (!is_power_of_2(request->num_points)) {
@@ -62,33 +58,6 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status prepare(const ps_sampler_request *request, ps_digital_net *net,
-                            ps_net_scramble *scramble, ps_error *error) {
-    unsigned is_centred = 0;
-    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, scramble, error));
-    PS_TRY(ps_sampler_choice(request, CENTRED, ANSWERS, &is_centred, error));
-    *net = (ps_digital_net){.dimension = request->dimension};
-    build_net(log2_points(request), is_centred, net);
-    return PSPEC_OK;
-}
-
-static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
-                             double *points, ps_error *error) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
-    ps_digital_net net;
-    PS_TRY(prepare(request, &net, &scramble, error));
-    return ps_digital_net_generate(&net, scramble, request, realization, points, error);
-}
-
-static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
-                         ps_error *error) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
-    ps_digital_net net;
-    PS_TRY(prepare(request, &net, &scramble, error));
-    ps_digital_net_places(&net, scramble, out);
-    return PSPEC_OK;
-}
-
 const ps_sampler ps_sampler_larcher_pillichshammer = {
     .name = "larcher-pillichshammer",
     .summary = "plane net of low discrepancy, N a power of 2",
@@ -97,9 +66,7 @@ const ps_sampler ps_sampler_larcher_pillichshammer = {
     .maximum_dimension = 2,
     .parameters = {PS_NET_SCRAMBLE_PARAMETER,
                    {"centred", "no", "no|yes, add 1/(2N) to both coordinates before scrambling"}},
-    .seconds = seconds,
-    .is_deterministic = is_deterministic,
     .check = check,
-    .generate = generate,
-    .by_index = {.name = "net", .fill = fill, .places = net_places},
+    .build_net = build_net,
+    PS_NET_MEMBERS,
 };

@@ -8,7 +8,6 @@
 #include "samplers/torus/digital_net.h"
 #include "samplers/values.h"
 
-enum { SCRAMBLE };
 enum { MAXIMUM_DEGREE = 4, NUM_POLYNOMIALS = PS_MAX_DIMENSION - 1 };
 
 /* A primitive polynomial x^degree + a_1 x^(degree-1) + .. + 1, inner coefficients a_1 (highest bit)
@@ -46,53 +45,23 @@ static void polynomial_directions(const polynomial *p, uint32_t v[PS_NET_DIGITS]
     }
 }
 
-static void build_net(ps_digital_net *net) {
+static pspec_status build_net(const ps_sampler_request *request, ps_digital_net *net,
+                              ps_error *error) {
     uint32_t directions[PS_NET_DIGITS];
+    (void)request;
+    (void)error;
     reversal_directions(directions);
     ps_digital_net_set_axis(net, 0, directions);
     for (unsigned i = 1; i < net->dimension; i++) {
         polynomial_directions(&POLYNOMIALS[i - 1], directions);
         ps_digital_net_set_axis(net, i, directions);
     }
-}
-
-static bool is_deterministic(const ps_sampler_request *request) {
-    return ps_digital_net_is_plain(request, SCRAMBLE);
-}
-
-static double seconds(const ps_sampler_request *request) {
-    return ps_digital_net_seconds(request, SCRAMBLE);
+    return PSPEC_OK;
 }
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
     PS_TRY(ps_sampler_limit_points(request, (uint64_t)1 << PS_NET_DIGITS, error));
-    return ps_digital_net_scramble(request, SCRAMBLE, &scramble, error);
-}
-
-static pspec_status prepare(const ps_sampler_request *request, ps_digital_net *net,
-                            ps_net_scramble *scramble, ps_error *error) {
-    PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, scramble, error));
-    *net = (ps_digital_net){.dimension = request->dimension};
-    build_net(net);
-    return PSPEC_OK;
-}
-
-static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
-                             double *points, ps_error *error) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
-    ps_digital_net net;
-    PS_TRY(prepare(request, &net, &scramble, error));
-    return ps_digital_net_generate(&net, scramble, request, realization, points, error);
-}
-
-static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
-                         ps_error *error) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
-    ps_digital_net net;
-    PS_TRY(prepare(request, &net, &scramble, error));
-    ps_digital_net_places(&net, scramble, out);
-    return PSPEC_OK;
+    return ps_digital_net_check(request, error);
 }
 
 /* The first two dimensions are the same in every table of direction numbers, the others are not. */
@@ -106,10 +75,8 @@ const ps_sampler ps_sampler_sobol = {
     .minimum_dimension = 1,
     .maximum_dimension = PS_MAX_DIMENSION,
     .parameters = {PS_NET_SCRAMBLE_PARAMETER},
-    .seconds = seconds,
-    .is_deterministic = is_deterministic,
     .note = note,
     .check = check,
-    .generate = generate,
-    .by_index = {.name = "net", .fill = fill, .places = net_places},
+    .build_net = build_net,
+    PS_NET_MEMBERS,
 };

@@ -15,22 +15,26 @@
 #include <string.h>
 
 #include "files/digest.h"
-#include "samplers/darts/blue_noise.h"
-#include "samplers/darts/radius.h"
+#include "samplers/darts/distance.h"
 
-typedef pspec_status test_maker(const ps_blue_noise *, ps_random *, double *, size_t *, ps_error *);
+/* At which such a sampler makes num_points in the mean. */
+static inline double test_radius(const ps_distance_kind *kind, unsigned dimension, unsigned tries,
+                                 size_t num_points) {
+    const ps_blue_noise asked = {.dimension = dimension, .tries = tries};
+    return kind->radius(&asked, num_points);
+}
 
 /* One set in fresh memory, which the caller frees. */
-static inline double *test_make_set(test_maker *make, ps_blue_noise asked, uint64_t realization,
-                                    size_t *num) {
+static inline double *test_make_set(const ps_distance_kind *kind, ps_blue_noise asked,
+                                    uint64_t realization, size_t *num) {
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
     ps_error error = {0};
     if (asked.most_points == 0) {
-        asked.most_points = ps_torus_radius_most_points(asked.dimension, asked.radius);
+        asked.most_points = kind->most_points(&asked);
     }
     double *const points = malloc((asked.most_points + 1) * asked.dimension * sizeof *points);
     assert_non_null(points);
-    if (make(&asked, &random, points, num, &error) != PSPEC_OK) {
+    if (kind->make(&asked, &random, points, num, &error) != PSPEC_OK) {
         fail_msg("%s", error.message);
     }
     return points;
@@ -82,13 +86,13 @@ typedef struct test_numbers {
     double mean, variance, error; /* error: of the mean */
 } test_numbers;
 
-static inline test_numbers test_count(test_maker *make, const ps_blue_noise *asked,
+static inline test_numbers test_count(const ps_distance_kind *kind, const ps_blue_noise *asked,
                                       unsigned num_sets) {
     double sum = 0;
     double squares = 0;
     for (unsigned r = 0; r < num_sets; r++) {
         size_t num = 0;
-        free(test_make_set(make, *asked, r, &num));
+        free(test_make_set(kind, *asked, r, &num));
         sum += (double)num;
         squares += (double)num * (double)num;
     }
@@ -112,24 +116,17 @@ static inline void test_assert_digest(const char *what, const double *points, si
     }
 }
 
-static inline void test_assert_refused(test_maker *make, ps_blue_noise asked, pspec_status status,
-                                       const char *expected) {
+static inline void test_assert_refused(const ps_distance_kind *kind, ps_blue_noise asked,
+                                       pspec_status status, const char *expected) {
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
     ps_error error = {0};
     double point[4];
     size_t num = 1;
-    assert_int_equal(make(&asked, &random, point, &num, &error), status);
+    assert_int_equal(kind->make(&asked, &random, point, &num, &error), status);
     assert_int_equal(num, 0);
     if (strstr(error.message, expected) == NULL) {
         fail_msg("\"%s\" lacks \"%s\"", error.message, expected);
     }
-}
-
-/* A watch that stops at its first word after so many. */
-static inline int test_stop_after(const ps_watch_report *report, void *payload) {
-    int *const left = (int *)payload;
-    assert_true(report->done <= report->total);
-    return (*left)-- <= 0;
 }
 
 #endif

@@ -1,14 +1,12 @@
 /* Bridson's points: distances, neighbours, numbers, power, bits. */
 #include "test_blue_noise.h"
 
-#include "samplers/darts/bridson.h"
-
 static const double SIGMAS = 4;
 
 static ps_blue_noise ask(unsigned dimension, unsigned tries, size_t num_points) {
     return (ps_blue_noise){.dimension = dimension,
                            .tries = tries,
-                           .radius = ps_bridson_radius(dimension, tries, num_points)};
+                           .radius = test_radius(&ps_bridson_kind, dimension, tries, num_points)};
 }
 
 /* Every point but the first has its parent within two radii, and no other within one. */
@@ -19,7 +17,7 @@ static void distances_are_between_one_and_two_radii(void **state) {
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
             const ps_blue_noise asked = ask(dimension, 30, numbers[i]);
             size_t num = 0;
-            double *const points = test_make_set(ps_bridson_points, asked, i, &num);
+            double *const points = test_make_set(&ps_bridson_kind, asked, i, &num);
             assert_true(num > 0);
             test_assert_in_cube(dimension, points, num);
             for (size_t j = 1; j < num; j++) {
@@ -40,7 +38,7 @@ static void many_tries_leave_no_wide_holes(void **state) {
     enum { PROBES = 100000 };
     const ps_blue_noise asked = ask(2, 1000, 300);
     size_t num = 0;
-    double *const points = test_make_set(ps_bridson_points, asked, 0, &num);
+    double *const points = test_make_set(&ps_bridson_kind, asked, 0, &num);
     ps_random random = ps_random_init(2, PS_STREAM_COORDINATES, 0);
     for (unsigned i = 0; i < PROBES; i++) {
         double place[2];
@@ -59,14 +57,14 @@ static void numbers_of_points_are_those_asked_for(void **state) {
                  {2, 2, 100, 1024},  {3, 30, 50, 1024},  {3, 70, 20, 1024},  {4, 30, 12, 1024}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const ps_blue_noise asked = ask(cases[i].dimension, cases[i].tries, cases[i].num_points);
-        const test_numbers made = test_count(ps_bridson_points, &asked, cases[i].sets);
+        const test_numbers made = test_count(&ps_bridson_kind, &asked, cases[i].sets);
         const double measured = 0.01; /* what the header says */
         const double n = (double)cases[i].num_points;
         test_assert_between("mean number", made.mean, n * (1 - measured) - SIGMAS * made.error,
                             n * (1 + measured) + SIGMAS * made.error);
     }
     const ps_blue_noise usual = ask(2, 30, 1024);
-    const test_numbers made = test_count(ps_bridson_points, &usual, 300);
+    const test_numbers made = test_count(&ps_bridson_kind, &usual, 300);
     test_assert_between("mean number, 30 tries", made.mean, 1024 - SIGMAS * made.error,
                         1024 + SIGMAS * made.error);
 }
@@ -78,7 +76,7 @@ static void bits_are_those_of_every_machine(void **state) {
                                    "a2171bba905976681e4f24c50d596e55"};
     for (unsigned dimension = 2; dimension <= 4; dimension++) {
         size_t num = 0;
-        double *const points = test_make_set(ps_bridson_points, ask(dimension, 30, 500), 3, &num);
+        double *const points = test_make_set(&ps_bridson_kind, ask(dimension, 30, 500), 3, &num);
         test_assert_digest("points", points, dimension * num, digests[dimension - 2]);
         free(points);
     }
@@ -87,33 +85,15 @@ static void bits_are_those_of_every_machine(void **state) {
 static void impossible_questions_are_refused(void **state) {
     (void)state;
     ps_blue_noise asked = {.dimension = 3, .radius = 0.9, .tries = 30, .most_points = 1};
-    test_assert_refused(ps_bridson_points, asked, PSPEC_ERROR_INVALID_ARGUMENT, "at most 0.866025");
+    test_assert_refused(&ps_bridson_kind, asked, PSPEC_ERROR_INVALID_ARGUMENT, "at most 0.866025");
     asked.radius = 0.3;
     asked.tries = 1;
-    test_assert_refused(ps_bridson_points, asked, PSPEC_ERROR_INVALID_ARGUMENT,
+    test_assert_refused(&ps_bridson_kind, asked, PSPEC_ERROR_INVALID_ARGUMENT,
                         "1 tries are not between 2 and 1000");
     asked.tries = 30;
-    test_assert_refused(ps_bridson_points, asked, PSPEC_ERROR_MEMORY, "room for 1 points");
+    test_assert_refused(&ps_bridson_kind, asked, PSPEC_ERROR_MEMORY, "room for 1 points");
     asked.radius = 1e-4;
-    test_assert_refused(ps_bridson_points, asked, PSPEC_ERROR_INVALID_ARGUMENT, "more than 2^32");
-}
-
-static void a_watch_stops_it_at_any_word(void **state) {
-    (void)state;
-    for (int words = 0; words < 4; words++) {
-        int left = words;
-        const ps_watch watch = {test_stop_after, &left};
-        double *const points = malloc(4000 * 2 * sizeof *points);
-        const ps_blue_noise asked = {
-            .dimension = 2, .radius = 0.02, .tries = 30, .most_points = 4000, .watch = &watch};
-        ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-        ps_error error = {0};
-        size_t num = 1;
-        assert_int_equal(ps_bridson_points(&asked, &random, points, &num, &error),
-                         PSPEC_ERROR_CANCELLED);
-        assert_int_equal(num, 0);
-        free(points);
-    }
+    test_assert_refused(&ps_bridson_kind, asked, PSPEC_ERROR_INVALID_ARGUMENT, "more than 2^32");
 }
 
 int main(void) {
@@ -123,7 +103,6 @@ int main(void) {
         cmocka_unit_test(numbers_of_points_are_those_asked_for),
         cmocka_unit_test(bits_are_those_of_every_machine),
         cmocka_unit_test(impossible_questions_are_refused),
-        cmocka_unit_test(a_watch_stops_it_at_any_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,10 +4,6 @@
 
 #include <stdio.h>
 
-#include "samplers/darts/bridson.h"
-#include "samplers/darts/poisson_disk.h"
-#include "samplers/darts/sphere_disk.h"
-
 static const char *const NAMES[] = {"poisson-disk", "bridson", "poisson-disk-sphere"};
 enum { NUM_NAMES = sizeof NAMES / sizeof NAMES[0] };
 
@@ -50,28 +46,6 @@ static void names_of_other_tools_are_known(void **state) {
     assert_string_equal(parse_request("bridson", 1, 2).values[2], "30");
 }
 
-static void rows_make_the_points_of_their_algorithms(void **state) {
-    (void)state;
-    test_maker *const makers[] = {ps_poisson_disk_points, ps_bridson_points, ps_sphere_disk_points};
-    const double radii[] = {ps_poisson_disk_radius(2, 300), ps_bridson_radius(2, 30, 300),
-                            ps_sphere_disk_radius(300)};
-    for (unsigned i = 0; i < NUM_NAMES; i++) {
-        const ps_sampler_request request = resolve(NAMES[i], 300, 0);
-        const ps_blue_noise asked = {.dimension = request.dimension,
-                                     .radius = radii[i],
-                                     .tries = 30,
-                                     .most_points = ps_sampler_most_points(&request)};
-        size_t num = 0;
-        size_t num_alone = 0;
-        double *const points = generate_some(&request, 7, &num);
-        double *const alone = test_make_set(makers[i], asked, 7, &num_alone);
-        assert_int_equal(num, num_alone);
-        assert_memory_equal(points, alone, num * request.dimension * sizeof *points);
-        free(points);
-        free(alone);
-    }
-}
-
 static void numbers_vary_unless_they_are_to_be_exact(void **state) {
     (void)state;
     for (unsigned i = 0; i < NUM_NAMES; i++) {
@@ -106,7 +80,7 @@ static void exact_sets_keep_the_distance(void **state) {
         double mean = 0;
         double *const points = generate_some(&request, r, &num);
         test_distances(2, points, num, &least, &mean);
-        assert_true(least >= ps_poisson_disk_radius(2, 200) * (1 - 1e-15));
+        assert_true(least >= test_radius(&ps_poisson_disk_kind, 2, 0, 200) * (1 - 1e-15));
         free(points);
     }
 }
@@ -185,16 +159,51 @@ static void few_points_are_made(void **state) {
     }
 }
 
+/* A watch that stops at its first word after so many. */
+static int stop_after(const ps_watch_report *report, void *payload) {
+    int *const left = (int *)payload;
+    assert_true(report->done <= report->total);
+    return (*left)-- <= 0;
+}
+
+static void a_watch_stops_it_at_any_word(void **state) {
+    (void)state;
+    static const struct {
+        const ps_distance_kind *kind;
+        ps_blue_noise asked;
+        int most_words;
+    } cases[] = {
+        {&ps_poisson_disk_kind, {.dimension = 2, .radius = 0.02, .most_points = 4000}, 5},
+        {&ps_bridson_kind, {.dimension = 2, .radius = 0.02, .tries = 30, .most_points = 4000}, 3},
+        {&ps_sphere_disk_kind, {.dimension = 3, .radius = 0.03, .most_points = 40000}, 5}};
+    double *const points = malloc(40000 * 3 * sizeof *points);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (int words = 0; words <= cases[i].most_words; words++) {
+            int left = words;
+            const ps_watch watch = {stop_after, &left};
+            ps_blue_noise asked = cases[i].asked;
+            ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
+            ps_error error = {0};
+            size_t num = 1;
+            asked.watch = &watch;
+            assert_int_equal(cases[i].kind->make(&asked, &random, points, &num, &error),
+                             PSPEC_ERROR_CANCELLED);
+            assert_int_equal(num, 0);
+        }
+    }
+    free(points);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_of_other_tools_are_known),
-        cmocka_unit_test(rows_make_the_points_of_their_algorithms),
         cmocka_unit_test(numbers_vary_unless_they_are_to_be_exact),
         cmocka_unit_test(exact_sets_keep_the_distance),
         cmocka_unit_test(a_radius_says_how_many_points_there_are),
         cmocka_unit_test(an_exact_number_that_never_comes_ends),
         cmocka_unit_test(wrong_requests_are_explained),
         cmocka_unit_test(few_points_are_made),
+        cmocka_unit_test(a_watch_stops_it_at_any_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

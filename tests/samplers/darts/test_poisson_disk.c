@@ -1,13 +1,11 @@
 /* Maximal Poisson disk points: distances, saturation, the law of dart throwing, numbers, power. */
 #include "test_blue_noise.h"
 
-#include "samplers/darts/poisson_disk.h"
-
 static const double SIGMAS = 4;
 
 static ps_blue_noise ask(unsigned dimension, size_t num_points) {
     return (ps_blue_noise){.dimension = dimension,
-                           .radius = ps_poisson_disk_radius(dimension, num_points)};
+                           .radius = test_radius(&ps_poisson_disk_kind, dimension, 0, num_points)};
 }
 
 static void no_two_points_are_nearer_than_the_radius(void **state) {
@@ -17,7 +15,7 @@ static void no_two_points_are_nearer_than_the_radius(void **state) {
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
             const ps_blue_noise asked = ask(dimension, numbers[i]);
             size_t num = 0;
-            double *const points = test_make_set(ps_poisson_disk_points, asked, i, &num);
+            double *const points = test_make_set(&ps_poisson_disk_kind, asked, i, &num);
             double least = 0;
             double mean = 0;
             assert_true(num > 0);
@@ -67,7 +65,7 @@ static void no_place_of_the_plane_is_left(void **state) {
     const ps_blue_noise asked = ask(2, 1024);
     size_t num = 0;
     size_t num_crossings = 0;
-    double *const points = test_make_set(ps_poisson_disk_points, asked, 0, &num);
+    double *const points = test_make_set(&ps_poisson_disk_kind, asked, 0, &num);
     for (size_t i = 0; i < num; i++) {
         for (size_t j = 0; j < i; j++) {
             double place[2];
@@ -88,7 +86,7 @@ static void no_place_of_the_cube_is_left(void **state) {
     enum { PROBES = 100000 };
     const ps_blue_noise asked = ask(3, 400);
     size_t num = 0;
-    double *const points = test_make_set(ps_poisson_disk_points, asked, 0, &num);
+    double *const points = test_make_set(&ps_poisson_disk_kind, asked, 0, &num);
     ps_random random = ps_random_init(2, PS_STREAM_COORDINATES, 0);
     for (unsigned i = 0; i < PROBES; i++) {
         double place[3];
@@ -130,7 +128,7 @@ static void darts_thrown_plainly_come_to_the_same(void **state) {
         sum += last;
         squares += last * last;
     }
-    const test_numbers ours = test_count(ps_poisson_disk_points, &asked, SETS);
+    const test_numbers ours = test_count(&ps_poisson_disk_kind, &asked, SETS);
     const double mean = sum / SETS;
     const double variance = (squares / SETS - mean * mean) * SETS / (SETS - 1);
     test_assert_between("difference of means", ours.mean - mean,
@@ -144,22 +142,22 @@ static void numbers_of_points_are_those_asked_for(void **state) {
     (void)state;
     enum { SETS = 400 };
     const ps_blue_noise plane = ask(2, 1024);
-    const test_numbers in_plane = test_count(ps_poisson_disk_points, &plane, SETS);
+    const test_numbers in_plane = test_count(&ps_poisson_disk_kind, &plane, SETS);
     assert_true(fabs(in_plane.mean - 1024) < SIGMAS * in_plane.error);
     const double plateau = 0.058;
     assert_true(fabs(in_plane.variance / in_plane.mean / plateau - 1) < SIGMAS * sqrt(2.0 / SETS));
     const ps_blue_noise cube = ask(3, 512);
-    const test_numbers in_cube = test_count(ps_poisson_disk_points, &cube, SETS / 8);
+    const test_numbers in_cube = test_count(&ps_poisson_disk_kind, &cube, SETS / 8);
     assert_true(fabs(in_cube.mean - 512) < SIGMAS * in_cube.error);
 }
 
 static void bits_are_those_of_every_machine(void **state) {
     (void)state;
     size_t num = 0;
-    double *points = test_make_set(ps_poisson_disk_points, ask(2, 1000), 3, &num);
+    double *points = test_make_set(&ps_poisson_disk_kind, ask(2, 1000), 3, &num);
     test_assert_digest("plane", points, 2 * num, "3c66d61604077a593296a8dddf5be6fa");
     free(points);
-    points = test_make_set(ps_poisson_disk_points, ask(3, 300), 3, &num);
+    points = test_make_set(&ps_poisson_disk_kind, ask(3, 300), 3, &num);
     test_assert_digest("cube", points, 3 * num, "2e1fd886937e0efed83666a2de90118e");
     free(points);
 }
@@ -173,7 +171,7 @@ static void few_points_are_made_too(void **state) {
                  {4, 3.95, 4.05}, {8, 7.9, 8.2}, {64, 63.5, 64.5}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const ps_blue_noise asked = ask(2, cases[i].asked);
-        const test_numbers made = test_count(ps_poisson_disk_points, &asked, 300);
+        const test_numbers made = test_count(&ps_poisson_disk_kind, &asked, 300);
         test_assert_between("mean number", made.mean, cases[i].low, cases[i].high);
     }
 }
@@ -183,32 +181,14 @@ static void impossible_radii_are_refused(void **state) {
     const double wrong[] = {0, -1, 0.708, HUGE_VAL, (double)NAN};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const ps_blue_noise asked = {.dimension = 2, .radius = wrong[i], .most_points = 1};
-        test_assert_refused(ps_poisson_disk_points, asked, PSPEC_ERROR_INVALID_ARGUMENT,
+        test_assert_refused(&ps_poisson_disk_kind, asked, PSPEC_ERROR_INVALID_ARGUMENT,
                             "at most 0.707107");
     }
     const ps_blue_noise tiny = {.dimension = 2, .radius = 1e-5, .most_points = 1};
-    test_assert_refused(ps_poisson_disk_points, tiny, PSPEC_ERROR_INVALID_ARGUMENT,
+    test_assert_refused(&ps_poisson_disk_kind, tiny, PSPEC_ERROR_INVALID_ARGUMENT,
                         "cells in 2 dimensions, more than 2^32");
     const ps_blue_noise crowded = {.dimension = 2, .radius = 0.3, .most_points = 1};
-    test_assert_refused(ps_poisson_disk_points, crowded, PSPEC_ERROR_MEMORY, "room for 1 points");
-}
-
-static void a_watch_stops_it_at_any_word(void **state) {
-    (void)state;
-    for (int words = 0; words < 6; words++) {
-        int left = words;
-        const ps_watch watch = {test_stop_after, &left};
-        double *const points = malloc(4000 * 2 * sizeof *points);
-        const ps_blue_noise asked = {
-            .dimension = 2, .radius = 0.02, .most_points = 4000, .watch = &watch};
-        ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-        ps_error error = {0};
-        size_t num = 1;
-        assert_int_equal(ps_poisson_disk_points(&asked, &random, points, &num, &error),
-                         PSPEC_ERROR_CANCELLED);
-        assert_int_equal(num, 0);
-        free(points);
-    }
+    test_assert_refused(&ps_poisson_disk_kind, crowded, PSPEC_ERROR_MEMORY, "room for 1 points");
 }
 
 int main(void) {
@@ -221,7 +201,6 @@ int main(void) {
         cmocka_unit_test(bits_are_those_of_every_machine),
         cmocka_unit_test(few_points_are_made_too),
         cmocka_unit_test(impossible_radii_are_refused),
-        cmocka_unit_test(a_watch_stops_it_at_any_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,6 @@
 #include "math/unit_vector.h"
 #include "math/pi.h"
 #include "samplers/darts/face.h"
-#include "samplers/darts/sphere_disk.h"
 
 static const double SIGMAS = 4;
 enum { VECTOR = 3 };
@@ -29,16 +28,8 @@ static double nearest(const double *points, size_t num, size_t but, const double
 
 /* One set in fresh memory, which the caller frees. */
 static double *make_set(double radius, uint64_t realization, size_t *num) {
-    const ps_blue_noise asked = {
-        .dimension = VECTOR, .radius = radius, .most_points = ps_sphere_disk_most_points(radius)};
-    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
-    ps_error error = {0};
-    double *const points = malloc(asked.most_points * VECTOR * sizeof *points);
-    assert_non_null(points);
-    if (ps_sphere_disk_points(&asked, &random, points, num, &error) != PSPEC_OK) {
-        fail_msg("%s", error.message);
-    }
-    return points;
+    const ps_blue_noise asked = {.dimension = VECTOR, .radius = radius};
+    return test_make_set(&ps_sphere_disk_kind, asked, realization, num);
 }
 
 /* z and azimuth of HEALPix by the formulas of its paper and libm. */
@@ -102,7 +93,7 @@ static void no_two_points_are_nearer_than_the_radius(void **state) {
     (void)state;
     const size_t numbers[] = {2, 3, 4, 6, 12, 30, 200, 2000};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        const double radius = ps_sphere_disk_radius(numbers[i]);
+        const double radius = test_radius(&ps_sphere_disk_kind, 3, 0, numbers[i]);
         size_t num = 0;
         double *const points = make_set(radius, i, &num);
         double least = PS_PI;
@@ -150,7 +141,7 @@ static void no_place_is_left(void **state) {
     (void)state;
     const size_t numbers[] = {20, 100, 600};
     for (size_t s = 0; s < sizeof numbers / sizeof *numbers; s++) {
-        const double radius = ps_sphere_disk_radius(numbers[s]);
+        const double radius = test_radius(&ps_sphere_disk_kind, 3, 0, numbers[s]);
         size_t num = 0;
         size_t num_crossings = 0;
         double *const points = make_set(radius, 0, &num);
@@ -181,7 +172,7 @@ static void numbers_of_points_are_those_asked_for(void **state) {
                  {64, 300, 0.002}, {256, 200, 0.002}, {1024, 100, 0.002}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const double n = (double)cases[i].num_points;
-        const double radius = ps_sphere_disk_radius(cases[i].num_points);
+        const double radius = test_radius(&ps_sphere_disk_kind, 3, 0, cases[i].num_points);
         double sum = 0;
         double squares = 0;
         for (unsigned r = 0; r < cases[i].sets; r++) {
@@ -204,7 +195,7 @@ static void numbers_of_points_are_those_asked_for(void **state) {
 static void bits_are_those_of_every_machine(void **state) {
     (void)state;
     size_t num = 0;
-    double *const points = make_set(ps_sphere_disk_radius(500), 3, &num);
+    double *const points = make_set(test_radius(&ps_sphere_disk_kind, 3, 0, 500), 3, &num);
     test_assert_digest("sphere", points, VECTOR * num, "96a5ca8ad5cbc58d8b8405aaccdbcf18");
     free(points);
 }
@@ -214,32 +205,13 @@ static void impossible_radii_are_refused(void **state) {
     const double wrong[] = {0, -1, 3.01, HUGE_VAL, (double)NAN};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const ps_blue_noise asked = {.dimension = 3, .radius = wrong[i], .most_points = 1};
-        test_assert_refused(ps_sphere_disk_points, asked, PSPEC_ERROR_INVALID_ARGUMENT,
-                            "at most 3");
+        test_assert_refused(&ps_sphere_disk_kind, asked, PSPEC_ERROR_INVALID_ARGUMENT, "at most 3");
     }
     const ps_blue_noise tiny = {.dimension = 3, .radius = 1e-5, .most_points = 1};
-    test_assert_refused(ps_sphere_disk_points, tiny, PSPEC_ERROR_INVALID_ARGUMENT,
+    test_assert_refused(&ps_sphere_disk_kind, tiny, PSPEC_ERROR_INVALID_ARGUMENT,
                         "cells of the sphere, more than 2^32");
     const ps_blue_noise crowded = {.dimension = 3, .radius = 0.3, .most_points = 1};
-    test_assert_refused(ps_sphere_disk_points, crowded, PSPEC_ERROR_MEMORY, "room for 1 points");
-}
-
-static void a_watch_stops_it_at_any_word(void **state) {
-    (void)state;
-    for (int words = 0; words < 6; words++) {
-        int left = words;
-        const ps_watch watch = {test_stop_after, &left};
-        double *const points = malloc(40000 * VECTOR * sizeof *points);
-        const ps_blue_noise asked = {
-            .dimension = 3, .radius = 0.03, .most_points = 40000, .watch = &watch};
-        ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-        ps_error error = {0};
-        size_t num = 1;
-        assert_int_equal(ps_sphere_disk_points(&asked, &random, points, &num, &error),
-                         PSPEC_ERROR_CANCELLED);
-        assert_int_equal(num, 0);
-        free(points);
-    }
+    test_assert_refused(&ps_sphere_disk_kind, crowded, PSPEC_ERROR_MEMORY, "room for 1 points");
 }
 
 int main(void) {
@@ -251,7 +223,6 @@ int main(void) {
         cmocka_unit_test(numbers_of_points_are_those_asked_for),
         cmocka_unit_test(bits_are_those_of_every_machine),
         cmocka_unit_test(impossible_radii_are_refused),
-        cmocka_unit_test(a_watch_stops_it_at_any_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
