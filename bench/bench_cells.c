@@ -8,8 +8,7 @@
 #include "bench.h"
 
 #include "math/pi.h"
-#include "samplers/ccvt/sphere_ccvt.h"
-#include "samplers/ccvt/torus_ccvt.h"
+#include "samplers/ccvt/ccvt.h"
 #include "samplers/optimized/bnot.h"
 #include "samplers/optimized/cells.h"
 #include "samplers/optimized/fpo.h"

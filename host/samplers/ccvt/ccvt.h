@@ -12,11 +12,40 @@
 
 #include "base/watch.h"
 #include "math/random/random.h"
-#include "samplers/ccvt/ccvt_grid.h"
+#include "base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+enum { PS_CCVT_AXES = 3 /* at most */ };
+
+/* The square or cube that holds all coordinates. */
+typedef struct ps_ccvt_room {
+    unsigned axes;
+    bool is_periodic;
+    double low, width;
+} ps_ccvt_room;
+
+typedef struct ps_ccvt_grid {
+    ps_ccvt_room room;
+    size_t num;
+    unsigned most_side, side; /* cells along an axis: room for, used now */
+    uint32_t *first;          /* of a cell; [cells + 1] */
+    uint32_t *sorted;         /* sites by cells */
+    uint32_t *cell;           /* of a site */
+} ps_ccvt_grid;
+
+/* For num sites. ps_ccvt_grid_destroy also after an error. */
+pspec_status ps_ccvt_grid_create(ps_ccvt_grid *grid, ps_ccvt_room room, size_t num,
+                                 ps_error *error) PS_MUST_CHECK;
+void ps_ccvt_grid_destroy(ps_ccvt_grid *grid);
+
+/* Takes the sites as they are now, for distances up to reach. */
+void ps_ccvt_grid_fill(ps_ccvt_grid *grid, double *const *site, double reach);
+
+/* Numbers above i of all sites that may be within reach of site i, and of others. */
+size_t ps_ccvt_grid_later(const ps_ccvt_grid *grid, uint32_t i, uint32_t *near);
 
 /* Points of a region: with fewer than the first they say nothing of areas, and a region of more
  * than the second is finer than anybody needs. Of all background points so many take a gigabyte. */
@@ -129,5 +158,27 @@ static inline void ps_ccvt_place(double *const *at, size_t i, unsigned axes, dou
         place[a] = at[a][i];
     }
 }
+
+/* Capacity-constrained tessellation of the torus of the plane. The background is a lattice of one
+ * generator, moved at random: its power is 0 at all low frequencies but 0
+ * (docs/samplers/optimized.md#ccvt).
+ */
+enum { PS_TORUS_CCVT_LEAST_POINTS = 16 };
+
+extern const ps_ccvt_space ps_torus_ccvt_space;
+
+/* The generator g of the lattice (j, g j mod num) / num, j = 0 .. num - 1: of 128 random ones that
+ * whose continued fraction of g / num has the smallest largest number, so that no vector of the
+ * lattice is much shorter than it must be. Each realization has another lattice: of one for all,
+ * mean spectra would have its directions. num > 1. */
+uint64_t ps_torus_ccvt_generator(uint64_t num, ps_random *random);
+
+/* Capacity-constrained tessellation of the sphere: angles as distances, and as background the
+ * spherical Fibonacci points, rotated at random, whose power is near 0 at low degrees. Of random
+ * ones the power of sites ends at 1/M (docs/samplers/optimized.md#ccvt).
+ */
+enum { PS_SPHERE_CCVT_LEAST_POINTS = 2 };
+
+extern const ps_ccvt_space ps_sphere_ccvt_space;
 
 #endif

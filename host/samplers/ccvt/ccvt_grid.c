@@ -1,4 +1,4 @@
-#include "samplers/ccvt/ccvt_grid.h"
+#include "samplers/ccvt/ccvt.h"
 
 #include "base/memory.h"
 

@@ -122,16 +122,12 @@ static pspec_status apply_order(sorting *s, ps_error *error) {
 static pspec_status put_in_bands(ps_ccvt *c, double **at, size_t per_site, ps_error *error) {
     sorting s = {.ccvt = c, .at = at, .num = c->num * per_site, .per_site = per_site};
     s.spare_numbers = c->own; /* there are no distances yet */
-    pspec_status status = PS_NEW(&s.order, s.num, "the order of points", error);
-    if (status == PSPEC_OK) {
-        status = PS_NEW(&s.spare, s.num, "the order of points", error);
-    }
-    if (status == PSPEC_OK) {
-        status = sort_bands(&s, error);
-    }
-    if (status == PSPEC_OK) {
-        status = apply_order(&s, error);
-    }
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, PS_NEW(&s.order, s.num, "the order of points", error));
+    PS_TRY_OUT(status, PS_NEW(&s.spare, s.num, "the order of points", error));
+    PS_TRY_OUT(status, sort_bands(&s, error));
+    status = apply_order(&s, error);
+out:
     free(s.order);
     free(s.spare);
     return status;

@@ -1,4 +1,4 @@
-#include "samplers/ccvt/sphere_ccvt.h"
+#include "samplers/ccvt/ccvt.h"
 
 #include "base/memory.h"
 #include "math/lift.h"

@@ -1,4 +1,4 @@
-#include "samplers/ccvt/torus_ccvt.h"
+#include "samplers/ccvt/ccvt.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #define PS_SAMPLERS_FORCES_GAUSSIAN_SUMS_H
 
 #include "base/watch.h"
-#include "samplers/forces/gaussian_device.h"
+#include "device/device.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -12,7 +12,13 @@
 /* Points of a set: their numbers, and those of cells, are 32 bits wide. */
 enum { PS_GAUSSIAN_MOST_POINTS = 1 << 26 };
 
-struct ps_gaussian_sums {
+typedef struct ps_gaussian_device {
+    ps_device *device; /* borrowed */
+    ps_kernel *kernel;
+    ps_buffer points, begins, sums;
+} ps_gaussian_device;
+
+typedef struct ps_gaussian_sums {
     size_t num;
     unsigned dimension;
     double reach, exponent; /* as gaussian_grid has them */
@@ -23,7 +29,7 @@ struct ps_gaussian_sums {
     double *points;             /* [dimension][stride], by cells */
     double *sums;               /* [1 + dimension][stride], of points by cells */
     ps_gaussian_device *device; /* that makes them, borrowed; NULL: the host */
-};
+} ps_gaussian_sums;
 
 /* N^(-1/d), the same bits on any machine. */
 double ps_gaussian_unit(size_t num, unsigned dimension);
@@ -40,5 +46,16 @@ void ps_gaussian_sums_destroy(ps_gaussian_sums *s);
  * force[i] = sum_j (x_i - x_j) exp(..). */
 pspec_status ps_gaussian_sums_find(ps_gaussian_sums *s, const double *x, const ps_watch *watch,
                                    double *energy, double *force, ps_error *error) PS_MUST_CHECK;
+
+/* The same bits by a device, for sets of that shape; one without double precision is refused.
+ * Destroy also after a failure. */
+pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
+                                       const ps_gaussian_sums *shape,
+                                       ps_error *error) PS_MUST_CHECK;
+void ps_gaussian_device_destroy(ps_gaussian_device *d);
+
+/* s->sums of s->points, which are sorted. */
+pspec_status ps_gaussian_device_sum(ps_gaussian_device *d, const ps_gaussian_sums *s,
+                                    const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
 
 #endif

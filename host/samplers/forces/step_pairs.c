@@ -1,7 +1,7 @@
 #include "samplers/forces/step_pairs.h"
 
 #include "base/memory.h"
-#include "samplers/forces/need_doubles.h"
+#include "samplers/forces/loan.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Conjugate gradients for a Newton step on weights. The matrix is the Laplacian of the graph of
  * neighbouring cells; its null space, equal weights, is orthogonal to the right side since areas
  * sum to 1. Sums have a fixed order, so that they are the same on any machine. */
-#include "samplers/optimized/bnot_weights.h"
+#include "samplers/optimized/bnot.h"
 
 /* A step converges in about sqrt(N) of them; more than this many times that is no convergence. */
 enum { MOST_PER_ROOT = 20, LEAST_LIMIT = 100 };

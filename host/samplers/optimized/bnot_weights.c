@@ -1,4 +1,4 @@
-#include "samplers/optimized/bnot_weights.h"
+#include "samplers/optimized/bnot.h"
 
 #include "base/memory.h"
 

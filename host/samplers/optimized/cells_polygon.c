@@ -1,4 +1,4 @@
-#include "samplers/optimized/cells_polygon.h"
+#include "samplers/optimized/cells.h"
 
 void ps_cell_start(ps_cell *cell, uint32_t site) {
     static const double corner_x[4] = {0.5, 0.5, -0.5, -0.5};

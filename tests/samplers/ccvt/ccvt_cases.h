@@ -13,8 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "samplers/ccvt/sphere_ccvt.h"
-#include "samplers/ccvt/torus_ccvt.h"
+#include "samplers/ccvt/ccvt.h"
 
 /* The square of the angle of unit vectors, by their chord: right also where it is small. */
 static inline double ccvt_square_angle(const double *u, const double *v) {

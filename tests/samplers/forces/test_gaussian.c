@@ -9,7 +9,7 @@
 #include "device/lender.h"
 #include "files/digest.h"
 #include "samplers/forces/gaussian.h"
-#include "samplers/forces/need_doubles.h"
+#include "samplers/forces/loan.h"
 
 enum { MOST = 128, IMAGES = 9, SPACE_IMAGES = 5 };
 

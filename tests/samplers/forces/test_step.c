@@ -8,7 +8,7 @@
 
 #include "device/lender.h"
 #include "files/digest.h"
-#include "samplers/forces/need_doubles.h"
+#include "samplers/forces/loan.h"
 #include "samplers/forces/step.h"
 #include "samplers/forces/step_curves.h"
 #include "samplers/forces/step_pairs.h"

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "math/random/random.h"
-#include "samplers/optimized/tournament.h"
+#include "samplers/optimized/fpo_mesh.h"
 
 static void the_winner_is_the_first_of_the_largest(void **state) {
     (void)state;
