@@ -8,6 +8,19 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <stdarg.h>
+
+const char *const ps_finding_words[] = {"ok", "note", "WRONG"};
+
+void ps_doctor_tell(const ps_doctor *doctor, ps_finding_kind kind, const char *topic,
+                    const char *format, ...) {
+    char sentence[PS_MESSAGE_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    doctor->hear(kind, topic, sentence, doctor->payload);
+}
 
 /* Four points at equal distances: P is 4 at multiples of 4 and 0 elsewhere. */
 enum { NUM_POINTS = 4 };

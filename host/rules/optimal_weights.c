@@ -1,18 +1,9 @@
 #include "rules/optimal_weights.h"
 
 #include "base/memory.h"
-#include "math/neumaier.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static double sum_products(size_t num, const double *a, const double *b) {
-    ps_neumaier sum = {0, 0};
-    for (size_t j = 0; j < num; j++) {
-        ps_neumaier_add(&sum, b != NULL ? a[j] * b[j] : a[j]);
-    }
-    return ps_neumaier_value(&sum);
-}
 
 /* w = w0 + mu K^-1 1, mu = (1 - W0)/(1.K^-1 1); E^2 grows by (1 - W0)^2/(1.K^-1 1). ones, flat:
  * [num] each. */
@@ -22,8 +13,8 @@ static pspec_status impose_sum(ps_kernel_system *system, size_t num, double *one
         ones[j] = 1;
     }
     PS_TRY(ps_kernel_system_solve(system, ones, flat, NULL, error));
-    const double gap = 1 - sum_products(num, weights, NULL);
-    const double total = sum_products(num, flat, NULL);
+    const double gap = 1 - ps_kernel_dot(num, weights, NULL);
+    const double total = ps_kernel_dot(num, flat, NULL);
     for (size_t j = 0; j < num; j++) {
         weights[j] += gap / total * flat[j];
     }
@@ -33,7 +24,7 @@ static pspec_status impose_sum(ps_kernel_system *system, size_t num, double *one
 
 static void describe(const ps_kernel_system *system, size_t num, const double *weights,
                      ps_optimal_weights *out) {
-    out->weight_sum = sum_products(num, weights, NULL);
+    out->weight_sum = ps_kernel_dot(num, weights, NULL);
     out->smallest = weights[0];
     out->largest = weights[0];
     for (size_t j = 1; j < num; j++) {
@@ -61,7 +52,7 @@ pspec_status ps_optimal_weights_find(const ps_representer *representer, size_t n
                                                options, error));
     PS_TRY_OUT(status, ps_kernel_system_solve(system, kappa, weights, &defect, error));
     /* w.K w - 2 w.kappa + kappa_0 with K w = kappa - r: errors of w count twice only */
-    out->squared = representer->kappa_0 - sum_products(num_points, weights, kappa) - defect;
+    out->squared = representer->kappa_0 - ps_kernel_dot(num_points, weights, kappa) - defect;
     if (sum_to_one) {
         PS_TRY_OUT(status, impose_sum(system, num_points, own, own + num_points, weights,
                                       &out->squared, error));

@@ -8,6 +8,9 @@
 #define PS_RULES_TRUNCATION_H
 
 #include "rules/representer.h"
+#include "base/status.h"
+
+#include <stddef.h>
 
 /* Most degrees L of hemispherical harmonics: the conversion to spherical ones takes L X^2 steps, X
  * > 4 L. */
@@ -25,5 +28,14 @@ pspec_status ps_truncation_spherical(const ps_representer *representer, size_t m
 pspec_status ps_truncation_hemispherical(const ps_brdf *brdf, double smoothness, size_t max_degree,
                                          double tolerance, double *errors, double *bounds,
                                          size_t *sh_degree, ps_error *error) PS_MUST_CHECK;
+
+/* Hemispherical harmonics written in spherical ones
+ * (docs/mathematics/quadrature.md#hemispherical-harmonics). */
+/* M_{l'l} = sqrt((2l+1)(2l'+1)/2) int_0^1 P_l'(2z-1) P_l(z) dz, the coefficient of Y_l0 in the
+ * hemispherical harmonic of degree l', which is 0 below the horizon: matrix [max_from + 1][max_to +
+ * 1], row l', filled by a Gauss-Legendre rule that is exact for all of them; absolute error 1e-13
+ * up to degree 300. 0 for l < l', and sum_l M_{l'l}^2 = 1. */
+pspec_status ps_half_range_matrix(size_t max_from, size_t max_to, double *matrix,
+                                  ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -3,7 +3,7 @@
 #include "harness.h"
 
 #include "jobs/quadrature/quadrature_job.h"
-#include "jobs/quadrature/quadrature_looks.h"
+#include "jobs/quadrature/quadrature_private.h"
 #include "math/pi.h"
 #include "samplers/sampler.h"
 

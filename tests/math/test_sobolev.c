@@ -3,7 +3,7 @@
 #include "harness.h"
 
 #include "math/gauss_legendre.h"
-#include "math/hemisphere/half_range.h"
+#include "rules/truncation.h"
 #include "math/pi.h"
 #include "math/sobolev.h"
 

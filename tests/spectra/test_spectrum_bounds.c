@@ -5,7 +5,7 @@
 #include "harness_rings.h"
 #include "math/pi.h"
 #include "spectra/shape/bound.h"
-#include "spectra/shape/features.h"
+#include "spectra/shape/shape.h"
 
 #include <math.h>
 #include <string.h>

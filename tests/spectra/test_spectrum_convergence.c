@@ -3,7 +3,7 @@
 
 #include "harness_angular.h"
 #include "harness_rings.h"
-#include "spectra/shape/convergence.h"
+#include "spectra/shape/shape.h"
 
 #include <math.h>
 

@@ -2,7 +2,6 @@
 
 #include "answers/lead.h"
 #include "answers/spectra/spectrum_header.h"
-#include "jobs/quadrature/quadrature_looks.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,7 @@
 
 #include "answers/spectra/spectrum_header.h"
 #include "base/text.h"
-#include "spectra/shape/convergence.h"
-#include "spectra/shape/features.h"
+#include "spectra/shape/shape.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* Variances against N: a panel for each integrand, and in it a colour for each sampler. */
 #include "answers/variance/variance_table.h"
 #include "base/text.h"
-#include "jobs/variance/log_variance.h"
+#include "jobs/variance/rates.h"
 
 #include <math.h>
 #include <string.h>

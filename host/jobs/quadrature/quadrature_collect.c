@@ -1,4 +1,4 @@
-/* The result of a quadrature job. */
+/* The result of a quadrature job, and looks at what is there before. */
 #include "jobs/quadrature/quadrature_private.h"
 
 #include <math.h>
@@ -27,6 +27,17 @@ static void collect_means(ps_quadrature_job *job) {
     out->weight_sum = finish(&job->of_rules.weight_sum, num);
 }
 
+/* How optimal weights were made. */
+static void name_weights(const ps_rule_facts *facts, char *text, size_t size) {
+    if (facts->most_steps == 0) {
+        snprintf(text, size, "Cholesky");
+        return;
+    }
+    snprintf(text, size, "%sconjugate gradients, %zu steps to a residual of %.2g, at most",
+             facts->has_matrices ? "Cholesky, and " : "", facts->most_steps,
+             facts->largest_residual);
+}
+
 static void collect_facts(ps_quadrature_job *job) {
     ps_quadrature_result *const out = job->out;
     const ps_rule_facts *const facts = &job->rules.facts;
@@ -38,7 +49,7 @@ static void collect_facts(ps_quadrature_job *job) {
     out->is_ill_conditioned = facts->is_ill_conditioned;
     out->has_matrices = facts->has_matrices;
     out->largest_condition = facts->largest_condition > 0 ? facts->largest_condition : (double)NAN;
-    ps_rule_facts_name_weights(facts, out->weights_by, sizeof out->weights_by);
+    name_weights(facts, out->weights_by, sizeof out->weights_by);
 }
 
 /* What the header says of the setup and of the engine. */
@@ -88,4 +99,40 @@ pspec_status ps_quadrature_collect(ps_quadrature_job *job, ps_error *error) {
     collect_facts(job);
     PS_TRY(describe(job, error));
     return check_forms(job, error);
+}
+
+/* ---- looks ----------------------------------------------------------------------------------- */
+
+/* Degree l has 2l + 1 real coefficients, of which each counts half as much as a complex one. */
+static double count_independent(size_t degree) {
+    return (double)degree + 0.5;
+}
+
+/* E^2 is a sum over degrees. Its excess kurtosis is at most that of the lowest which has a part in
+ * it, 1. */
+static const double least_of_sum = 1.5;
+
+ps_sequential_look ps_quadrature_look(const ps_quadrature_sums *sums, double least,
+                                      uint64_t num_realizations) {
+    ps_sequential_look look = {.bin = PS_LOOK_AT_NOTHING};
+    const ps_mean squared = finish(sums->squared, num_realizations);
+    if (squared.mean > least) {
+        ps_sequential_look_at(&look, squared, least_of_sum, num_realizations, PS_LOOK_AT_E2);
+    }
+    for (size_t l = 0; l < sums->num_degrees; l++) {
+        const ps_mean e2 = finish(&sums->degrees[l * sums->stride], num_realizations);
+        if (e2.mean > least) {
+            ps_sequential_look_at(&look, e2, count_independent(l), num_realizations, (int64_t)l);
+        }
+    }
+    return look;
+}
+
+void ps_quadrature_look_name(char *text, size_t size, const ps_sequential_look *look) {
+    if (look->bin < 0) {
+        snprintf(text, size, "%s",
+                 look->bin == PS_LOOK_AT_E2 ? "E^2" : "nothing above the tolerance");
+    } else {
+        snprintf(text, size, "e_l^2 of degree %lld", (long long)look->bin);
+    }
 }

@@ -1,7 +1,6 @@
 #include "jobs/quadrature/quadrature_job.h"
 
 #include "base/memory.h"
-#include "jobs/quadrature/quadrature_looks.h"
 #include "jobs/quadrature/quadrature_private.h"
 #include "math/pi.h"
 

@@ -48,6 +48,9 @@ typedef struct ps_quadrature_degree {
     ps_mean d2, c2, e2;
 } ps_quadrature_degree;
 
+/* Keys of looks: degrees are 0 .. L. */
+enum { PS_LOOK_AT_E2 = -1, PS_LOOK_AT_NOTHING = -2 };
+
 /* Squares are averaged: the error is the root of the mean of E^2. */
 typedef struct ps_quadrature_result {
     uint64_t num_realizations;
@@ -74,7 +77,7 @@ typedef struct ps_quadrature_result {
     char device[160];
     const char *precision;
     /* The look with the largest standard error when the realizations ended; its bin is a degree or
-     * one of jobs/quadrature/quadrature_looks.h */
+     * one of PS_LOOK_AT_.. */
     ps_sequential_look look;
     bool has_look; /* false without question.accuracy.standard_error, and for one realization */
     bool was_replanned;     /* the first run missed the tolerance */
@@ -91,5 +94,8 @@ typedef struct ps_quadrature_result {
 pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_question *question,
                                ps_error *error) PS_MUST_CHECK;
 void ps_quadrature_free(ps_quadrature_result *result);
+
+/* "E^2", "e_l^2 of degree 3", or "nothing above the tolerance". */
+void ps_quadrature_look_name(char *text, size_t size, const ps_sequential_look *look);
 
 #endif

@@ -1,4 +1,4 @@
-/* Inside of a quadrature job, for quadrature_job.c and quadrature_collect.c only. */
+/* Inside of a quadrature job, for quadrature_job.c, quadrature_collect.c and tests. */
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_PRIVATE_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_PRIVATE_H
 
@@ -35,5 +35,19 @@ typedef struct ps_quadrature_job {
 /* Makes job->out of the sums of all rules. PSPEC_ERROR_CHECK: the spectral form and the kernel form
  * are further apart than the rest of the spectrum allows. */
 pspec_status ps_quadrature_collect(ps_quadrature_job *job, ps_error *error) PS_MUST_CHECK;
+
+/* ---- when there are enough realizations for the standard error that was asked for ------------ */
+
+/* What is looked at after so many realizations, the numbers above which it must be `least`: E^2
+ * itself, and e_l^2 of the degrees that matter. Means over the same realizations. */
+typedef struct ps_quadrature_sums {
+    size_t num_degrees;
+    const ps_sums *degrees; /* [num_degrees][stride] */
+    size_t stride;
+    const ps_sums *squared; /* E^2 */
+} ps_quadrature_sums;
+
+ps_sequential_look ps_quadrature_look(const ps_quadrature_sums *sums, double least,
+                                      uint64_t num_realizations);
 
 #endif

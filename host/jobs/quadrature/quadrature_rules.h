@@ -58,11 +58,4 @@ pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, u
 /* Back to the first rule; what is there for the result is forgotten. */
 pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) PS_MUST_CHECK;
 
-/* How optimal weights of so many points will be made and in what memory, for `plan`; "" without
- * such weights. */
-void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_points,
-                           const ps_device *device, char *text, size_t size);
-/* How they were made. */
-void ps_rule_facts_name_weights(const ps_rule_facts *facts, char *text, size_t size);
-
 #endif

@@ -39,9 +39,4 @@ void ps_truncation_job_free(ps_truncation_job *job);
 pspec_status ps_truncation_phases(const ps_truncation_question *question, ps_phases *phases,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* The errors alone, to brackets that are so far apart, relative to them: what both begin with. */
-pspec_status ps_truncation_job_find_errors(ps_truncation_job *out,
-                                           const ps_truncation_question *question, double bracket,
-                                           ps_error *error) PS_MUST_CHECK;
-
 #endif

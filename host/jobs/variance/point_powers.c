@@ -1,6 +1,7 @@
 #include "jobs/variance/point_powers.h"
 
 #include "base/memory.h"
+#include "device/reals.h"
 #include "plan/choose.h"
 
 #include <math.h>
@@ -59,8 +60,7 @@ static pspec_status start(work *self, const ps_frequencies *frequencies, ps_erro
 
 static pspec_status read_rows(work *self, const ps_rows *rows, double *powers, size_t num,
                               ps_error *error) {
-    const bool is_single = rows->precision == PS_SINGLE;
-    const size_t bytes = is_single ? sizeof(float) : sizeof(double);
+    const size_t bytes = ps_real_bytes(rows->precision);
     if (rows->host == NULL) {
         PS_TRY(ps_allocate(&self->row, rows->stride, bytes, "a row of powers", error));
         PS_TRY(ps_buffer_read(self->way->device, &rows->device, 0, self->row, rows->stride * bytes,
@@ -68,8 +68,7 @@ static pspec_status read_rows(work *self, const ps_rows *rows, double *powers, s
     }
     const void *const from = rows->host != NULL ? (const void *)rows->host : self->row;
     for (size_t i = 0; i < num; i++) {
-        powers[i] = is_single ? (double)((const float *)from)[self->slots[i]]
-                              : ((const double *)from)[self->slots[i]];
+        powers[i] = ps_real_at(rows->precision, from, self->slots[i]);
     }
     return PSPEC_OK;
 }

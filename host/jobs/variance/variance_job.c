@@ -2,8 +2,7 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
-#include "jobs/variance/bounds.h"
-#include "jobs/variance/radial.h"
+#include "jobs/variance/formulas.h"
 
 #include <math.h>
 #include <stdlib.h>

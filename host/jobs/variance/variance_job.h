@@ -11,7 +11,7 @@
 
 #include "integrands/integrand.h"
 #include "jobs/spectrum/power_job.h"
-#include "jobs/variance/log_variance.h"
+#include "jobs/variance/rates.h"
 #include "jobs/variance/prediction.h"
 #include "plan/phases.h"
 #include "spectra/shape/shape.h"
@@ -26,7 +26,7 @@ typedef struct ps_variance_question {
     size_t num_integrands;
     /* The sum is over the exact shells of a ball instead of a box: of isotropic integrands */
     bool over_shells;
-    bool wants_paper; /* (E-13) beside it, of integrands that are radial (jobs/variance/radial.h) */
+    bool wants_paper; /* (E-13) beside it, of radial integrands (jobs/variance/formulas.h) */
     ps_bounds_spec bounds;
     uint64_t num_shifts;    /* trials of each set that is measured; 0: nothing is */
     uint64_t single_shifts; /* the same of a single set of a file */

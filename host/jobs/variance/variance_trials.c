@@ -116,13 +116,11 @@ pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) {
     if (job->trials.num_shifts == 0) {
         return PSPEC_OK;
     }
-    pspec_status status = choose_seed(job, &plan.seed, error);
-    if (status == PSPEC_OK) {
-        status = open_source(job, &plan, &owned, error);
-    }
-    if (status == PSPEC_OK) {
-        status = ps_measurement_run(&plan, job->measured, job->measured_blocks, error);
-    }
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, choose_seed(job, &plan.seed, error));
+    PS_TRY_OUT(status, open_source(job, &plan, &owned, error));
+    status = ps_measurement_run(&plan, job->measured, job->measured_blocks, error);
+out:
     ps_source_destroy(owned);
     return status;
 }
@@ -151,13 +149,11 @@ pspec_status ps_variance_trials_sum_pairs(ps_variance_job *job, ps_error *error)
     if (!job->trials.is_one_set || plan.most_points > PS_MOST_PAIRWISE_POINTS) {
         return PSPEC_OK;
     }
-    pspec_status status = open_source(job, &plan, &owned, error);
-    if (status == PSPEC_OK) {
-        status = ps_variance_sets_next(plan.source, &set, error);
-    }
-    if (status == PSPEC_OK) {
-        status = sum_pairs(job, &set, error);
-    }
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, open_source(job, &plan, &owned, error));
+    PS_TRY_OUT(status, ps_variance_sets_next(plan.source, &set, error));
+    status = sum_pairs(job, &set, error);
+out:
     ps_point_set_free(&set);
     ps_source_destroy(owned);
     return status;

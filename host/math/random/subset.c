@@ -61,3 +61,15 @@ pspec_status ps_random_subset(uint64_t *out, size_t count, uint64_t population, 
     qsort(out, count, sizeof *out, compare);
     return PSPEC_OK;
 }
+
+void ps_random_order(ps_random *random, uint32_t *order, size_t num) {
+    for (size_t j = 0; j < num; j++) {
+        order[j] = (uint32_t)j;
+    }
+    for (size_t j = num; j > 1; j--) {
+        const size_t other = (size_t)ps_random_below(random, j);
+        const uint32_t kept = order[other];
+        order[other] = order[j - 1];
+        order[j - 1] = kept;
+    }
+}

@@ -1,4 +1,4 @@
-/* Random subsets: some of many numbers, without listing the many. */
+/* Random subsets and orders. Subsets are some of many numbers, without listing the many. */
 #ifndef PS_MATH_RANDOM_SUBSET_H
 #define PS_MATH_RANDOM_SUBSET_H
 
@@ -12,5 +12,8 @@
  * of ps_random_below. */
 pspec_status ps_random_subset(uint64_t *out, size_t count, uint64_t population, ps_random *random,
                               ps_error *error) PS_MUST_CHECK;
+
+/* 0 .. num - 1 in a random order, by Fisher and Yates from the last place on. */
+void ps_random_order(ps_random *random, uint32_t *order, size_t num);
 
 #endif

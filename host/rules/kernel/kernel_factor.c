@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/pieces.h"
-#include "math/random/random.h"
+#include "math/random/subset.h"
 #include "math/sobolev.h"
 
 #include <float.h>
@@ -142,19 +142,6 @@ static void make_one(void *payload, size_t i) {
 
 /* ---- all ----------------------------------------------------------------------------------- */
 
-static void shuffle(size_t num, uint32_t *order) {
-    ps_random random = ps_random_init(0, PS_STREAM_PERMUTATION, 0);
-    for (size_t i = 0; i < num; i++) {
-        order[i] = (uint32_t)i;
-    }
-    for (size_t i = num; i > 1; i--) {
-        const size_t j = (size_t)ps_random_below(&random, i);
-        const uint32_t kept = order[i - 1];
-        order[i - 1] = order[j];
-        order[j] = kept;
-    }
-}
-
 static void fill_chunks(const neighbour_search *search, size_t num) {
     for (size_t begin = 0; begin < num; begin += CHUNK) {
         const size_t size = num - begin < CHUNK ? num - begin : CHUNK;
@@ -194,11 +181,12 @@ static pspec_status allocate(ps_kernel_factor *factor, neighbour_search *search,
 
 pspec_status ps_kernel_factor_create(ps_kernel_factor *out, double smoothness, size_t num,
                                      const double *points, const ps_watch *watch, ps_error *error) {
+    ps_random random = ps_random_init(0, PS_STREAM_PERMUTATION, 0);
     neighbour_search search = {.factor = out, .smoothness = smoothness, .points = points};
     *out = (ps_kernel_factor){.num = num};
     pspec_status status = allocate(out, &search, error);
     if (status == PSPEC_OK) {
-        shuffle(num, search.order);
+        ps_random_order(&random, search.order, num);
         fill_chunks(&search, num);
         /* a row searches the points before it */
         status = ps_pieces_share(watch, "rows of an approximate inverse",

@@ -59,7 +59,4 @@ pspec_status ps_kernel_gradients_prepare(ps_kernel_system *system, ps_error *err
 pspec_status ps_kernel_gradients_solve(ps_kernel_system *system, const double *right, double *x,
                                        double *residual, ps_error *error) PS_MUST_CHECK;
 
-double ps_kernel_dot(size_t num, const double *a,
-                     const double *b); /* compensated; b NULL: sum of a */
-
 #endif

@@ -70,4 +70,7 @@ ps_kernel_facts ps_kernel_system_facts(const ps_kernel_system *system);
 void ps_kernel_interpolate(size_t num_points, const double *points, double smoothness,
                            const double *x, size_t num, const double *at, double *values);
 
+/* sum a_i b_i, compensated; b NULL: of a. */
+double ps_kernel_dot(size_t num, const double *a, const double *b);
+
 #endif

@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "spectra/accumulate/accumulate_device.h"
-#include "spectra/accumulate/accumulate_weighted.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,6 @@
 #include "base/workers.h"
 #include "device/reals.h"
 #include "spectra/accumulate/accumulate_blocks.h"
-#include "spectra/accumulate/accumulate_states.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -113,6 +112,7 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
                                           ps_error *error) {
     *out = NULL;
     ps_device_accumulator *self = NULL;
+    pspec_status status = PSPEC_OK;
     PS_TRY(PS_NEW(&self, 1, "an accumulator", error));
     self->device = device;
     self->options = *options;
@@ -120,19 +120,14 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
     self->options.lanes = ps_accumulate_lanes(options, ps_device_get_limits(device));
     self->num_groups = ps_divide_up(options->batch, self->options.lanes);
     self->is_gpu = ps_device_get_limits(device)->has_dedicated_local_memory;
-    pspec_status status = create_kernels(self, error);
-    if (status == PSPEC_OK) {
-        status = upload_blocks(self, error);
-    }
-    if (status == PSPEC_OK) {
-        status = create_buffers(self, error);
-    }
-    if (status != PSPEC_OK) {
-        ps_device_accumulator_destroy(self);
-        return status;
-    }
+    PS_TRY_OUT(status, create_kernels(self, error));
+    PS_TRY_OUT(status, upload_blocks(self, error));
+    PS_TRY_OUT(status, create_buffers(self, error));
     *out = self;
-    return PSPEC_OK;
+    self = NULL;
+out:
+    ps_device_accumulator_destroy(self);
+    return status;
 }
 
 void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {

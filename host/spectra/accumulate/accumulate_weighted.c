@@ -1,5 +1,3 @@
-#include "spectra/accumulate/accumulate_weighted.h"
-
 #include "accumulate/blocks.h"
 #include "base/memory.h"
 #include "base/round.h"

@@ -3,7 +3,7 @@
 
 #include "harness_angular.h"
 
-#include "jobs/variance/log_variance.h"
+#include "jobs/variance/rates.h"
 #include "math/pi.h"
 #include "math/random/random.h"
 

@@ -2,7 +2,7 @@
  * beyond cut-offs. */
 #include "harness_variance.h"
 
-#include "jobs/variance/radial.h"
+#include "jobs/variance/formulas.h"
 #include "jobs/variance/tails.h"
 #include "math/pi.h"
 
