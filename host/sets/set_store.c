@@ -14,8 +14,8 @@
  * of an EPYC, ext4, 2026-11). */
 static const double LEAST_SECONDS = 2e-3;
 
-/* Of the layout of an entry: number of points, coordinates. */
-enum { VERSION = 1 };
+/* Of the layout of an entry: the array "points" [N][D]. */
+enum { VERSION = 2 };
 
 struct ps_set_store {
     const ps_sampler_request *request;
@@ -42,7 +42,7 @@ double ps_set_store_seconds(const ps_sampler_request *request) {
 }
 
 uint64_t ps_set_store_bytes(const ps_sampler_request *request) {
-    const uint64_t head = 512; /* and the key */
+    const uint64_t head = 1280; /* records, headers, the key */
     return ps_cache_disk_bytes(head + (uint64_t)request->num_points *
                                           ps_sampler_own_dimension(request) * sizeof(double));
 }
@@ -110,57 +110,56 @@ static ps_text key_of(const ps_set_store *store, uint64_t realization) {
     return key;
 }
 
+static const char points_name[] = "points";
+
 /* The points in an entry; false: it is none of this sampler. */
-static bool unpack(const ps_sampler_request *request, const char *bytes, size_t num_bytes,
-                   double *points, size_t *num_points) {
-    const size_t per_point = ps_sampler_own_dimension(request) * sizeof(double);
-    uint64_t num = 0;
-    if (num_bytes < sizeof num) {
+static bool take_points(const ps_sampler_request *request, const ps_npz_file *file, double *points,
+                        size_t *num_points) {
+    const ps_npz_array *const array = ps_npz_find(file, points_name);
+    if (array == NULL || array->kind != 'f' || array->rank != 2 ||
+        array->shape[0] > ps_sampler_most_points(request) ||
+        array->shape[1] != ps_sampler_own_dimension(request)) {
         return false;
     }
-    memcpy(&num, bytes, sizeof num);
-    if (num > ps_sampler_most_points(request) || num_bytes - sizeof num != num * per_point) {
-        return false;
-    }
-    memcpy(points, bytes + sizeof num, num * per_point);
-    *num_points = (size_t)num;
+    *num_points = array->shape[0];
+    memcpy(points, array->data, array->shape[0] * array->shape[1] * sizeof *points);
     return true;
 }
 
 static bool read_set(ps_set_store *store, const ps_text *key, double *points, size_t *num_points) {
-    void *bytes = NULL;
-    size_t num_bytes = 0;
-    bool is_found = false;
+    ps_npz_file *file = NULL;
     ps_error reason = {0};
-    if (ps_cache_get(store->cache, key->data, key->length, &bytes, &num_bytes, &is_found,
-                     &reason) != PSPEC_OK) {
+    if (ps_cache_find(store->cache, key->data, key->length, &file, &reason) != PSPEC_OK) {
         note_trouble(store, &reason);
     }
-    is_found = is_found && unpack(store->request, bytes, num_bytes, points, num_points);
-    free(bytes);
+    const bool is_found = file != NULL && take_points(store->request, file, points, num_points);
+    ps_npz_free(file);
     return is_found;
+}
+
+static pspec_status write_set(ps_set_store *store, const ps_text *key, const double *points,
+                              size_t num_points, ps_error *error) {
+    const size_t shape[] = {num_points, ps_sampler_own_dimension(store->request)};
+    const ps_npz_array array = {points_name, 'f', sizeof *points, 2, shape, points};
+    ps_npz *npz = NULL;
+    PS_TRY(ps_cache_begin(store->cache, key->data, key->length, &npz, error));
+    const pspec_status status = ps_npz_add(npz, &array, error);
+    if (status != PSPEC_OK) {
+        ps_npz_discard(&npz);
+        return status;
+    }
+    return ps_cache_end(store->cache, &npz, error);
 }
 
 static void keep_set(ps_set_store *store, const ps_text *key, const double *points,
                      size_t num_points) {
-    const uint64_t num = num_points;
-    ps_text bytes = {0};
     ps_error reason = {0};
-    ps_text_append_bytes(&bytes, (const char *)&num, sizeof num);
-    ps_text_append_bytes(&bytes, (const char *)points,
-                         num_points * ps_sampler_own_dimension(store->request) * sizeof(double));
-    pspec_status status = ps_text_check(&bytes, &reason);
-    if (status == PSPEC_OK) {
-        status =
-            ps_cache_put(store->cache, key->data, key->length, bytes.data, bytes.length, &reason);
-    }
-    if (status == PSPEC_OK) {
+    if (write_set(store, key, points, num_points, &reason) == PSPEC_OK) {
         atomic_fetch_add(&store->num_kept, 1);
     } else {
         atomic_fetch_add(&store->num_lost, 1);
         note_trouble(store, &reason);
     }
-    ps_text_free(&bytes);
 }
 
 pspec_status ps_set_store_make(ps_set_store *store, uint64_t realization, double *points,

@@ -1,7 +1,6 @@
 #include "store/result_cache.h"
 
 #include "base/memory.h"
-#include "store/cache_entry.h"
 #include "store/cache_folder.h"
 #include "store/cache_trust.h"
 
@@ -9,8 +8,12 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
+
+/* Arrays of an entry. */
+static const char key_name[] = "cache_key", data_name[] = "data";
 
 struct ps_cache {
     char *directory;
@@ -96,24 +99,68 @@ static pspec_status entry_path(ps_text *path, const ps_cache *cache, const void 
 
 /* ---- entries ---- */
 
-pspec_status ps_cache_get(ps_cache *cache, const void *key, size_t key_bytes, void **data,
-                          size_t *data_bytes, bool *is_found, ps_error *error) {
+/* The archive there, NULL where there is none of this key; *is_broken: what is there is none. */
+static pspec_status read_entry(ps_npz_file **out, bool *is_broken, const char *path,
+                               const void *key, size_t key_bytes, ps_error *error) {
+    int descriptor = -1;
+    uint64_t num_bytes = 0;
+    ps_cache_file_kind kind = PS_CACHE_FILE_ABSENT;
+    ps_error reason = {0};
+    PS_TRY(ps_cache_file_open(path, &descriptor, &num_bytes, &kind, error));
+    *is_broken = kind == PS_CACHE_FILE_NONE;
+    if (kind != PS_CACHE_FILE_OWN) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = ps_npz_read(out, descriptor, path, PS_NPZ_LIMIT, &reason);
+    const ps_npz_array *const stored = *out != NULL ? ps_npz_find(*out, key_name) : NULL;
+    *is_broken = status == PSPEC_ERROR_INPUT || (*out != NULL && stored == NULL);
+    if (stored != NULL && stored->rank == 1 && stored->shape[0] == key_bytes &&
+        (key_bytes == 0 || memcmp(stored->data, key, key_bytes) == 0)) {
+        (void)futimens(descriptor, NULL); /* where the folder can be written */
+    } else {
+        ps_npz_free(*out); /* of two keys with one address, or broken */
+        *out = NULL;
+    }
+    close(descriptor);
+    return status == PSPEC_OK || *is_broken ? PSPEC_OK
+                                            : ps_fail(error, status, "%s", reason.message);
+}
+
+pspec_status ps_cache_find(ps_cache *cache, const void *key, size_t key_bytes, ps_npz_file **out,
+                           ps_error *error) {
     ps_text path = {0};
-    ps_cache_finding finding = PS_CACHE_ABSENT;
-    *data = NULL;
-    *data_bytes = 0;
+    bool is_broken = false;
+    *out = NULL;
     pspec_status status = entry_path(&path, cache, key, key_bytes, error);
     if (status == PSPEC_OK) {
-        status = ps_cache_entry_read(path.data, key, key_bytes, data, data_bytes, &finding, error);
+        status = read_entry(out, &is_broken, path.data, key, key_bytes, error);
     }
-    *is_found = status == PSPEC_OK && finding == PS_CACHE_FOUND;
-    if (status == PSPEC_OK && finding == PS_CACHE_BROKEN) {
+    if (status == PSPEC_OK && is_broken) {
         /* In the meantime it may be a new one of another process: then that is computed once more.
          */
         (void)unlink(path.data);
         atomic_fetch_add(&cache->num_broken, 1);
     }
     ps_text_free(&path);
+    return status;
+}
+
+pspec_status ps_cache_get(ps_cache *cache, const void *key, size_t key_bytes, void **data,
+                          size_t *data_bytes, bool *is_found, ps_error *error) {
+    ps_npz_file *file = NULL;
+    *data = NULL;
+    *data_bytes = 0;
+    pspec_status status = ps_cache_find(cache, key, key_bytes, &file, error);
+    const ps_npz_array *const array = file != NULL ? ps_npz_find(file, data_name) : NULL;
+    if (array != NULL && array->kind == 'u' && array->rank == 1) {
+        status = ps_allocate(data, array->shape[0], 1, "a saved result", error);
+    }
+    *is_found = *data != NULL;
+    if (*is_found) {
+        *data_bytes = array->shape[0];
+        memcpy(*data, array->data, *data_bytes);
+    }
+    ps_npz_free(file);
     return status;
 }
 
@@ -139,25 +186,54 @@ static pspec_status evict(ps_cache *cache, uint64_t put_bytes, ps_error *error) 
     return ps_cache_folder_evict(cache->directory, cache->max_bytes, error);
 }
 
-pspec_status ps_cache_put(ps_cache *cache, const void *key, size_t key_bytes, const void *data,
-                          size_t data_bytes, ps_error *error) {
-    const uint64_t least = sizeof(ps_cache_head) + (uint64_t)key_bytes; /* keys are in memory */
-    const uint64_t bytes =
-        data_bytes > UINT64_MAX - least ? UINT64_MAX : ps_cache_disk_bytes(least + data_bytes);
-    if (bytes > cache->max_bytes) {
-        return PSPEC_OK;
-    }
+static pspec_status add_bytes(ps_npz *npz, const char *name, const void *bytes, size_t num,
+                              ps_error *error) {
+    const ps_npz_array array = {name, 'u', 1, 1, &num, num > 0 ? bytes : ""};
+    return ps_npz_add(npz, &array, error);
+}
+
+pspec_status ps_cache_begin(ps_cache *cache, const void *key, size_t key_bytes, ps_npz **out,
+                            ps_error *error) {
     ps_text path = {0};
-    pspec_status status = entry_path(&path, cache, key, key_bytes, error);
-    if (status == PSPEC_OK) { /* somebody may have emptied ~/.cache while we computed */
-        status = ps_cache_folder_make(cache->directory, error);
-    }
-    if (status == PSPEC_OK) {
-        status = ps_cache_entry_write(path.data, key, key_bytes, data, data_bytes, error);
+    pspec_status status = PSPEC_OK;
+    *out = NULL;
+    PS_TRY_OUT(status, entry_path(&path, cache, key, key_bytes, error));
+    /* somebody may have emptied ~/.cache while we computed */
+    PS_TRY_OUT(status, ps_cache_folder_make(cache->directory, error));
+    PS_TRY_OUT(status, ps_cache_clear_way(path.data, error));
+    PS_TRY_OUT(status, ps_npz_open(out, path.data, PS_NPZ_LIMIT, error));
+    status = add_bytes(*out, key_name, key, key_bytes, error);
+out:
+    if (status != PSPEC_OK) {
+        ps_npz_discard(out);
     }
     ps_text_free(&path);
+    return status;
+}
+
+pspec_status ps_cache_end(ps_cache *cache, ps_npz **npz, ps_error *error) {
+    uint64_t bytes = 0;
+    pspec_status status = ps_npz_end(*npz, &bytes, error);
+    bytes = ps_cache_disk_bytes(bytes);
+    const bool fits = bytes <= cache->max_bytes;
+    if (status == PSPEC_OK && fits) {
+        status = ps_npz_commit(npz, error);
+    }
+    ps_npz_discard(npz);
     PS_TRY(status);
-    return evict(cache, bytes, error);
+    return fits ? evict(cache, bytes, error) : PSPEC_OK;
+}
+
+pspec_status ps_cache_put(ps_cache *cache, const void *key, size_t key_bytes, const void *data,
+                          size_t data_bytes, ps_error *error) {
+    ps_npz *npz = NULL;
+    PS_TRY(ps_cache_begin(cache, key, key_bytes, &npz, error));
+    const pspec_status status = add_bytes(npz, data_name, data, data_bytes, error);
+    if (status != PSPEC_OK) {
+        ps_npz_discard(&npz);
+        return status;
+    }
+    return ps_cache_end(cache, &npz, error);
 }
 
 /* ---- all of them ---- */

@@ -8,7 +8,8 @@
  * float64 [rows][columns], missing is nan, and a JSON file of the same name (out.npy: out.json)
  * holds the rest. NPZ: each column a vector by its name, int64 where all of its cells are integers,
  * text where one of them is, else float64 with nan for what is missing; what that JSON file has, as
- * the array "meta"; "fields" and "cell_kinds", by which it is read back (table_rows.h). A number that is nan counts as missing. JSON has no infinities: null. Text is for
+ * the array "meta"; "fields" and "cell_kinds", by which it is read back (table_rows.h). A number
+ * that is nan counts as missing. JSON has no infinities: null. Text is for
  * people (table_text.c): few digits, units for seconds and bytes.
  */
 #ifndef PS_TABLES_TABLE_H

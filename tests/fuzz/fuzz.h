@@ -65,7 +65,6 @@ void fuzz_frequencies(const char *argument, fuzz_bytes input);
 void fuzz_weights(const char *argument, fuzz_bytes input);
 void fuzz_spectrum(const char *argument, fuzz_bytes input);
 void fuzz_saved(const char *argument, fuzz_bytes input);
-void fuzz_cache(const char *argument, fuzz_bytes input);
 void fuzz_table(const char *argument, fuzz_bytes input);
 void fuzz_scene(const char *argument, fuzz_bytes input);
 void fuzz_figures(const char *argument, fuzz_bytes input);

@@ -321,17 +321,6 @@ sums() { # NUMBER
 { VERSION=2; spectrum box 1 4 rings 2 power | sed 's/smallest_points: 4/smallest_points: 3/'; sums 6; } | seed spectrum old-different '\1'
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
 
-# entry KEY DATA: a file of the cache, whose checksums the target sets
-entry() {
-    printf 'psresult'
-    u32 1 0 ${#1} 0 ${#2} 0 0 0 0 0 0 0
-    printf %s "$1$2"
-}
-entry key 'some data' | seed cache found '\3'
-entry key 'some data' | seed cache other '\1'
-entry '' '' | seed cache empty '\3'
-entry key 'some data' | seed cache unchecked '\2'
-
 # array KIND EXTENTS: of a table in an NPZ file, its kind (0 to 4: f, i, u, c, U1) and extents, and then its data
 array() {
     local extents

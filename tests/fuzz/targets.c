@@ -25,7 +25,6 @@ const fuzz_target fuzz_targets[] = {
     {"weights", fuzz_weights, NULL, "binary.dict"},
     {"spectrum", fuzz_spectrum, NULL, "text.dict"},
     {"saved", fuzz_saved, NULL, "text.dict"},
-    {"cache", fuzz_cache, NULL, "binary.dict"},
     {"table", fuzz_table, NULL, "binary.dict"},
     {"figures", fuzz_figures, NULL, "text.dict"},
     {"scene", fuzz_scene, NULL, "scene.dict"},

@@ -3,7 +3,6 @@
 #define _XOPEN_SOURCE 700 /* mkfifo, setenv */
 
 #include "harness_cache.h"
-#include "store/cache_entry.h"
 #include "test_folder.h"
 
 #include <fcntl.h>
@@ -155,13 +154,21 @@ static void the_bound_holds_for_entries_of_any_size(void **state) {
 static void what_is_larger_than_the_limit_is_not_stored(void **state) {
     ps_cache *cache = harness_cache_open(state, 2 * CACHE_BLOCK_BYTES);
     static const char data[2 * CACHE_BLOCK_BYTES] = {0};
-    const size_t fits = sizeof data - sizeof(ps_cache_head) - 3;
+    const test_folder *const folder = *state;
+    char key[CACHE_KEY_BYTES];
+    char path[CACHE_PATH_BYTES];
+    struct stat facts;
     ps_error error = {0};
+    harness_cache_key(7, key);
+    assert_int_equal(ps_cache_put(cache, key, sizeof key, data, 1, &error), PSPEC_OK);
+    assert_int_equal(stat(harness_cache_path(folder->path, 7, path), &facts), 0);
+    assert_int_equal(unlink(path), 0);
+    const size_t fits = sizeof data - (size_t)facts.st_size + 1;
     harness_cache_must_put(cache, 1, SMALL);
-    assert_int_equal(ps_cache_put(cache, "key", 3, data, fits + 1, &error), PSPEC_OK);
+    assert_int_equal(ps_cache_put(cache, key, sizeof key, data, fits + 1, &error), PSPEC_OK);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 1);
     harness_cache_check_usage(cache, 1, CACHE_BLOCK_BYTES);
-    assert_int_equal(ps_cache_put(cache, "key", 3, data, fits, &error), PSPEC_OK);
+    assert_int_equal(ps_cache_put(cache, key, sizeof key, data, fits, &error), PSPEC_OK);
     harness_cache_check_usage(cache, 1, 2 * CACHE_BLOCK_BYTES);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 0);
     ps_cache_close(cache);

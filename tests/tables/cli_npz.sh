@@ -33,19 +33,25 @@ arrays=(--sampler white -n 16 -m 2 -k 2)
 "$program" power x.npz -k 2 >out 2>err && complain "a table was taken for points"
 [[ $(<err) == *'x.npz'*points* && $(wc -l <err) == 1 ]] || complain "a table as points: $(<err)"
 
+# what the cache keeps: answers, a picture, sets
+export POINTSPEC_CACHE_DIR=$PWD/cache
+printf 'scene: 1\nresults:\n  - {result: power, sampler: bnot, points: 512, realizations: 2}\n' >kept.yaml
+"$program" run kept.yaml -o page >out 2>err || complain "run: $(<err)"
+[[ -n $(find cache/results -name '*.result') && -n $(find cache/sets -name '*.result') ]] || complain "nothing is kept: $(find cache)"
+
 if ! python3 -c 'import numpy' 2>err; then
     echo "cli_npz: no numpy: it does not read the archives"
     finish
 fi
 python3 - "${#lines[@]}" <<'PYTHON' 2>err || complain "$(<err)"
-import csv, json, sys
+import csv, glob, json, sys
 import numpy as np
 for i in range(int(sys.argv[1])):
     archive = np.load(f"{i}.npz", allow_pickle=False)
     with open(f"{i}.csv") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     assert json.loads(str(archive["meta"]))["columns"] == rows[0] == archive.files[3:-1]
-    assert archive.files[:3] + archive.files[-1:] == ["meta", "fields", "cell_kinds", "digest"]
+    assert archive.files[:3] + archive.files[-1:] == ["meta", "fields", "cell_kinds", "file_digest"]
     for column, name in enumerate(rows[0]):
         array = archive[name]
         texts = [row[column] for row in rows[1:]]
@@ -58,6 +64,9 @@ for i in range(int(sys.argv[1])):
             assert array.dtype == np.float64
             numbers = np.array([float(text or "nan") for text in texts])
             assert np.array_equal(array, numbers, equal_nan=True), name
+for path in glob.glob("cache/*/*"):
+    kept = np.load(path, allow_pickle=False)
+    assert {"cache_key", "file_digest"} < {name for name in kept.files if kept[name].size > 0}, path
 arrays = np.load("arrays.npz", allow_pickle=False)
 for name, path in ("full", "f"), ("full_standard_error", "f.standard_error"), ("coefficients", "c"):
     assert np.array_equal(arrays[name], np.load(path + ".npy"), equal_nan=True), name

@@ -13,6 +13,7 @@ struct ps_npz {
     ps_output_file *file;
     XXH3_state_t *digest; /* of all bytes written */
     ps_npz_records records;
+    bool is_ended;
 };
 
 static void write_bytes(ps_npz *npz, const void *bytes, size_t num) {
@@ -70,11 +71,7 @@ pspec_status ps_npz_add(ps_npz *npz, const ps_npz_array *array, ps_error *error)
     return ps_output_check(npz->file, error);
 }
 
-uint64_t ps_npz_num_bytes(const ps_npz *npz) {
-    return npz->records.position;
-}
-
-static pspec_status write_end(ps_npz *npz, ps_error *error) {
+pspec_status ps_npz_end(ps_npz *npz, uint64_t *num_bytes, ps_error *error) {
     const XXH128_hash_t digest = XXH3_128bits_digest(npz->digest);
     const size_t num = sizeof digest / sizeof(int64_t);
     const ps_npz_array last = {PS_NPZ_DIGEST, 'i', sizeof(int64_t), 1, &num, &digest};
@@ -83,11 +80,15 @@ static pspec_status write_end(ps_npz *npz, ps_error *error) {
     const uint64_t directory_bytes = npz->records.directory.length;
     PS_TRY(write_records(npz, &npz->records.directory, error));
     ps_npz_put_end(&end, &npz->records, directory_bytes);
-    return write_records(npz, &end, error);
+    PS_TRY(write_records(npz, &end, error));
+    npz->is_ended = true;
+    *num_bytes = npz->records.position;
+    return PSPEC_OK;
 }
 
 pspec_status ps_npz_commit(ps_npz **npz, ps_error *error) {
-    pspec_status status = write_end(*npz, error);
+    uint64_t num_bytes = 0;
+    pspec_status status = (*npz)->is_ended ? PSPEC_OK : ps_npz_end(*npz, &num_bytes, error);
     if (status == PSPEC_OK) {
         status = ps_output_commit(&(*npz)->file, error);
     }

@@ -2,9 +2,9 @@
  *
  * Members are stored as they are, one after the other in the order in which they were added, with
  * the date 1980-01-01: equal arrays make equal bytes. Nothing is written twice, so the file may be
- * a pipe. Sizes and places from 4 GiB on stand in fields of ZIP64. The last array, "digest", is the
- * digest of what is before it. What is read back is what was written, or nothing: every byte of the
- * file is checked. */
+ * a pipe. Sizes and places from 4 GiB on stand in fields of ZIP64. The last array, "file_digest",
+ * is the digest of what is before it. What is read back is what was written, or nothing: every byte
+ * of the file is checked. */
 #ifndef PS_FILES_PACKED_NPZ_H
 #define PS_FILES_PACKED_NPZ_H
 
@@ -33,10 +33,10 @@ pspec_status ps_npz_open(ps_npz **out, const char *path, uint64_t limit,
                          ps_error *error) PS_MUST_CHECK;
 /* Writes the array; nothing of it is kept. */
 pspec_status ps_npz_add(ps_npz *npz, const ps_npz_array *array, ps_error *error) PS_MUST_CHECK;
-/* Written so far, but for the directory. */
-uint64_t ps_npz_num_bytes(const ps_npz *npz);
-/* Writes the directory and gives the file its name. The handle is freed in every case and *npz set
- * to NULL. */
+/* Writes the digest and the directory, behind which nothing comes. *num_bytes: of the file. */
+pspec_status ps_npz_end(ps_npz *npz, uint64_t *num_bytes, ps_error *error) PS_MUST_CHECK;
+/* Writes that, where it was not done, and gives the file its name. The handle is freed in every
+ * case and *npz set to NULL. */
 pspec_status ps_npz_commit(ps_npz **npz, ps_error *error) PS_MUST_CHECK;
 /* A NULL handle is allowed. */
 void ps_npz_discard(ps_npz **npz);

@@ -48,6 +48,6 @@ bool ps_npz_count_bytes(const ps_npz_array *array, size_t *bytes);
 
 /* The last array has the digest (XXH3, 128 bits) of all bytes of the file before its record, as two
  * integers, the lower one first. */
-#define PS_NPZ_DIGEST "digest"
+#define PS_NPZ_DIGEST "file_digest"
 
 #endif

@@ -1,7 +1,6 @@
-/* Answers in the cache of results: under which key, as which bytes. */
+/* Answers in the cache of results: under which key, and what is kept of them. */
 #include "pointspec_version.h"
 #include "scene/run/run.h"
-#include "tables/table_pack.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -106,29 +105,6 @@ static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_er
     return ps_text_check(key, error);
 }
 
-/* ---- answers as bytes -------------------------------------------------------------------- */
-
-/* What it took, and the table. */
-static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, ps_error *error) {
-    void *bytes = NULL;
-    size_t num = 0;
-    PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
-    ps_text_append_bytes(out, (const char *)&seconds, sizeof seconds);
-    ps_text_append_bytes(out, bytes, num);
-    free(bytes);
-    return ps_text_check(out, error);
-}
-
-/* What another version may have packed is no answer: PSPEC_ERROR_INPUT. */
-static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, size_t num,
-                           ps_error *error) {
-    if (num < sizeof *seconds) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is no answer", num);
-    }
-    memcpy(seconds, bytes, sizeof *seconds);
-    return ps_table_unpack(&out->table, bytes + sizeof *seconds, num - sizeof *seconds, error);
-}
-
 /* ---- to and fro ------------------------------------------------------------------------------ */
 
 void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
@@ -138,11 +114,23 @@ void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
     *reason = (ps_error){0};
 }
 
+static const char seconds_name[] = "seconds_taken";
+
+/* What another version may have put there is no answer: PSPEC_ERROR_INPUT. */
+static pspec_status read_answer(ps_answer *out, double *seconds, const ps_npz_file *file,
+                                ps_error *error) {
+    const ps_npz_array *const taken = ps_npz_find(file, seconds_name);
+    if (taken == NULL || taken->kind != 'f' || taken->rank != 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is no answer", ps_npz_name(file));
+    }
+    memcpy(seconds, taken->data, sizeof *seconds);
+    return ps_table_take_npz(&out->table, file, error);
+}
+
 pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out, double *seconds,
                           bool *is_found, ps_error *error) {
     const ps_text *const key = &question->key;
-    void *bytes = NULL;
-    size_t num = 0;
+    ps_npz_file *file = NULL;
     ps_error reason = {0};
     *is_found = false;
     *out = (ps_answer){0};
@@ -150,32 +138,39 @@ pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out
         return PSPEC_OK;
     }
     PS_TRY(make_key(run, question, error));
-    if (ps_cache_get(run->cache, key->data, key->length, &bytes, &num, is_found, &reason) !=
-        PSPEC_OK) {
+    pspec_status status = ps_cache_find(run->cache, key->data, key->length, &file, &reason);
+    if (file != NULL) {
+        status = read_answer(out, seconds, file, &reason);
+    }
+    if (status != PSPEC_OK) {
         ps_run_warn_of_cache(run, &reason);
     }
-    if (*is_found && unpack(out, seconds, bytes, num, &reason) != PSPEC_OK) {
-        ps_run_warn_of_cache(run, &reason);
-        ps_answer_free(out);
-        *is_found = false;
-    }
-    free(bytes);
+    *is_found = out->table != NULL;
+    ps_npz_free(file);
     return PSPEC_OK;
 }
 
-pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
-                         ps_error *error) {
+static pspec_status write_answer(ps_cache *cache, ps_npz **npz, const ps_answer *answer,
+                                 double seconds, ps_error *error) {
+    const ps_npz_array taken = {seconds_name, 'f', sizeof seconds, 0, NULL, &seconds};
+    PS_TRY(ps_npz_add(*npz, &taken, error));
+    PS_TRY(ps_table_add_to_npz(answer->table, *npz, error));
+    return ps_cache_end(cache, npz, error);
+}
+
+void ps_run_keep(ps_run *run, const ps_run_question *question, double seconds) {
     const ps_text *const key = &question->key;
-    ps_text bytes = {0};
+    ps_npz *npz = NULL;
     ps_error reason = {0};
     if (run->cache == NULL) {
-        return PSPEC_OK;
+        return;
     }
-    const pspec_status status = pack(&question->answer, seconds, &bytes, error);
-    if (status == PSPEC_OK && ps_cache_put(run->cache, key->data, key->length, bytes.data,
-                                           bytes.length, &reason) != PSPEC_OK) {
+    pspec_status status = ps_cache_begin(run->cache, key->data, key->length, &npz, &reason);
+    if (status == PSPEC_OK) {
+        status = write_answer(run->cache, &npz, &question->answer, seconds, &reason);
+    }
+    ps_npz_discard(&npz);
+    if (status != PSPEC_OK) {
         ps_run_warn_of_cache(run, &reason);
     }
-    ps_text_free(&bytes);
-    return status;
 }

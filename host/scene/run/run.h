@@ -105,8 +105,7 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
  * that cannot be had is no error, but a warning. */
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Keeps the answer under the key that ps_run_fetch made of the inputs before it was computed. */
-pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
-                         ps_error *error) PS_MUST_CHECK;
+void ps_run_keep(ps_run *run, const ps_run_question *question, double seconds);
 /* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it
  * took. */
 pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out, double *seconds,
