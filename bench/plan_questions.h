@@ -28,8 +28,8 @@ static const char *const plan_files[] = {
     "sample --sampler white-sphere -n 1000000 -o sphere.npy",
     "sample --sampler white-sphere -n 1024 -m 256 -o rules.npy",
     "convert white.txt -o white.utkb --format utk-binary",
-    "power --sampler jittered -n 1024 -m 400 -k 64 -o jittered.json --format json",
-    "angular --sampler white-sphere -n 1024 -m 100 -l 64 -o angular.json --format json",
+    "power --sampler jittered -n 1024 -m 400 -k 64 -o jittered.npz",
+    "angular --sampler white-sphere -n 1024 -m 100 -l 64 -o angular.npz",
     NULL
 };
 
@@ -189,9 +189,9 @@ static const char *const plan_questions[] = {
     "run sphere.yaml --cache 0",
     "run rules.yaml --cache 0",
     /* against what was saved */
-    "check --against jittered.json --sampler jittered -n 1024 -m 400",
-    "check --against jittered.json --sampler jittered -n 1024 -m 2000",
-    "check --against angular.json --sampler white-sphere -n 1024 -m 1000",
+    "check --against jittered.npz --sampler jittered -n 1024 -m 400",
+    "check --against jittered.npz --sampler jittered -n 1024 -m 2000",
+    "check --against angular.npz --sampler white-sphere -n 1024 -m 1000",
     NULL
 };
 /* clang-format on */

@@ -14,13 +14,13 @@ static void warn(const char *sentence, void *payload) {
 }
 
 /* pointspec power --sampler jittered --points 256 --realizations 16 --max-frequency 16 --output
- * answers.json */
+ * answers.npz */
 static pspec_status print_power(pspec_context *context) {
     const pspec_option options[] = {{"sampler", "jittered"},
                                     {"points", "256"},
                                     {"realizations", "16"},
                                     {"max-frequency", "16"},
-                                    {"output", "answers.json"}};
+                                    {"output", "answers.npz"}};
     pspec_table *table = NULL;
     const pspec_status status = pspec_answer(&table, context, "power", options, COUNT(options));
     if (status != PSPEC_OK) {
@@ -37,10 +37,10 @@ static pspec_status print_power(pspec_context *context) {
     return PSPEC_OK;
 }
 
-/* pointspec check --against answers.json --sampler SAMPLER --seed 2 */
+/* pointspec check --against answers.npz --sampler SAMPLER --seed 2 */
 static pspec_status print_check(pspec_context *context, const char *sampler) {
     const pspec_option options[] = {
-        {"against", "answers.json"}, {"sampler", sampler}, {"seed", "2"}};
+        {"against", "answers.npz"}, {"sampler", sampler}, {"seed", "2"}};
     pspec_table *table = NULL;
     const pspec_status status = pspec_answer(&table, context, "check", options, COUNT(options));
     if (status == PSPEC_OK) {

@@ -41,8 +41,8 @@ compare() { # NAME REALIZATIONS SETTING...: some realizations for each setting
     read -r num _ <<<"$known"
     for setting; do
         "$program" power --quiet --sampler "$setting" -n "$num" -m "$realizations" \
-            -k "$(awk -v n="$num" 'BEGIN { printf "%d", 2 * sqrt(n) }')" -o "$scratch/saved.json"
-        { "$program" check --quiet "$file" --against "$scratch/saved.json" || (($? == 3)); } |
+            -k "$(awk -v n="$num" 'BEGIN { printf "%d", 2 * sqrt(n) }')" -o "$scratch/saved.npz"
+        { "$program" check --quiet "$file" --against "$scratch/saved.npz" || (($? == 3)); } |
             awk -v name="$name" -v known="$known" -v setting="$setting" -v realizations="$realizations" '
                 sub(/^# different: /, "") { different = $0 }
                 sub(/^# adjusted_p_value: /, "") { p = $0 }

@@ -85,7 +85,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         FLAG(wants_ranking), .is_of_all = true},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
-                               "the saved spectrum: what power or angular wrote with -o FILE.json",
+                               "the saved spectrum: what power or angular wrote with -o FILE.npz",
                            TEXT(against), .input = ps_input_all},
     [PS_OPTION_HOMOGENEOUS] = {NAMED("homogeneous", 0, NULL), OF(BIT(check), 0),
                                .help = "instead: are realizations invariant under translations, "

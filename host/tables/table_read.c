@@ -281,6 +281,21 @@ pspec_status ps_table_take_npz(ps_table **out, const ps_npz_file *file, ps_error
     return status;
 }
 
+/* Its first array is the header. */
+bool ps_table_is_npz(const char *path) {
+    enum { NAME = 30 }; /* where the name stands in a zip archive */
+    static const char name[] = PS_TABLE_META ".npy";
+    char bytes[NAME + sizeof name - 1];
+    const int descriptor = ps_descriptor_open(path);
+    const bool is_long =
+        descriptor >= 0 && pread(descriptor, bytes, sizeof bytes, 0) == sizeof bytes;
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+    return is_long && memcmp(bytes, "PK", 2) == 0 &&
+           memcmp(bytes + NAME, name, sizeof name - 1) == 0;
+}
+
 pspec_status ps_table_read_npz(ps_table **out, const char *path, ps_error *error) {
     ps_npz_file *file = NULL;
     *out = NULL;

@@ -170,13 +170,13 @@ static void check(void **state) {
                                   {"points", "64"},
                                   {"realizations", "8"},
                                   {"max-frequency", "8"},
-                                  {"output", "saved.json"}};
+                                  {"output", "saved.npz"}};
     pspec_table_destroy(ask_library(context, "power", saved, COUNT(saved)));
     const pspec_option same[] = {
-        {"against", "saved.json"}, {"sampler", "jittered"}, {"seed", "2"}, {"output", "same.csv"}};
+        {"against", "saved.npz"}, {"sampler", "jittered"}, {"seed", "2"}, {"output", "same.csv"}};
     COMPARE("check", same, "same.csv");
     const pspec_option other[] = {
-        {"against", "saved.json"}, {"sampler", "white"}, {"seed", "2"}, {"output", "other.csv"}};
+        {"against", "saved.npz"}, {"sampler", "white"}, {"seed", "2"}, {"output", "other.csv"}};
     compare_verdict("check", other, COUNT(other), "other.csv");
     pspec_table *const table = ask_library(context, "check", other, COUNT(other));
     assert_string_equal(pspec_table_find_entry(table, "verdict").text, "different");

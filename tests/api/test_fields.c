@@ -18,7 +18,7 @@ static const char *const questions[] = {
     "power sampler=sobol sampler=white points=8,16 max-frequency=2 homogenize",
     "power sampler=white points=144 max-frequency=6 realizations=8 fit=auto bins=floor "
     "plot=a.svg",
-    "power sampler=white points=8 max-frequency=2 realizations=9 scatter=1,1 output=saved.json",
+    "power sampler=white points=8 max-frequency=2 realizations=9 scatter=1,1 output=saved.npz",
     "power sampler=white points=8 realizations=2 max-frequency=2 full=full.npy",
     "power sampler=white points=4 max-frequency=1 standard-error=0.9 realizations=40",
     "power files=unequal.txt max-frequency=2 coefficients=c.npy",
@@ -29,7 +29,7 @@ static const char *const questions[] = {
     "power sampler=sobol dimension=3 points=4 per-ring=2 max-frequency=2",
     "angular sampler=white-sphere points=8 max-degree=3 coefficients=lm.npy",
     "angular sampler=white-sphere points=64 max-degree=32 realizations=8 fit=auto plot=b.svg",
-    "angular sampler=white-sphere points=8 realizations=9 max-degree=2 output=sphere.json",
+    "angular sampler=white-sphere points=8 realizations=9 max-degree=2 output=sphere.npz",
     "angular files=long.txt max-degree=2",
     "angular files=points.txt lift=hemisphere morph=glossy:n=3 max-degree=2",
     "pairs sampler=white-sphere points=8 max-degree=2 plot=c.svg",
@@ -45,9 +45,9 @@ static const char *const questions[] = {
     "weights-out=w.npy",
     "quadrature files=near.txt brdf=diffuse weights=optimal drop-below-horizon max-degree=2",
     "truncation brdf=glossy:n=4 max-degree=2",
-    "check against=saved.json sampler=white seed=1",
-    "check against=saved.json files=saved.json engine=",
-    "check against=sphere.json sampler=white-sphere",
+    "check against=saved.npz sampler=white seed=1",
+    "check against=saved.npz files=saved.npz engine=",
+    "check against=sphere.npz sampler=white-sphere",
     "check homogeneous sampler=white points=4 max-frequency=2 realizations=40",
 };
 

@@ -133,10 +133,10 @@ done
 # ---- other commands: check and run say the same, convert keeps all bits
 make_sets 1 2 3
 on power
-runs 0 "${words[@]}" --format json -o saved.json
+runs 0 "${words[@]}" -o saved.npz
 make_sets 1e308 1e308 1e308
 command=check
-refuses "$sums" --engine host_direct --against saved.json --columns xyw plane.txt
+refuses "$sums" --engine host_direct --against saved.npz --columns xyw plane.txt
 cat >scene.yaml <<'END'
 scene: 1
 defaults: {engine: host_direct}

@@ -301,8 +301,8 @@ refuses '--per-ring draws from rings of a cube' power --per-ring 8 "$cuboid"
 sed 's/^0 8$/0 80/; s/^0 2$/0 .02/' "$cuboid" >slab.dump
 "$program" plan power --wrap slab.dump >table
 header 'max_frequency: 10'
-spectrum -k 2 --wrap "$folder/unwrapped.dump" -o ring_0.json
-"$program" check --against ring_0.json --wrap "$folder/unwrapped.dump" >table 2>err || complain 'check of ring 0' "    $(<err)"
+spectrum -k 2 --wrap "$folder/unwrapped.dump" -o ring_0.npz
+"$program" check --against ring_0.npz --wrap "$folder/unwrapped.dump" >table 2>err || complain 'check of ring 0' "    $(<err)"
 grep -q '^0,' table || complain 'no ring 0'
 atoms='0.1 0.1 0.15|0.6 0.1 0.4|0.1 0.35 0.4|0.6 0.35 0.15'
 reads "$atoms" "$folder/ext.xyz"

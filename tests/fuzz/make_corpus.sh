@@ -351,28 +351,24 @@ figures "$version" 'scale torus_nufft single nan\nscale torus_nufft single 1e4\n
 figures 0.0.0 'date today\n' | seed figures version '\x01'
 printf 'flops single 1\n' | seed figures unchecked '\x00'
 
-# saved COMMAND META COLUMNS ROWS: a table as JSON
+# saved ENTRIES KEYS: rows of these rings, a digit each, in a table of power
 saved() {
-    printf '{"schema": 3, "command": "%s", "meta": {"normalization": "power: x", "realizations": [4],
-"predicted_error": [1e-7], "seed": 1, %s}, "columns": [%s], "rows": [%s]}\n' "$@"
+    local num=${#2}
+    fields "1|power|cbin|cpower|cfrequency|ccount|cstandard_error|3normalization|power: x|2realizations|3|1predicted_error|0.001|$1"
+    for ((i = 0; i < num; i++)); do printf '\2\1\1\2\1'; done | array 2 "$num 5"
+    perl -e 'print pack("q<*", split //, $ARGV[0])' "$2" | array 1 "$num"
+    perl -e 'print pack("d<*", (0.5) x $ARGV[0])' "$num" | array 0 "$num"
+    perl -e 'print pack("d<*", (1.25) x $ARGV[0])' "$num" | array 0 "$num"
+    perl -e 'print pack("q<*", (8) x $ARGV[0])' "$num" | array 1 "$num"
+    printf '' | array 1 0
+    f64 0.1 0.2 | head -c $((8 * num)) | array 0 "$num"
 }
-ring() { # BIN FREQUENCY COUNT POWER STANDARD_ERROR: a row of it
-    printf '{"bin": %s, "frequency": %s, "count": %s, "power": %s, "standard_error": %s}' "$@"
-}
-ring_columns='"bin", "frequency", "count", "power", "standard_error"'
-saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" \
-    "$(ring 1 1.2 8 0.5 0.1), $(ring 2 2.1 12 0.7 0)" | seed saved rings ''
-saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$ring_columns" "$(ring 1 1 6 0.5 0.1)" |
-    seed saved shells ''
-saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
-    '"degree", "power", "standard_error"' '{"degree": 2, "power": 1.5, "standard_error": 0.25}' | seed saved degrees ''
-saved power '"points": 7.5, "points_smallest": 7, "points_largest": 8, "dimension": 2, "max_frequency": 1' "$ring_columns" \
-    "$(ring 1 1.2 8 0.5 0.1)" | seed saved range ''
-saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" "$(ring 1 1.2 8 0.5 null)" | seed saved missing ''
-saved power '"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]' "$ring_columns" \
-    "$(ring 1 1.2 8 0.5 0.1)" | seed saved objects ''
-saved power '"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["width=3/2"]' "$ring_columns" \
-    "$(ring 0 1.2 8 0.5 0.1)" | seed saved inner ''
+plane='2points|8|2dimension|2|2max_frequency|2|'
+saved "$plane" 12 | seed saved rings '\1'
+saved "2points|8|2dimension|3|2max_frequency|1|2per_ring|2|2seed|5|" 1 | seed saved shells '\1'
+saved "1points|7.5|2points_smallest|7|2points_largest|8|2dimension|2|2max_frequency|1|" 1 | seed saved range '\1'
+saved "${plane}3bins|relative=1/2|" 1 | seed saved objects '\1'
+saved "${plane}3bins|width=3/2|" 0 | seed saved inner '\1'
 
 # ---- scenes ----------------------------------------------------------------------------------
 

@@ -1,17 +1,15 @@
 /* Tables in NPZ files: what is read has no more cells than bytes. After a first byte 0 the input is
  * the file. Else it is what tables are made of, and gets the records and the digest that hardly an
  * input would have: arrays, each the length of its texts, its kind, rank and extents, a byte each,
- * and its bytes; the first two have the names of those beside columns, the others are a, b, c. */
-#include "base/memory.h"
+ * and its bytes; the first two have the names of those beside columns, the others those of spectra.
+ * */
+#include "answers/check/saved_spectrum.h"
 #include "files/packed/npz_records.h"
 #include "fuzz.h"
 #include "tables/table.h"
 
-#include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 static void put_array(ps_text *out, ps_npz_records *records, const ps_npz_array *array) {
@@ -52,7 +50,8 @@ static bool take_array(ps_npz_array *array, size_t *shape, fuzz_bytes *input) {
 }
 
 static void make_file(ps_text *out, fuzz_bytes input) {
-    static const char *const names[] = {"fields", "cell_kinds", "a", "b", "c"};
+    static const char *const names[] = {"fields",    "cell_kinds", "bin",    "power",
+                                        "frequency", "count",      "degree", "standard_error"};
     ps_npz_records all = {.limit = PS_NPZ_LIMIT};
     size_t shape[PS_NPY_MAX_RANK];
     ps_npz_array array;
@@ -86,8 +85,7 @@ static void check_table(const ps_table *table, size_t num_bytes) {
     }
 }
 
-void fuzz_table(const char *argument, fuzz_bytes input) {
-    (void)argument;
+static ps_table *take_table(fuzz_bytes input) {
     ps_text made = {0};
     ps_table *table = NULL;
     ps_error error = {0};
@@ -106,7 +104,50 @@ void fuzz_table(const char *argument, fuzz_bytes input) {
     if (table != NULL) {
         check_table(table, made.length);
     }
-    ps_table_destroy(table);
     fuzz_file_close(&file);
     ps_text_free(&made);
+    return table;
+}
+
+void fuzz_table(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    ps_table_destroy(take_table(input));
+}
+
+/* ---- saved spectra: what is taken is what the comparison counts on --------------------------- */
+
+static void check_bins(const ps_saved_spectrum *saved) {
+    const int64_t least = saved->on_sphere ? 1 : 0; /* boxes have frequencies below 1/2 */
+    for (size_t b = 0; b < saved->num_bins; b++) {
+        const ps_saved_bin *const bin = &saved->bins[b];
+        if (bin->key < least || (b > 0 && bin->key <= saved->bins[b - 1].key)) {
+            fuzz_fail("bin %zu is out of place", b);
+        }
+        if (!(bin->power >= 0 && isfinite(bin->power)) ||
+            (saved->num_realizations > 1 && !(bin->standard_error >= 0))) {
+            fuzz_fail("bin %zu has no power", b);
+        }
+    }
+}
+
+void fuzz_saved(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    ps_table *const table = take_table(input);
+    ps_saved_spectrum saved = {0};
+    ps_error error = {0};
+    if (table == NULL) {
+        return;
+    }
+    const pspec_status status = ps_saved_table_take(&saved, table, "saved", &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if (status == PSPEC_OK) {
+        check_bins(&saved);
+        if (saved.num_bins == 0 || saved.num_realizations == 0 || saved.max_frequency < 1 ||
+            saved.dimension < 1 || !(saved.error >= 0) ||
+            saved.smallest_points > saved.largest_points) {
+            fuzz_fail("a question that nobody asks");
+        }
+    }
+    ps_saved_spectrum_free(&saved);
+    ps_table_destroy(table);
 }

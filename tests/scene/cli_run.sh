@@ -17,7 +17,7 @@ same_results() { # FOLDER FOLDER: tables and pictures
 }
 no_folder() { [[ ! -e $1 ]] || complain "there is a folder $1"; }
 
-"$program" power --engine host_direct --sampler jittered -n 16 -m 20 -k 5 -o saved.json
+"$program" power --engine host_direct --sampler jittered -n 16 -m 20 -k 5 -o saved.npz
 printf '1 2\n-3 0\n1000000 1\n' >vectors.txt
 mkdir sets
 "$program" sample --sampler white -n 9 -m 2 -o 'sets/a&b.txt'
@@ -35,7 +35,7 @@ results:
   - {result: pairs, samplers: zphi, points: 16, max-degree: 5, realizations: 2}
   - {result: quadrature, samplers: [fibonacci-hemisphere, white-hemisphere], weights: [equal, optimal], points: 4..8, brdf: diffuse, max-degree: 4, arrays: true}
   - {result: truncation, brdf: [diffuse, 'glossy:n=5'], max-degree: 5}
-  - {result: check, against: saved.json, samplers: jittered}
+  - {result: check, against: saved.npz, samplers: jittered}
 EOF
 
 # ---- the folder ----
@@ -170,7 +170,7 @@ cd ..
 cat >gate.yaml <<'EOF'
 scene: 1
 results:
-  - {result: check, against: saved.json, samplers: [jittered, white], engine: host_direct}
+  - {result: check, against: saved.npz, samplers: [jittered, white], engine: host_direct}
 EOF
 runs 3 gate.yaml
 says '1 check found another spectrum than the saved one: '
@@ -191,7 +191,7 @@ refuses 'one scene is run at a time, but 0 files were named'
 refuses 'one scene is run at a time, but 2 files' small.yaml gate.yaml
 refuses "sets/a&b.txt:11: not YAML" "sets/a&b.txt" -o none2
 refuses 'has files that are not of a run' small.yaml -o sets
-refuses '"saved.json" is no folder' small.yaml -o saved.json
+refuses '"saved.npz" is no folder' small.yaml -o saved.npz
 runs 1 small.yaml -o nowhere/at/all
 says 'cannot write the results "nowhere/at/all" to "nowhere/at/"'
 mkfifo fifo
@@ -202,8 +202,8 @@ runs 1 missing.yaml # as a command says
 says 'missing.yaml:3: files: cannot read "missing.txt"'
 printf 'scene: 1\nresults:\n  - {result: power, samplers: zphi}\n' >wrong.yaml
 refuses 'wrong.yaml:3: power-1: --sampler zphi makes points of the sphere' wrong.yaml
-"$program" angular --engine host_direct --sampler zphi -n 8 -m 5 -l 3 -o sphere.json
-printf 'scene: 1\nresults:\n  - {result: check, against: [saved.json, sphere.json], files: sets/-c.txt}\n' >both.yaml
+"$program" angular --engine host_direct --sampler zphi -n 8 -m 5 -l 3 -o sphere.npz
+printf 'scene: 1\nresults:\n  - {result: check, against: [saved.npz, sphere.npz], files: sets/-c.txt}\n' >both.yaml
 runs 2 both.yaml
 no_folder none2; no_folder missing; no_folder wrong
 [[ $(find . -type f -not -path './cache/*' | wc -l) -le $((nothing + 9)) ]] || complain "something was left: $(ls)"

@@ -32,8 +32,8 @@ for what in 'power, sampler: poisson-disk, max-frequency: 4' 'angular, sampler: 
     [[ $(awk -F, '!/^#/ && $1 ~ /^[0-9]/ { print $1 }' run/r.csv | uniq | tr '\n' ' ') == '16 32 ' ]] || complain "$what: $(head -40 run/r.csv)"
 done
 # the check of such a set, too; what has one N has no such columns
-"$program" power --engine host_direct --sampler poisson-disk -n 16 -m 9 -k 4 -o saved.json
-result_is 'result: check, sampler: poisson-disk, against: saved.json'
+"$program" power --engine host_direct --sampler poisson-disk -n 16 -m 9 -k 4 -o saved.npz
+result_is 'result: check, sampler: poisson-disk, against: saved.npz'
 runs 0 scene.yaml -o run
 [[ $(columns_of points_largest) =~ ^[0-9]+\ $ ]] || complain "check: $(<run/r.summary.csv)"
 result_is 'result: power, sampler: white, points: 16, max-frequency: 4'

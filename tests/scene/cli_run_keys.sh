@@ -38,17 +38,17 @@ printf '0.1 0.2\n0.3 0.4\n0.8 0.7\n' >points.txt
 printf '1\n2\n3\n' >weights.txt
 printf '1 2\n-3 0\n' >vectors.txt
 printf '0 0.25\n0.5 0.5\n1 1\n' >lobe.txt
-"$program" power --engine host_direct --sampler white -n 16 -m 20 -k 5 -s 1 -o saved.json
-"$program" power --engine host_direct --sampler white -n 16 -m 20 -k 5 -s 2 -o other.json
+"$program" power --engine host_direct --sampler white -n 16 -m 20 -k 5 -s 1 -o saved.npz
+"$program" power --engine host_direct --sampler white -n 16 -m 20 -k 5 -s 2 -o other.npz
 changes points.txt 0.8 0.9 'result: power, files: [points.txt], max-frequency: 3'
 changes weights.txt 3 4 'result: power, files: [points.txt], weights: weights.txt, max-frequency: 3'
 changes vectors.txt 2 4 'result: power, sampler: white, points: 8, frequencies: vectors.txt'
 changes vectors.txt 4 5 'result: power, sampler: white, points: 8, frequencies: vectors.txt, arrays: coefficients'
 changes lobe.txt '0.5 0.5' '0.5 0.6' 'result: truncation, brdf: "zonal:file=lobe.txt", max-degree: 3'
-result_is 'result: check, sampler: white, points: 16, realizations: 20, against: saved.json'
+result_is 'result: check, sampler: white, points: 16, realizations: 20, against: saved.npz'
 runs 0 scene.yaml -o with
-cp other.json saved.json
-is_computed 'the content of saved.json'
+cp other.npz saved.npz
+is_computed 'the content of saved.npz'
 
 # ---- what a result asks for ----
 power='result: power, sampler: white, points: 16, max-frequency: 3'

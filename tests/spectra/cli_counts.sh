@@ -164,9 +164,9 @@ refuses '-n names 2 numbers of points, and an output has sets of one, for what r
 command=plan
 refuses '-n names 2 numbers of points, and an output has sets of one' sample --sampler white -n 64,128
 command=check
-"$program" power --engine host_direct --sampler white -n 16 -m 9 -k 4 -o saved.json
-refuses '-n names 2 numbers of points, and a saved spectrum is of one' --sampler white -n 16..32 --against saved.json
+"$program" power --engine host_direct --sampler white -n 16 -m 9 -k 4 -o saved.npz
+refuses '-n names 2 numbers of points, and a saved spectrum is of one' --sampler white -n 16..32 --against saved.npz
 refuses '-n names 2 numbers of points, and sets of one are checked at a time' --sampler white -n 16..32 --homogeneous
-"$program" power --engine host_direct --sampler white -n 16,32 -m 9 -k 4 -o several.json
-refuses '"several.json": this is the table of several samplers or numbers of points; save one of them alone' --sampler white --against several.json
+"$program" power --engine host_direct --sampler white -n 16,32 -m 9 -k 4 -o several.npz
+refuses '"several.npz": this is the table of several samplers or numbers of points; save one of them alone' --sampler white --against several.npz
 finish

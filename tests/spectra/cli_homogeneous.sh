@@ -84,17 +84,17 @@ cat >both.yaml <<'END'
 scene: 1
 defaults: {points: 64, engine: host_direct}
 results:
-  - {result: check, against: saved.json, samplers: white}
+  - {result: check, against: saved.npz, samplers: white}
   - {result: check, name: two, homogeneous: true, max-frequency: 9, samplers: [jittered, regular]}
 END
-"$program" power --sampler jittered -n 64 -m 16 -o saved.json
+"$program" power --sampler jittered -n 64 -m 16 -o saved.npz
 code=0
 "$program" run both.yaml -o both --quiet 2>err || code=$?
 [[ $code == 3 && $(<err) == *': 1 check found another spectrum than the saved one, and 2 checks found sets that are not homogeneous: '*' differ in '* ]] ||
     complain "scene of both: exit $code: $(<err)"
 
 # ---- what is refused ----
-refuses 'does not go with' --homogeneous --against saved.json --sampler white
+refuses 'does not go with' --homogeneous --against saved.npz --sampler white
 refuses '-l is for points of the sphere' --homogeneous --sampler white -l 4
 refuses '-k is for points of the torus' --homogeneous --sampler white-sphere -k 4
 refuses '--hemisphere is for points of the sphere' --homogeneous --sampler white --hemisphere
@@ -115,6 +115,6 @@ refuses 'among 1344 phases even equal ones would not be an alarm at a rate of 0.
     --homogeneous few.txt
 refuses 'at least' --homogeneous --sampler white -m 9 --false-alarm-rate 1e-9
 refuses 'in dimension 4 the largest frequency must be given' --homogeneous --sampler white -n 64 -d 4
-refuses 'the saved spectrum says it' --against saved.json --sampler white -k 4
+refuses 'the saved spectrum says it' --against saved.npz --sampler white -k 4
 refuses '--sampler' --homogeneous
 finish

@@ -6,11 +6,11 @@ source_dir=$(realpath "$2")
 
 # Numbers, words, infinities, numbers that are missing, verdicts, plans, rows that are measured one after the other.
 host=(--engine host_direct --quiet)
-"$program" power "${host[@]}" --sampler white -n 16 -m 3 -k 2 -o saved.json
+"$program" power "${host[@]}" --sampler white -n 16 -m 3 -k 2 -o saved.npz
 lines=('power --sampler white --sampler jittered -n 16,32 -m 3 -k 2' 'power --sampler white -n 16 -m 1 -k 2'
     'angular --sampler fibonacci -n 16 -l 3' 'variance --sampler jittered -n 16 -m 3 -k 2 --integrand disk'
     'quadrature --sampler fibonacci-hemisphere -n 8 -l 2 --brdf diffuse' 'plan power --sampler white -n 16'
-    'check --against saved.json --sampler white -m 3')
+    'check --against saved.npz --sampler white -m 3')
 for i in "${!lines[@]}"; do
     read -ra words <<<"${lines[i]}"
     "$program" "${words[@]}" "${host[@]}" --format npz >"$i.npz" 2>err || complain "${words[*]}: $(<err)"

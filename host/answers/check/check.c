@@ -300,8 +300,8 @@ const ps_kind ps_kind_check = {
         "have the law of their own translates (on the sphere: rotations), as prediction of "
         "variance from spectra wants it: the phases of S(k), or of c_lm, and of sums of their "
         "products must then be uniform.",
-    .examples = {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
-                 "--against saved.json --sampler jittered -m 16",
+    .examples = {"pointspec power --sampler jittered -n 256 -m 64 -o saved.npz && pointspec check "
+                 "--against saved.npz --sampler jittered -m 16",
                  "pointspec check --homogeneous --sampler jittered -n 256 --homogenize"},
     .takes = PS_COMMAND_BIT(check),
     .samples = PS_DOMAIN_ANY,

@@ -78,30 +78,6 @@ static pspec_status read_sums(ps_saved_spectrum *out, const char *path, ps_error
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
-/* A row takes about 100 bytes: more rings than anybody has. What is larger is no saved spectrum. */
-#define MOST_BYTES ((size_t)1 << 26)
-
-static pspec_status read_text(ps_input *input, char **text, size_t *num_bytes, ps_error *error) {
-    const size_t first_room = 65536;
-    size_t room = 0;
-    size_t length = 0;
-    size_t count = 1;
-    while (count > 0) {
-        void *memory = *text;
-        PS_TRY(ps_grow(&memory, &room, length + first_room, 1, "a saved spectrum", error));
-        *text = memory;
-        PS_TRY(ps_input_read_some(input, *text + length, room - length, &count, error));
-        length += count;
-        if (length > MOST_BYTES) {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "\"%s\" has more than %zu bytes, too many for a saved spectrum",
-                           input->name, MOST_BYTES);
-        }
-    }
-    *num_bytes = length;
-    return PSPEC_OK;
-}
-
 /* What a table says by its columns and numbers of points: weights are taken to be equal. */
 static void complete(ps_saved_spectrum *out) {
     const ps_frequencies set = {.kind =
@@ -120,49 +96,50 @@ static void complete(ps_saved_spectrum *out) {
     }
 }
 
-static pspec_status read_table(ps_saved_spectrum *out, ps_input *input, ps_error *error) {
-    char *text = NULL;
-    size_t num_bytes = 0;
-    pspec_status status = read_text(input, &text, &num_bytes, error);
-    if (status == PSPEC_OK) {
-        status = ps_saved_table_parse(out, text, num_bytes, input->name, error);
-    }
+static pspec_status read_table(ps_saved_spectrum *out, const char *path, ps_error *error) {
+    ps_table *table = NULL;
+    PS_TRY(ps_table_read_npz(&table, path, error));
+    const pspec_status status = ps_saved_table_take(out, table, path, error);
+    ps_table_destroy(table);
     if (status == PSPEC_OK) {
         complete(out);
     }
-    free(text);
     return status;
 }
 
 /* ---- which ------------------------------------------------------------------------------- */
 
-/* LINES: a table of the program as CSV, which is no saved spectrum, and no points either. */
-typedef enum file_kind { OTHER, SUMS, TABLE, LINES } file_kind;
+/* TEXTS: a table as CSV or JSON, which is no saved spectrum, and no points either. */
+typedef enum file_kind { OTHER, SUMS, TABLE, TEXTS } file_kind;
 
 static bool begins_with(const unsigned char *bytes, size_t num, const char *text, size_t length) {
     return num >= length && memcmp(bytes, text, length) == 0;
 }
 
-static pspec_status find_kind(file_kind *out, ps_input *input, const char *path, ps_error *error) {
+static pspec_status find_kind(file_kind *out, const char *path, ps_error *error) {
     static const char header[] = "# pointspec_version: ";
     const unsigned char *bytes = NULL;
     size_t num = 0;
-    PS_TRY(ps_input_open(input, path, error));
-    PS_TRY(ps_input_peek(input, sizeof header - 1, &bytes, &num, error));
-    if (begins_with(bytes, num, PS_SPECTRUM_MAGIC, sizeof PS_SPECTRUM_MAGIC - 1)) {
-        *out = SUMS;
-    } else if (begins_with(bytes, num, header, sizeof header - 1)) {
-        *out = LINES;
-    } else {
-        *out = num > 0 && bytes[0] == '{' ? TABLE : OTHER;
+    ps_input input = {0};
+    if (ps_table_is_npz(path)) {
+        *out = TABLE;
+        return PSPEC_OK;
     }
-    return PSPEC_OK;
+    pspec_status status = ps_input_open(&input, path, error);
+    if (status == PSPEC_OK) {
+        status = ps_input_peek(&input, sizeof header - 1, &bytes, &num, error);
+    }
+    *out = begins_with(bytes, num, PS_SPECTRUM_MAGIC, sizeof PS_SPECTRUM_MAGIC - 1) ? SUMS
+           : begins_with(bytes, num, header, sizeof header - 1) || begins_with(bytes, num, "{", 1)
+               ? TEXTS
+               : OTHER;
+    ps_input_close(&input);
+    return status;
 }
 
 /* A stream would lose what is looked at, and points may come by one. */
 pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *error) {
     struct stat facts;
-    ps_input input = {0};
     ps_error reason = {0};
     file_kind kind = OTHER;
     *is_one = false;
@@ -175,39 +152,31 @@ pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *er
     if (!S_ISREG(facts.st_mode)) {
         return PSPEC_OK;
     }
-    const pspec_status status = find_kind(&kind, &input, path, &reason);
-    ps_input_close(&input);
+    const pspec_status status = find_kind(&kind, path, &reason);
     *is_one = status == PSPEC_OK && kind != OTHER;
     return status == PSPEC_OK || status == PSPEC_ERROR_INPUT
                ? PSPEC_OK
                : ps_fail(error, status, "%s", reason.message);
 }
 
-static pspec_status read_either(ps_saved_spectrum *out, ps_input *input, const char *path,
-                                ps_error *error) {
+static pspec_status read_either(ps_saved_spectrum *out, const char *path, ps_error *error) {
     file_kind kind = OTHER;
-    PS_TRY(find_kind(&kind, input, path, error));
-    if (kind == SUMS) {
-        return read_sums(out, path, error);
-    }
-    if (kind == TABLE) {
-        return read_table(out, input, error);
-    }
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "\"%s\" is no saved spectrum: pointspec power and angular save one with "
-                   "-o FILE.json",
-                   path);
+    PS_TRY(find_kind(&kind, path, error));
+    return kind == SUMS    ? read_sums(out, path, error)
+           : kind == TABLE ? read_table(out, path, error)
+                           : ps_fail(error, PSPEC_ERROR_INPUT,
+                                     "\"%s\" is no saved spectrum: pointspec power and angular "
+                                     "save one with -o FILE.npz",
+                                     path);
 }
 
 pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path, ps_error *error) {
-    ps_input input = {0};
     *out = (ps_saved_spectrum){0};
     if (strcmp(path, "-") == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "a saved spectrum is a file, and standard input is none");
     }
-    const pspec_status status = read_either(out, &input, path, error);
-    ps_input_close(&input);
+    const pspec_status status = read_either(out, path, error);
     if (status != PSPEC_OK) {
         ps_saved_spectrum_free(out);
     }

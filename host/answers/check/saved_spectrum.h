@@ -1,11 +1,12 @@
 /* Spectra that the program or the library saved, with the question that they answer: tables of
- * power and angular as JSON, and files of pspec_spectrum_save. */
+ * power and angular as NPZ, and files of pspec_spectrum_save. */
 #ifndef PS_ANSWERS_CHECK_SAVED_SPECTRUM_H
 #define PS_ANSWERS_CHECK_SAVED_SPECTRUM_H
 
 #include "base/status.h"
 #include "frequencies/bin_rule.h"
 #include "spectra/spectrum.h"
+#include "tables/table.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -38,8 +39,8 @@ typedef struct ps_saved_spectrum {
     ps_saved_bin *bins; /* ascending keys */
 } ps_saved_spectrum;
 
-/* Has the file the beginning of a saved spectrum, or of a table as CSV, which is refused when it is
- * read, and is no stream? What is empty is none: who reads points of it says so. */
+/* Has the file the beginning of a saved spectrum, or of a table as CSV or JSON, which is refused
+ * when it is read, and is no stream? What is empty is none: who reads points of it says so. */
 pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *error) PS_MUST_CHECK;
 
 /* What is no saved spectrum, damaged, or has no rings or degrees, is PSPEC_ERROR_INPUT with path in
@@ -52,8 +53,9 @@ void ps_saved_spectrum_free(ps_saved_spectrum *saved);
 pspec_status ps_saved_spectrum_copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
                                          ps_error *error) PS_MUST_CHECK;
 
-/* The table of a saved JSON text; name is for sentences. *out is {0}. */
-pspec_status ps_saved_table_parse(ps_saved_spectrum *out, const char *text, size_t num_bytes,
-                                  const char *name, ps_error *error) PS_MUST_CHECK;
+/* What such a table has, however it came; name is for sentences. *out is {0}, and to be freed, also
+ * after an error. */
+pspec_status ps_saved_table_take(ps_saved_spectrum *out, const ps_table *table, const char *name,
+                                 ps_error *error) PS_MUST_CHECK;
 
 #endif
