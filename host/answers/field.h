@@ -6,6 +6,7 @@
 #define PS_ANSWERS_FIELD_H
 
 #include "request/options.h"
+#include "tables/table.h"
 
 typedef enum ps_field_group {
     PS_FIELD_ENTRY = 0, /* of the header */
@@ -33,7 +34,12 @@ typedef struct ps_field_row {
 #define PS_ARRAY PS_FIELD_ARRAY, false
 
 /* Of several kinds: the request's record, points, frequencies, device and engine. */
-extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[];
+extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[],
+    ps_fields_device[];
+
+/* Creates a table of a command whose columns are those of the rows, which NULL ends. */
+pspec_status ps_fields_create_table(ps_table **out, const char *command, const ps_field_row *rows,
+                                    ps_error *error) PS_MUST_CHECK;
 
 typedef struct ps_command ps_kind;
 

@@ -107,6 +107,25 @@ const ps_field_row ps_fields_computed[] = {
      "what was not computed because the question does not need it"},
     {.name = NULL}};
 
+const ps_field_row ps_fields_device[] = {
+    {"device", "", PS_ENTRY, 0, "", "what was tried; none without OpenCL"},
+    {"platform", "", PS_ENTRY, 0, "", "as its driver says"},
+    {"driver", "", PS_ENTRY, 0, "", "its version, as it says"},
+    {.name = NULL}};
+
+pspec_status ps_fields_create_table(ps_table **out, const char *command, const ps_field_row *rows,
+                                    ps_error *error) {
+    enum { MOST_COLUMNS = 32 };
+    const char *columns[MOST_COLUMNS];
+    size_t num = 0;
+    for (; rows->name != NULL; rows++) {
+        if (rows->group == PS_FIELD_COLUMN && num < MOST_COLUMNS) {
+            columns[num++] = rows->name;
+        }
+    }
+    return ps_table_create(out, command, columns, num, error);
+}
+
 static bool belongs(const ps_field_row *row, const ps_kind *kind) {
     return row->kinds == 0 || (row->kinds & kind->takes) != 0;
 }

@@ -71,7 +71,7 @@ pspec_status pspec_options_table(pspec_table **out, pspec_context *context, cons
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_command(&row, command, false, error));
+    PS_TRY(ps_public_find_command(&row, command, ps_plannable, error));
     PS_TRY(ps_table_create(&table, "options", columns, sizeof columns / sizeof columns[0], error));
     const pspec_status status = fill_options(table, row, error);
     if (status != PSPEC_OK) {
@@ -99,7 +99,7 @@ pspec_status pspec_fields_table(pspec_table **out, pspec_context *context, const
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_command(&row, kind, true, error));
+    PS_TRY(ps_public_find_command(&row, kind, ps_with_fields, error));
     PS_TRY(ps_table_create(&table, "fields", columns, sizeof columns / sizeof columns[0], error));
     const pspec_status status = ps_kind_visit_fields(row, add_field, table, error);
     if (status != PSPEC_OK) {
@@ -137,7 +137,7 @@ pspec_status pspec_answer(pspec_table **out, pspec_context *context, const char 
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     *out = NULL;
-    PS_TRY(ps_public_find_command(&row, kind, true, &context->error));
+    PS_TRY(ps_public_find_command(&row, kind, ps_kinds, &context->error));
     pspec_status status = ps_public_words_make(&words, context, "", row, options, num_options);
     if (status == PSPEC_OK) {
         status = answer(out, context, row, &words.request);

@@ -44,7 +44,7 @@ pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const c
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_public_find_command(&row, command, false, error));
+    PS_TRY(ps_public_find_command(&row, command, ps_plannable, error));
     pspec_status status = ps_public_words_make(&words, context, "plan ", row, options, num_options);
     if (status == PSPEC_OK) {
         const ps_answer_hooks hooks = ps_public_hooks(context);

@@ -10,14 +10,14 @@
 
 /* ---- names ------------------------------------------------------------------------------- */
 
-pspec_status ps_public_find_command(const ps_command **out, const char *name, bool is_kind,
-                                    ps_error *error) {
-    const char *const what = is_kind ? "kind of answer" : "command";
+pspec_status ps_public_find_command(const ps_command **out, const char *name,
+                                    const ps_command *const *table, ps_error *error) {
+    const char *const what = table == ps_plannable ? "command" : "kind of answer";
     size_t distance = 0;
     if (name == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a %s", what);
     }
-    *out = ps_command_nearest(is_kind ? ps_kinds : ps_plannable, name, &distance);
+    *out = ps_command_nearest(table, name, &distance);
     return distance == 0
                ? PSPEC_OK
                : ps_fail(

@@ -7,10 +7,10 @@
 #include "base/text.h"
 #include "commands/plan.h"
 
-/* The command of that name, or the sentence that names the nearest one. is_kind: kinds of answers
- * only; else all that can be planned. */
-pspec_status ps_public_find_command(const ps_command **out, const char *name, bool is_kind,
-                                    ps_error *error) PS_MUST_CHECK;
+/* The command of that name in the table, ps_kinds, ps_plannable or ps_with_fields, or the sentence
+ * that names the nearest one. */
+pspec_status ps_public_find_command(const ps_command **out, const char *name,
+                                    const ps_command *const *table, ps_error *error) PS_MUST_CHECK;
 
 /* Not those of how a program shows its work, nor the device, which is that of the context. */
 bool ps_public_takes(const ps_command *row, ps_option_id id);

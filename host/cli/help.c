@@ -215,8 +215,9 @@ pspec_status ps_help_fields(FILE *stream, const ps_command *command, ps_error *e
     static const ps_field_group order[] = {PS_FIELD_COLUMN, PS_FIELD_ENTRY, PS_FIELD_ARRAY};
     if (command->fields == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "fields are those of answers, and %s gives none: %sand no other command do",
-                       command->name, PS_KINDS_IN_SENTENCE);
+                       "fields are those of tables, and %s gives none: " PS_KINDS_IN_SENTENCE
+                       "plan, bench, stress and devices do",
+                       command->name);
     }
     fprintf(stream,
             "What tables of pointspec %s have; keys of the header with ... may come\n"

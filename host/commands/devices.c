@@ -5,19 +5,31 @@
 
 #include <stdlib.h>
 
-static const char *const columns[] = {
-    "index",          "default",
-    "name",           "type",
-    "platform",       "driver",
-    "opencl_version", "compute_units",
-    "clock_mhz",      "fp64",
-    "float_lanes",    "double_lanes",
-    "global_bytes",   "max_allocation_bytes",
-    "local_bytes",    "cache_bytes",
-    "figures",        "single_flops",
-    "double_flops",   "copied_bytes",
-};
-enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+static const ps_field_row own_fields[] = {
+    {"device", "", PS_ENTRY, 0, "unless there is none", "name of the default device"},
+    {"index", "", PS_COLUMN, 0, "", "as --device takes it"},
+    {"default", "", PS_COLUMN, 0, "", "1 for the device that other commands would use, else 0"},
+    {"name", "", PS_COLUMN, 0, "", "as the driver says"},
+    {"type", "", PS_COLUMN, 0, "", "gpu, cpu or accelerator"},
+    {"platform", "", PS_COLUMN, 0, "", "as the driver says"},
+    {"driver", "", PS_COLUMN, 0, "", "its version, as it says"},
+    {"opencl_version", "", PS_COLUMN, 0, "", "as the driver says"},
+    {"compute_units", "", PS_COLUMN, 0, "", "as the driver says"},
+    {"clock_mhz", "MHz", PS_COLUMN, 0, "", "as the driver says"},
+    {"fp64", "", PS_COLUMN, 0, "", "1 when there is double precision, else 0"},
+    {"float_lanes", "", PS_COLUMN, 0, "", "native width of vectors in single precision"},
+    {"double_lanes", "", PS_COLUMN, 0, "", "native width of vectors in double precision"},
+    {"global_bytes", "bytes", PS_COLUMN, 0, "", "memory"},
+    {"max_allocation_bytes", "bytes", PS_COLUMN, 0, "", "largest buffer"},
+    {"local_bytes", "bytes", PS_COLUMN, 0, "", "local memory of a work-group"},
+    {"cache_bytes", "bytes", PS_COLUMN, 0, "", "cache of global memory"},
+    {"figures", "", PS_COLUMN, 0, "",
+     "whether the planner has figures measured on this device (bench --calibrate), or why not"},
+    {"single_flops", "1/s", PS_COLUMN, 0, "", "measured peak; missing without figures"},
+    {"double_flops", "1/s", PS_COLUMN, 0, "", "measured peak; missing without figures"},
+    {"copied_bytes", "bytes/s", PS_COLUMN, 0, "", "measured peak; missing without figures"},
+    {.name = NULL}};
+static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, NULL};
 
 static const char *device_type(const ps_device_limits *limits) {
     return limits->is_gpu ? "gpu" : limits->is_cpu ? "cpu" : "accelerator";
@@ -32,7 +44,7 @@ static pspec_status add_device(ps_table *table, const ps_device_limits *limits, 
                                bool is_default, const char *folder, ps_error *error) {
     ps_figures figures;
     PS_TRY(ps_figures_read(&figures, folder, limits, error));
-    const ps_cell cells[NUM_COLUMNS] = {
+    const ps_cell cells[] = {
         PS_INTEGER(index),
         PS_INTEGER(is_default),
         PS_TEXT(limits->name),
@@ -114,7 +126,7 @@ static pspec_status run(ps_answer *out, const ps_request *request, const ps_answ
                        request->files[0]);
     }
     PS_TRY(ps_table_choose_format(&format, request->format, request->output, error));
-    PS_TRY(ps_table_create(&out->table, "devices", columns, NUM_COLUMNS, error));
+    PS_TRY(ps_fields_create_table(&out->table, "devices", own_fields, error));
     ps_table_set_blocks(out->table);
     ps_table_set_view(out->table, &request->view);
     pspec_status status = fill_table(out->table, &why_none, request, error);
@@ -140,6 +152,7 @@ const ps_command ps_command_devices = {
         "the "
         "device, and its peaks per second: see pointspec bench --calibrate.",
     .takes = PS_COMMAND_BIT(devices),
+    .fields = fields,
     .formats = "csv|json|npz|jsonl|text",
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
     .speaker = "pointspec devices",

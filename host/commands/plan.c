@@ -4,6 +4,8 @@
 
 #include "pointspec_version.h"
 
+const ps_command *const ps_with_fields[] = {
+    PS_COMMANDS(PS_KIND_OF, PS_NO_COMMAND, PS_COMMAND_OF, PS_NO_COMMAND) NULL};
 const ps_command *const ps_plannable[] = {
     PS_COMMANDS(PS_KIND_OF, PS_COMMAND_OF, PS_NO_COMMAND, PS_NO_COMMAND) NULL};
 
@@ -102,6 +104,45 @@ static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_an
     return ps_table_write(out->table, path, format, error);
 }
 
+static const ps_field_row own_fields[] = {
+    {"pointspec_version", "", PS_ENTRY, 0, "", "version of the program"},
+    {"schema", "", PS_ENTRY, 0, "", "number of the format of the table"},
+    {"command", "", PS_ENTRY, 0, "", "the command line"},
+    {"seconds", "s", PS_ENTRY, 0, "",
+     "sum of all phases; begins with at most where one of them may end earlier"},
+    {"host_figures", "", PS_ENTRY, 0, "",
+     "whether there are figures measured on this host (bench --calibrate), or why not"},
+    {"no_device", "", PS_ENTRIES, 0, "no device", "why there is none"},
+    {"job", "", PS_ENTRIES, 0, "scenes", "name of the result and number of its question"},
+    {"question", "", PS_ENTRIES, 0, "scenes", "the command line that asks it"},
+    {"sampler", "", PS_ENTRIES, 0, "samplers, --set", "the sampler, or the name of the set"},
+    {"device", "", PS_ENTRIES, 0, "", "what would compute it; host or none without OpenCL"},
+    {"figures", "", PS_ENTRIES, 0, "", "the same of the device"},
+    {"points", "", PS_ENTRIES, 0, "", "N; of files those of the largest set"},
+    {"realizations", "", PS_ENTRIES, 0, "", "how many, where that is known"},
+    {"max_frequency", "", PS_ENTRIES, 0, "on the torus", "K"},
+    {"max_degree", "", PS_ENTRIES, 0, "on the sphere", "L"},
+    {"frequencies", "", PS_ENTRIES, 0, "on the torus", "how many"},
+    {"degrees", "", PS_ENTRIES, 0, "on the sphere", "how many"},
+    {"tolerance", "", PS_ENTRIES, 0, "", "largest numerical error that is allowed (--tol)"},
+    {"degrees_note", "", PS_ENTRIES, 0, "quadrature", "why there are so many degrees"},
+    {"weights", "", PS_ENTRIES, 0, "quadrature", "how weights are made"},
+    {"skip", "", PS_ENTRIES, 0, "", "what is not done; why; share of work"},
+    {"phase", "", PS_ENTRIES, 0, "", "name; seconds; what is done"},
+    {"job", "", PS_COLUMN, 0, "scenes", "name of the result and number of its question"},
+    {"sampler", "", PS_COLUMN, 0, "several samplers, --set", "the sampler, or the name of the set"},
+    {"points", "", PS_COLUMN, 0, "several numbers of points", "N as it was asked for"},
+    {"engine", "", PS_COLUMN, 0, "", "the engine and its precision; host, or cache of results"},
+    {"verdict", "", PS_COLUMN, 0, "",
+     "chosen, slower, infeasible, excluded or not applicable; with a first column also skip, "
+     "phase"},
+    {"seconds", "s", PS_COLUMN, 0, "", "of the whole command with that engine; of the phase"},
+    {"bytes", "bytes", PS_COLUMN, 0, "", "memory that it takes"},
+    {"error", "", PS_COLUMN, 0, "", "bound on its numerical error, in the unit of --tol"},
+    {"reason", "", PS_COLUMN, 0, "", "why it is chosen, or not; what is skipped or done"},
+    {.name = NULL}};
+static const ps_field_row *const fields[] = {own_fields, NULL};
+
 const ps_command ps_command_plan = {
     .name = "plan",
     .purpose = "what a command would do: engines, seconds, bytes, error, what is skipped",
@@ -113,6 +154,7 @@ const ps_command ps_command_plan = {
         "each phase takes. "
         "Nothing is computed and nothing is timed.",
     .takes = PLANNED,
+    .fields = fields,
     .examples = {"pointspec plan power --sampler white -n 4096 -m 1000 -k 128",
                  "pointspec plan angular --sampler white-sphere -n 1e6 -l 512 --tol 1e-9"},
     .weights = "equal|column|optimal|FILE",

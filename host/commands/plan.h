@@ -8,6 +8,9 @@
  * NULL. */
 extern const ps_command *const ps_plannable[];
 
+/* Those of the library whose tables have declared fields. */
+extern const ps_command *const ps_with_fields[];
+
 /* What the command would do with the request, as a table: every engine with its seconds, bytes and
  * error, which is chosen and why, what is skipped, how long each phase takes. Nothing is computed
  * or timed. */

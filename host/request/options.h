@@ -7,8 +7,8 @@
 #include "request/request.h"
 
 /* The commands, in the order of --help (answers/kind.h has their rows): kinds of answers, what else
- * can be planned, what cannot, and what the library has not. A new one is a name here, and a bit
- * in the rows of the options that it takes. */
+ * can be planned, what else has tables, and what the library has not. A new one is a name here, and
+ * a bit in the rows of the options that it takes. */
 #define PS_COMMANDS(KIND, PLANNED, OTHER, PROGRAM)                                                 \
     KIND(power)                                                                                    \
     KIND(angular)                                                                                  \

@@ -110,22 +110,40 @@ static pspec_status add_explanation(const answer *shown, ps_error *error) {
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
+static const ps_field_row own_fields[] = {
+    {"compute_units", "", PS_ENTRY, 0, "", "of the device"},
+    {"peak_flops_single", "1/s", PS_ENTRY, 0, "", "measured; missing where it was not"},
+    {"peak_flops_double", "1/s", PS_ENTRY, 0, "", "measured; missing where it was not"},
+    {"copied_bytes_per_second", "bytes/s", PS_ENTRY, 0, "", "measured, on the device"},
+    {"sent_bytes_per_second", "bytes/s", PS_ENTRY, 0, "", "measured, to the device"},
+    {"launches_per_second", "1/s", PS_ENTRY, 0, "", "measured"},
+    {"figures", "", PS_ENTRY, 0, "", "whether the planner has figures of the device, or why not"},
+    {"time", "", PS_ENTRY, 0, "", "what seconds are of"},
+    {"error", "", PS_ENTRY, 0, "", "what the column of that name is"},
+    {"tolerance", "", PS_ENTRY, 0, "", "what the column of that name is"},
+    {"fraction_of_peak", "", PS_ENTRY, 0, "", "what the fractions are of"},
+    {"case", "", PS_COLUMN, 0, "", "what is run"},
+    {"engine", "", PS_COLUMN, 0, "", "by what"},
+    {"tolerance", "", PS_COLUMN, 0, "", "the tightest one that leads to this computation"},
+    {"seconds_per_realization", "s", PS_COLUMN, 0, "", "the median"},
+    {"error", "", PS_COLUMN, 0, "", "measured; 0 where the engine is the referee itself"},
+    {"points_per_second", "1/s", PS_COLUMN, 0, "", "points of a realization over its seconds"},
+    {"fraction_of_peak", "", PS_COLUMN, 0, "",
+     "arithmetic that the launches count, as a share of the peak of fused operations that was "
+     "measured beside it; missing on the host"},
+    {"precision", "", PS_COLUMN, 0, "", "single, double or extended"},
+    {"fraction_of_bandwidth", "", PS_COLUMN, 0, "",
+     "bytes of points and powers, once each, as a share of the bandwidth of a copy"},
+    {"predicted_seconds", "s", PS_COLUMN, 0, "", "as plan has them"},
+    {"predicted_error", "", PS_COLUMN, 0, "", "as plan has it"},
+    {"pareto", "", PS_COLUMN, 0, "",
+     "1 when no other row of the case is as fast and as exact, else 0"},
+    {.name = NULL}};
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_device, own_fields, NULL};
+
 static pspec_status make_table(answer *shown, ps_table_format format, const char *path,
                                ps_error *error) {
-    static const char *const columns[] = {"case",
-                                          "engine",
-                                          "tolerance",
-                                          "seconds_per_realization",
-                                          "error",
-                                          "points_per_second",
-                                          "fraction_of_peak",
-                                          "precision",
-                                          "fraction_of_bandwidth",
-                                          "predicted_seconds",
-                                          "predicted_error",
-                                          "pareto"};
-    PS_TRY(ps_table_create(&shown->table, "bench", columns, sizeof columns / sizeof columns[0],
-                           error));
+    PS_TRY(ps_fields_create_table(&shown->table, "bench", own_fields, error));
     PS_TRY(add_device(shown, &shown->peaks, error));
     PS_TRY(add_explanation(shown, error));
     return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
@@ -324,6 +342,7 @@ const ps_command ps_command_bench = {
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
         "run takes about three minutes.",
     .takes = PS_COMMAND_BIT(bench),
+    .fields = fields,
     .formats = "csv|json|npz|jsonl",
     .examples = {"pointspec bench --case plane-many --precision single --quick -o bench.csv --plot "
                  "bench.svg",

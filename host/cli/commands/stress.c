@@ -63,12 +63,24 @@ static pspec_status add_header(const answer *shown, ps_error *error) {
     return PSPEC_OK;
 }
 
+static const ps_field_row own_fields[] = {
+    {"error_units", "", PS_ENTRY, 0, "", "what error and bound are relative to"},
+    {"case", "", PS_COLUMN, 0, "", "what is tried"},
+    {"engine", "", PS_COLUMN, 0, "", "by what"},
+    {"precision", "", PS_COLUMN, 0, "", "single or double"},
+    {"error", "", PS_COLUMN, 0, "",
+     "root mean square error of S or c_lm, relative to white noise; of pair sums and sums of "
+     "distances the largest one, over (sum |w|)^2; of the host as its bound"},
+    {"bound", "", PS_COLUMN, 0, "", "what the engine promises for such points"},
+    {"verdict", "", PS_COLUMN, 0, "",
+     "pass; fail; fail: and why, when the device or its compiler gave an error; skipped: and why, "
+     "when the device has no double precision or too little memory"},
+    {.name = NULL}};
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_device, own_fields, NULL};
+
 static pspec_status make_table(answer *shown, ps_table_format format, const char *path,
                                ps_error *error) {
-    static const char *const columns[] = {"case",  "engine", "precision",
-                                          "error", "bound",  "verdict"};
-    enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
-    PS_TRY(ps_table_create(&shown->table, "stress", columns, NUM_COLUMNS, error));
+    PS_TRY(ps_fields_create_table(&shown->table, "stress", own_fields, error));
     PS_TRY(add_header(shown, error));
     return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
 }
@@ -147,6 +159,7 @@ const ps_command ps_command_stress = {
         "error formula. Exits with 3 when one fails: then the device or its driver computes "
         "wrongly.",
     .takes = PS_COMMAND_BIT(stress),
+    .fields = fields,
     .formats = "csv|json|npz|jsonl",
     .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
                  "pointspec stress --case frequencies-1e6 --format json"},

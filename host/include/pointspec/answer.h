@@ -50,7 +50,8 @@ PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *
  * there may be, and the columns field (its name), group ("entry", "column" or "array", which is a
  * file of its own), unit (missing: none), repeated ("yes" where the key of an entry may come
  * several times, as for several samplers, else "no"), when (the options or cases in which it is
- * there; missing: always) and meaning. kind: pspec_answer_kind() lists them.
+ * there; missing: always) and meaning. kind: pspec_answer_kind() lists them;
+ * or "plan", "devices".
  * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest kind where there is no such one. */
 PSPEC_EXPORT pspec_status pspec_fields_table(pspec_table **out, pspec_context *context,
                                              const char *kind);
