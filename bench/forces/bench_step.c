@@ -10,7 +10,6 @@
 #include "forces/plain.h"
 #include "math/random/random.h"
 #include "samplers/forces/step.h"
-#include "samplers/forces/step_curves.h"
 #include "samplers/forces/step_pairs.h"
 
 #include <stdio.h>

@@ -224,7 +224,7 @@ static pspec_status check_size(const ps_input *input, const ps_npy_header *heade
     return PSPEC_OK;
 }
 
-static pspec_status read_header(ps_input *input, ps_npy_header *out, bool may_be_complex,
+pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, bool may_be_complex,
                                 ps_error *error) {
     *out = (ps_npy_header){.may_be_complex = may_be_complex};
     char *text = NULL;
@@ -242,14 +242,6 @@ static pspec_status read_header(ps_input *input, ps_npy_header *out, bool may_be
         }
     }
     return check_size(input, out, error);
-}
-
-pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) {
-    return read_header(input, out, false, error);
-}
-
-pspec_status ps_npy_read_any_header(ps_input *input, ps_npy_header *out, ps_error *error) {
-    return read_header(input, out, true, error);
 }
 
 pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, double *out,

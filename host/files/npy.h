@@ -21,12 +21,10 @@ typedef struct ps_npy_header {
 /* Does an array come next? The first byte tells: no text begins with it. */
 pspec_status ps_npy_is_next(ps_input *input, bool *is_next, ps_error *error) PS_MUST_CHECK;
 
-/* Reads magic and header (of versions 1 to 3). Where the size of the file is known, it must be what
- * the header says. */
-pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) PS_MUST_CHECK;
-/* The same for arrays that may be complex, which the other refuses. */
-pspec_status ps_npy_read_any_header(ps_input *input, ps_npy_header *out,
-                                    ps_error *error) PS_MUST_CHECK;
+/* Reads magic and header (of versions 1 to 3); arrays that are complex are refused unless they may
+ * be. Where the size of the file is known, it must be what the header says. */
+pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, bool may_be_complex,
+                                ps_error *error) PS_MUST_CHECK;
 /* Reads the next count numbers as doubles, in the order of the file; complex ones are two. */
 pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, double *out,
                                   size_t count, ps_error *error) PS_MUST_CHECK;

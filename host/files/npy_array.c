@@ -70,8 +70,7 @@ static pspec_status check_numbers(const ps_npy_array *array, const char *name, p
 static pspec_status read_array(ps_npy_array *out, ps_input *input, bool may_be_complex,
                                ps_error *error) {
     ps_npy_header header;
-    PS_TRY(may_be_complex ? ps_npy_read_any_header(input, &header, error)
-                          : ps_npy_read_header(input, &header, error));
+    PS_TRY(ps_npy_read_header(input, &header, may_be_complex, error));
     out->rank = header.rank;
     out->num = header.num_elements;
     out->is_complex = header.is_complex;

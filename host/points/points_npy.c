@@ -178,7 +178,7 @@ static pspec_status interpret_points(ps_point_reader *reader, ps_error *error) {
 static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_allocate(&reader->state, 1, sizeof(npy_state), "NPY reader", error));
     npy_state *const state = reader->state;
-    PS_TRY(ps_npy_read_header(&reader->input, &state->header, error));
+    PS_TRY(ps_npy_read_header(&reader->input, &state->header, false, error));
     if (state->header.num_elements == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
     }

@@ -31,6 +31,7 @@ pspec_status ps_truncation_hemispherical(const ps_brdf *brdf, double smoothness,
 
 /* Hemispherical harmonics written in spherical ones
  * (docs/mathematics/quadrature.md#hemispherical-harmonics). */
+
 /* M_{l'l} = sqrt((2l+1)(2l'+1)/2) int_0^1 P_l'(2z-1) P_l(z) dz, the coefficient of Y_l0 in the
  * hemispherical harmonic of degree l', which is 0 below the horizon: matrix [max_from + 1][max_to +
  * 1], row l', filled by a Gauss-Legendre rule that is exact for all of them; absolute error 1e-13

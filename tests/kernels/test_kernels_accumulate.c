@@ -4,7 +4,7 @@
 #include "harness_kernels.h"
 
 #include "accumulate/blocks.h"
-#include "spectra/accumulate/accumulate_blocks.h"
+#include "spectra/accumulate/accumulate_device.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 
 #include "accumulate/blocks.h"
 #include "base/round.h"
-#include "spectra/accumulate/accumulate_blocks.h"
+#include "spectra/accumulate/accumulate_device.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Rings and shells against their definition. */
 #include "harness.h"
 
-#include "spectra/accumulate/accumulate_blocks.h"
+#include "spectra/accumulate/accumulate_device.h"
 #include "spectra/bins.h"
 
 #include <float.h>

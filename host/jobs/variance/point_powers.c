@@ -1,4 +1,4 @@
-#include "jobs/variance/point_powers.h"
+#include "jobs/variance/prediction.h"
 
 #include "base/memory.h"
 #include "device/reals.h"

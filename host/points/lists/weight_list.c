@@ -111,7 +111,7 @@ static pspec_status read_npy_elements(ps_number_list *list, const ps_npy_header 
 
 static pspec_status read_npy(ps_number_list *list, ps_error *error) {
     ps_npy_header header;
-    PS_TRY(ps_npy_read_header(list->input, &header, error));
+    PS_TRY(ps_npy_read_header(list->input, &header, false, error));
     if (header.rank != 1) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s: an array with %u axes; weights have one",
                        list->input->name, header.rank);

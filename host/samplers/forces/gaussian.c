@@ -4,7 +4,6 @@
 #include "samplers/forces/loan.h"
 #include "samplers/list.h"
 #include "base/text.h"
-#include "samplers/forces/gaussian_sums.h"
 #include "samplers/values.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "samplers/forces/gaussian_sums.h"
+#include "samplers/forces/gaussian.h"
 
 #include "base/memory.h"
 

@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "samplers/forces/loan.h"
-#include "samplers/forces/step_curves.h"
 #include "samplers/forces/step_pairs.h"
 #include "samplers/list.h"
 #include "base/text.h"

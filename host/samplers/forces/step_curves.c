@@ -1,4 +1,4 @@
-#include "samplers/forces/step_curves.h"
+#include "samplers/forces/step.h"
 
 #include "base/memory.h"
 

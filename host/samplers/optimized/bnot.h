@@ -47,6 +47,7 @@ pspec_status ps_bnot_optimise(size_t num, double eps, const ps_watch *watch, dou
 /* Weights that give all power cells the area 1/N: damped Newton steps on the concave dual of
  * optimal transport (Kitagawa, Merigot, Thibert 2019), each by conjugate gradients.
  */
+
 /* Edges between two cells, each once, by the first of both: those of site i, all to later sites,
  * are first[i] .. first[i + 1] - 1. */
 typedef struct ps_bnot_edges {

@@ -20,6 +20,7 @@
  * further than 1 along an axis is never nearer to a place of that square than the same site's image
  * one period back, whatever the weights: nine images of each site are all that matter.
  */
+
 /* Edges that a cell may have. Cells of random points have 6 on average and more than 20 with a
  * probability below 1e-11; a hundred points on a circle around one need this room. */
 enum { PS_CELL_MOST_EDGES = 256 };

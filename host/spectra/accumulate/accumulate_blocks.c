@@ -1,4 +1,4 @@
-#include "spectra/accumulate/accumulate_blocks.h"
+#include "spectra/accumulate/accumulate_device.h"
 
 #include "base/memory.h"
 #include "base/round.h"

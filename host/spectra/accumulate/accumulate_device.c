@@ -4,7 +4,6 @@
 #include "base/round.h"
 #include "base/workers.h"
 #include "device/reals.h"
-#include "spectra/accumulate/accumulate_blocks.h"
 
 #include <math.h>
 #include <stdlib.h>

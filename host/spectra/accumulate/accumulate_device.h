@@ -4,6 +4,7 @@
 
 #include "spectra/accumulate/accumulate.h"
 #include "accumulate/blocks.h"
+#include "spectra/bins.h"
 
 typedef struct ps_device_accumulator ps_device_accumulator;
 
@@ -37,6 +38,7 @@ pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulato
  * (spectra/sums.h), by slots. Kernels of CPUs add to them while they form bins (blocks.cl); on GPUs
  * it is done here, by kernels/accumulate/strips.cl.
  */
+
 /* Sums, and sums of squares, in pairs. */
 enum { PS_STATE_SUM, PS_STATE_SUM_LOW, PS_STATE_SQUARE, PS_STATE_SQUARE_LOW, PS_NUM_STATES };
 
@@ -57,6 +59,7 @@ typedef struct ps_device_states {
 pspec_status ps_device_states_create(ps_device_states *out, const ps_accumulator_options *options,
                                      ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_device_states_free(ps_device_states *states); /* {0} is allowed */
+
 /* Room for so many realizations in all. */
 pspec_status ps_device_states_reserve(ps_device_states *states, uint64_t count,
                                       ps_error *error) PS_MUST_CHECK;
@@ -91,5 +94,32 @@ pspec_status ps_device_weighted_add(ps_device_weighted *weighted, const ps_rows 
 pspec_status ps_device_weighted_take(ps_device_weighted *weighted, size_t num_rows, double *values,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_device_weighted_forget(ps_device_weighted *weighted);
+
+/* Members of bins by blocks of slots: what kernels/accumulate/blocks.cl walks through. */
+
+/* Slots of a block, as in the kernel. */
+enum { PS_ACCUMULATE_BLOCK = 512 };
+/* Members of a piece at most, so that one item of a GPU does not add up long ones while others
+ * wait. Sums depend on it. */
+enum { PS_ACCUMULATE_PIECE = 16 };
+
+/* Successive members of one bin in one block; their sum is a piece of the bin. */
+typedef struct ps_block_ring {
+    uint32_t first, end, piece;
+} ps_block_ring;
+
+typedef struct ps_accumulate_blocks {
+    size_t num_blocks, num_pieces, num_members, num_bins; /* as many rings as pieces */
+    uint32_t *first_rings;                                /* [num_blocks + 1] */
+    ps_block_ring *rings;                                 /* block by block */
+    uint16_t *members;                                    /* ring by ring, slots within the block */
+    uint32_t (*bin_pieces)[2];                            /* [num_bins]: first, one past the last */
+} ps_accumulate_blocks;
+
+/* slots: of the frequencies that are members of bins, below stride. */
+pspec_status ps_accumulate_blocks_create(ps_accumulate_blocks *out, const ps_bins *bins,
+                                         const uint32_t *slots, size_t stride,
+                                         ps_error *error) PS_MUST_CHECK;
+void ps_accumulate_blocks_free(ps_accumulate_blocks *blocks);
 
 #endif

@@ -2,7 +2,6 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
-#include "spectra/accumulate/accumulate_blocks.h"
 #include "spectra/accumulate/accumulate_device.h"
 
 #include <math.h>

@@ -26,6 +26,7 @@
  * sum.
  * (For 64 jittered points in three dimensions the mean of phases at (4,0,0) has the length .64 so,
  * .23 without the cosines and .85 with the best weights, which nobody knows beforehand.) */
+
 /* An amplitude of a family. */
 typedef struct ps_shift_member {
     size_t frequency;      /* its number in the box */

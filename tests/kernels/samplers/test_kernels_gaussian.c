@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "math/random/random.h"
-#include "samplers/forces/gaussian_sums.h"
+#include "samplers/forces/gaussian.h"
 
 enum { MOST = 150, AXES = 3 };
 

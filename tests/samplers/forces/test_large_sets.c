@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "math/random/random.h"
-#include "samplers/forces/gaussian_sums.h"
+#include "samplers/forces/gaussian.h"
 #include "samplers/forces/step_pairs.h"
 
 enum { NUM = 8200, AXES = 3, BINS = 300, EVERY = 97 };

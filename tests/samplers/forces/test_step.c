@@ -10,7 +10,6 @@
 #include "files/digest.h"
 #include "samplers/forces/loan.h"
 #include "samplers/forces/step.h"
-#include "samplers/forces/step_curves.h"
 #include "samplers/forces/step_pairs.h"
 
 enum { NUM = 256 };
