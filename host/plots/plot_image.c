@@ -1,8 +1,111 @@
 /* The gnuplot script of the averaged periodogram on the whole square. */
+#include "base/memory.h"
 #include "plots/plot_script.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+/* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
+ * transposed so that x_1 runs to the right. */
+typedef struct raster {
+    size_t size;    /* pixels per side, odd */
+    double pixel;   /* width of a pixel in normalised frequency */
+    double maximum; /* power at the bright end of the scale */
+    double *power;  /* [size][size], second index along x_1 */
+} raster;
+
+enum { MAX_PIXELS = 801 }; /* the panel has some 600 pixels; more would not be seen */
+
+/* Half as many frequencies as there are pixels at most, so the middle pixel stays around DC. */
+static size_t choose_block(size_t size) {
+    size_t block = 1;
+    while (size / block > MAX_PIXELS) {
+        block += 2;
+    }
+    return block;
+}
+
+/* Mean over a block of frequencies, DC and what is outside the image left out. */
+static double average_block(const ps_plot_image *image, ptrdiff_t first_1, ptrdiff_t first_2,
+                            size_t block) {
+    const ptrdiff_t size = (ptrdiff_t)image->size;
+    double sum = 0;
+    size_t count = 0;
+    for (ptrdiff_t i = first_1; i < first_1 + (ptrdiff_t)block; i++) {
+        for (ptrdiff_t j = first_2; j < first_2 + (ptrdiff_t)block; j++) {
+            const int is_inside = i >= 0 && j >= 0 && i < size && j < size;
+            if (is_inside && !(i == size / 2 && j == size / 2)) {
+                sum += image->power[i * size + j];
+                count++;
+            }
+        }
+    }
+    return count > 0 ? sum / (double)count : 0;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The scale ends where all but one in a thousand pixels lie below, so that a few peaks do not make
+ * the rest dark, and never below 2, so that white noise looks alike in all pictures. */
+static pspec_status choose_maximum(raster *out, ps_error *error) {
+    const size_t count = out->size * out->size;
+    double *sorted = NULL;
+    PS_TRY(PS_NEW(&sorted, count, "picture", error));
+    size_t num_finite = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (isfinite(out->power[i])) {
+            sorted[num_finite++] = out->power[i];
+        }
+    }
+    qsort(sorted, num_finite, sizeof *sorted, compare_doubles);
+    const double high = num_finite > 0 ? sorted[num_finite - 1 - num_finite / 1000] : 0;
+    out->maximum = fmax(high, 2);
+    free(sorted);
+    return PSPEC_OK;
+}
+
+static pspec_status make_raster(raster *out, const ps_plot_image *image, ps_error *error) {
+    *out = (raster){0};
+    const size_t block = choose_block(image->size);
+    const ptrdiff_t half_image = (ptrdiff_t)(image->size / 2);
+    const ptrdiff_t half = (half_image + (ptrdiff_t)(block / 2)) / (ptrdiff_t)block;
+    out->size = 2 * (size_t)half + 1;
+    out->pixel = (double)block / image->unit;
+    PS_TRY(PS_NEW(&out->power, out->size * out->size, "picture", error));
+    const ptrdiff_t first = half_image - (ptrdiff_t)(block / 2) - half * (ptrdiff_t)block;
+    for (size_t row = 0; row < out->size; row++) {
+        for (size_t column = 0; column < out->size; column++) {
+            const ptrdiff_t k_1 = first + (ptrdiff_t)(column * block);
+            const ptrdiff_t k_2 = first + (ptrdiff_t)(row * block);
+            out->power[row * out->size + column] = average_block(image, k_1, k_2, block);
+        }
+    }
+    out->maximum = image->maximum;
+    const pspec_status status = image->maximum > 0 ? PSPEC_OK : choose_maximum(out, error);
+    if (status != PSPEC_OK) {
+        free(out->power);
+        out->power = NULL;
+    }
+    return status;
+}
+
+pspec_status ps_plot_find_maximum(double *out, const ps_plot_image *image, ps_error *error) {
+    raster found = {0};
+    ps_plot_image own = *image;
+    own.maximum = 0;
+    PS_TRY(make_raster(&found, &own, error));
+    *out = found.maximum;
+    free(found.power);
+    return PSPEC_OK;
+}
+
+/* ---- colours --------------------------------------------------------------------------------- */
 
 /* Blue below white noise and orange above it, as dark at one end as at the other; white noise, 1,
  * is nearly white. Steps are even on the scale of the tone map below it, and of the logarithm above
@@ -17,11 +120,11 @@ static double tone(double power) {
     return log2(1 + 0.25 * sqrt(fmax(power, 0)));
 }
 
-static void print_raster(const ps_plot_raster *raster, FILE *stream) {
+static void print_raster(const raster *own, FILE *stream) {
     fputs("$image << EOD\n", stream);
-    for (size_t row = 0; row < raster->size; row++) {
-        for (size_t column = 0; column < raster->size; column++) {
-            fprintf(stream, "%.4g ", tone(raster->power[row * raster->size + column]));
+    for (size_t row = 0; row < own->size; row++) {
+        for (size_t column = 0; column < own->size; column++) {
+            fprintf(stream, "%.4g ", tone(own->power[row * own->size + column]));
         }
         putc('\n', stream);
     }
@@ -64,18 +167,18 @@ static void print_colour_ticks(double maximum, FILE *stream) {
     fputs(")\n", stream);
 }
 
-static void print_panel(const ps_plot_raster *raster, const ps_script_box *where, FILE *stream) {
-    const double extent = raster->pixel * (double)raster->size / 2;
-    const double first = -raster->pixel * (double)(raster->size / 2);
+static void print_panel(const raster *own, const ps_script_box *where, FILE *stream) {
+    const double extent = own->pixel * (double)own->size / 2;
+    const double first = -own->pixel * (double)(own->size / 2);
     const double beside = 14; /* pixels, from the image to the colours, and their width */
     ps_script_print_margins(where, stream);
     fputs("set size ratio 1\n", stream);
-    print_palette(raster->maximum, stream);
+    print_palette(own->maximum, stream);
     fprintf(stream,
             "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
             (where->right + beside) / where->page_width, 1 - where->bottom / where->page_height,
             1.4 * beside / where->page_width, (where->bottom - where->top) / where->page_height);
-    print_colour_ticks(raster->maximum, stream);
+    print_colour_ticks(own->maximum, stream);
     fputs("set cblabel 'power' offset -0.6,0\nset xtics out nomirror\nset ytics out nomirror\n"
           "set xlabel 'normalized frequency k₁ N^{-1/2}' offset 0,0.2\n"
           "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1.2,0\n",
@@ -83,16 +186,16 @@ static void print_panel(const ps_plot_raster *raster, const ps_script_box *where
     fprintf(stream, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent, -extent,
             extent);
     fprintf(stream, "plot $image matrix using (%.9g+$1*%.9g):(%.9g+$2*%.9g):3 with image notitle\n",
-            first, raster->pixel, first, raster->pixel);
+            first, own->pixel, first, own->pixel);
     fputs("unset label 1\nunset colorbox\nset size noratio\n", stream);
 }
 
 pspec_status ps_script_print_image(const ps_plot_image *image, const ps_script_box *where,
                                    FILE *stream, ps_error *error) {
-    ps_plot_raster raster = {0};
-    PS_TRY(ps_plot_raster_make(&raster, image, error));
-    print_raster(&raster, stream);
-    print_panel(&raster, where, stream);
-    free(raster.power);
+    raster own = {0};
+    PS_TRY(make_raster(&own, image, error));
+    print_raster(&own, stream);
+    print_panel(&own, where, stream);
+    free(own.power);
     return PSPEC_OK;
 }

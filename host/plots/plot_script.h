@@ -164,20 +164,8 @@ ps_plot_span ps_spectra_powers(const ps_figure *figure, const ps_panel *curves);
 ps_plot_span ps_spectra_frequencies(const ps_figure *figure, const ps_panel *curves);
 ps_plot_span ps_spectra_anisotropies(const ps_panel *curves);
 
-/* ---- images ---------------------------------------------------------------------------------- */
-
-/* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
- * transposed so that x_1 runs to the right. */
-typedef struct ps_plot_raster {
-    size_t size;    /* pixels per side, odd */
-    double pixel;   /* width of a pixel in normalised frequency */
-    double maximum; /* power at the bright end of the scale */
-    double *power;  /* [size][size], second index along x_1 */
-} ps_plot_raster;
-
+/* The image, and the colours beside it. */
 pspec_status ps_script_print_image(const ps_plot_image *image, const ps_script_box *where,
                                    FILE *stream, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_plot_raster_make(ps_plot_raster *out, const ps_plot_image *image,
-                                 ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -26,31 +26,17 @@ static const char style[] =
 
 /* Bytes that are no character would end what a parser takes. */
 static void print_text(const char *text, ps_text *out) {
+    static const char special[] = "<>&\"";
+    static const char *const names[] = {"lt", "gt", "amp", "quot"};
     while (*text != '\0') {
         const size_t length = ps_text_character(text);
-        switch (*text) {
-        case '<':
-            ps_text_append(out, "&lt;");
-            break;
-        case '>':
-            ps_text_append(out, "&gt;");
-            break;
-        case '&':
-            ps_text_append(out, "&amp;");
-            break;
-        case '"':
-            ps_text_append(out, "&quot;");
-            break;
-        case '\n':
-        case '\t':
-            ps_text_append_bytes(out, text, 1);
-            break;
-        default:
-            if (length > 0) {
-                ps_text_append_bytes(out, text, length);
-            } else {
-                ps_text_append(out, "%s", PS_TEXT_UNKNOWN);
-            }
+        const char *const found = strchr(special, *text);
+        if (found != NULL) {
+            ps_text_append(out, "&%s;", names[found - special]);
+        } else if (length > 0 || *text == '\n' || *text == '\t') {
+            ps_text_append_bytes(out, text, length > 0 ? length : 1);
+        } else {
+            ps_text_append(out, "%s", PS_TEXT_UNKNOWN);
         }
         text += length > 0 ? length : 1;
     }
