@@ -1,16 +1,16 @@
-/* Measured figures of a device in a file of their own, one per device and driver:
- * FOLDER/devices/HASH.txt.
+/* Measured figures of a device, kept as a table in an entry of a cache in FOLDER/devices
+ * (store/result_cache.h), which is found by device, driver and version of pointspec.
  *
- * Text of "key value" lines, the last of which is a checksum of those before. What is not a whole
- * file of this version of pointspec about this device is as good as none: then the planner has the
- * built-in figures, and the note says why. Numbers outside of what a device can be are not taken
- * either, so that no file makes times that are not above 0.
+ * What is no whole table of figures is as good as none: then the planner has the built-in figures,
+ * and the note says why. Numbers outside of what a device can be are not taken either, so that no
+ * file makes times that are not above 0.
  */
 #ifndef PS_STORE_FIGURES_FILE_H
 #define PS_STORE_FIGURES_FILE_H
 
 #include "base/text.h"
 #include "device/device.h"
+#include "tables/table.h"
 
 /* Appends the path of the file of a device in the cache's folder. */
 pspec_status ps_figures_path(ps_text *path, const char *folder, const ps_device_limits *limits,
@@ -21,6 +21,10 @@ pspec_status ps_figures_make_folder(const char *folder, ps_error *error) PS_MUST
 /* That, too; the file is there whole, or as it was. */
 pspec_status ps_figures_write(const char *folder, const ps_figures *figures,
                               const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
+/* The figures of such a table, without a note; PSPEC_ERROR_INPUT, and none, where one cannot
+ * be. */
+pspec_status ps_figures_take(ps_figures *figures, const ps_table *table,
+                             ps_error *error) PS_MUST_CHECK;
 /* A file that is absent or not to be used gives the built-in figures with a note, no error: that is
  * only for memory. folder NULL: built-in. */
 pspec_status ps_figures_read(ps_figures *figures, const char *folder,

@@ -89,12 +89,18 @@ bool ps_cache_first_failure(ps_cache *cache) {
 }
 
 /* cache_folder.c knows entries by this form of name. */
+pspec_status ps_cache_append_name(ps_text *path, const void *key, size_t key_bytes,
+                                  ps_error *error) {
+    const XXH128_hash_t hash = XXH3_128bits(key, key_bytes);
+    ps_text_append(path, "/%016" PRIx64 "%016" PRIx64 ".result", (uint64_t)hash.high64,
+                   (uint64_t)hash.low64);
+    return ps_text_check(path, error);
+}
+
 static pspec_status entry_path(ps_text *path, const ps_cache *cache, const void *key,
                                size_t key_bytes, ps_error *error) {
-    const XXH128_hash_t hash = XXH3_128bits(key, key_bytes);
-    ps_text_append(path, "%s/%016" PRIx64 "%016" PRIx64 ".result", cache->directory,
-                   (uint64_t)hash.high64, (uint64_t)hash.low64);
-    return ps_text_check(path, error);
+    ps_text_append(path, "%s", cache->directory);
+    return ps_cache_append_name(path, key, key_bytes, error);
 }
 
 /* ---- entries ---- */

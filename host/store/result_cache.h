@@ -48,6 +48,9 @@ pspec_status ps_cache_find(ps_cache *cache, const void *key, size_t key_bytes, p
 pspec_status ps_cache_get(ps_cache *cache, const void *key, size_t key_bytes, void **data,
                           size_t *data_bytes, bool *is_found, ps_error *error) PS_MUST_CHECK;
 
+/* Appends the name of the file of the key, and a slash before it, to its folder. */
+pspec_status ps_cache_append_name(ps_text *path, const void *key, size_t key_bytes,
+                                  ps_error *error) PS_MUST_CHECK;
 /* Is there a file for the key? It may be damaged. */
 bool ps_cache_has(const ps_cache *cache, const void *key, size_t key_bytes);
 /* Entries that were found damaged, and removed, through this handle. */

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct reader {
@@ -286,13 +287,17 @@ bool ps_table_is_npz(const char *path) {
     enum { NAME = 30 }; /* where the name stands in a zip archive */
     static const char name[] = PS_TABLE_META ".npy";
     char bytes[NAME + sizeof name - 1];
+    struct stat facts;
+    size_t count = 0;
     const int descriptor = ps_descriptor_open(path);
-    const bool is_long =
-        descriptor >= 0 && pread(descriptor, bytes, sizeof bytes, 0) == sizeof bytes;
-    if (descriptor >= 0) {
-        close(descriptor);
+    if (descriptor < 0) {
+        return false;
     }
-    return is_long && memcmp(bytes, "PK", 2) == 0 &&
+    const bool is_read =
+        fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) &&
+        ps_descriptor_read(descriptor, path, bytes, sizeof bytes, &count, NULL) == PSPEC_OK;
+    close(descriptor);
+    return is_read && count == sizeof bytes && memcmp(bytes, "PK", 2) == 0 &&
            memcmp(bytes + NAME, name, sizeof name - 1) == 0;
 }
 

@@ -32,24 +32,7 @@ ALLOCATION(aligned_alloc, void *, (size_t alignment, size_t bytes), (alignment, 
 ALLOCATION(strdup, char *, (const char *text), (text))
 ALLOCATION(strndup, char *, (const char *text, size_t length), (text, length))
 ALLOCATION(cJSON_CreateString, cJSON *, (const char *text), (text))
-ALLOCATION(cJSON_ParseWithLengthOpts, cJSON *,
-           (const char *text, size_t length, const char **end, cJSON_bool needs_nul),
-           (text, length, end, needs_nul))
 ALLOCATION(cJSON_PrintUnformatted, char *, (const cJSON *item), (item))
-
-/* What belongs to a tree from then on is given back with its root. */
-WRAPPER(cJSON_AddArrayToObject, cJSON *, (cJSON * object, const char *name)) {
-    return is_refused("cJSON_AddArrayToObject") ? NULL
-                                                : __real_cJSON_AddArrayToObject(object, name);
-}
-
-WRAPPER(cJSON_AddItemToArray, cJSON_bool, (cJSON * array, cJSON *item)) {
-    const cJSON_bool is_added = __real_cJSON_AddItemToArray(array, item);
-    if (is_added) {
-        fault_lose(item);
-    }
-    return is_added;
-}
 
 WRAPPER(realloc, void *, (void *old, size_t bytes)) {
     if (is_refused("realloc")) {

@@ -321,11 +321,11 @@ sums() { # NUMBER
 { VERSION=2; spectrum box 1 4 rings 2 power | sed 's/smallest_points: 4/smallest_points: 3/'; sums 6; } | seed spectrum old-different '\1'
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
 
-# array KIND EXTENTS: of a table in an NPZ file, its kind (0 to 4: f, i, u, c, U1) and extents, and then its data
+# array KIND EXTENTS [WIDTH]: of a table in an NPZ file, its kind (0 to 4: f, i, u, c, U) and extents, and then its data
 array() {
     local extents
     read -ra extents <<<"$2"
-    printf '%b' "\x01\x0$1\x0${#extents[@]}" && printf '\\x%02x' "${extents[@]}" | xargs -0 printf '%b' && cat
+    perl -e 'print pack("C*", @ARGV)' "${3:-1}" "$1" "${#extents[@]}" "${extents[@]}" && cat
 }
 # fields LIST: with | for the NUL behind each text
 fields() { printf %s "$1" | tr '|' '\0' | array 2 ${#1}; }
@@ -340,16 +340,18 @@ fields() { printf %s "$1" | tr '|' '\0' | array 2 ${#1}; }
 { fields '1|power|aa|sb|' && printf '' | array 2 '0 0' && f64 1 2 | array 3 1 && f64 1 | array 0 ''; } | seed table arrays '\1'
 printf 'PK\3\4' | seed table cut '\0'
 
-# figures VERSION LINES: of the device of figures.c; the first byte asks for a right checksum
+# figures ENTRIES NAME: with a row of 1.25 and no other precision
 figures() {
-    printf 'pointspec-figures 1 %s\ndevice d\nplatform p\ndriver 1\n%b' "$@"
+    fields "1|figures|cname|csingle|cdouble|cextended|3date|today|$1"
+    printf '\3\1\0\0' | array 2 '1 4'
+    perl -e 'print pack("V*", map ord, split //, $ARGV[0])' "$2" | array 4 1 "${#2}"
+    f64 1.25 | array 0 1
+    f64 nan | array 0 1
+    f64 nan | array 0 1
 }
-version=$(sed -n 's/^project(.*VERSION \([0-9.]*\).*/\1/p' "$corpus/../../../CMakeLists.txt")
-figures "$version" 'date 2026-11-22\nflops single 3e11\nbytes copied 5e10\nscale torus_nufft double 1.25\n' |
-    seed figures whole '\x01'
-figures "$version" 'scale torus_nufft single nan\nscale torus_nufft single 1e4\n' | seed figures numbers '\x01'
-figures 0.0.0 'date today\n' | seed figures version '\x01'
-printf 'flops single 1\n' | seed figures unchecked '\x00'
+figures '1flops_single|3e11|1copied_bytes|5e10|0launches||' torus_nufft | seed figures whole '\1'
+figures '1launches|0.5|' torus_nufft | seed figures numbers '\1'
+figures '' host:white | seed figures host '\1'
 
 # saved ENTRIES KEYS: rows of these rings, a digit each, in a table of power
 saved() {
@@ -360,7 +362,6 @@ saved() {
     perl -e 'print pack("d<*", (0.5) x $ARGV[0])' "$num" | array 0 "$num"
     perl -e 'print pack("d<*", (1.25) x $ARGV[0])' "$num" | array 0 "$num"
     perl -e 'print pack("q<*", (8) x $ARGV[0])' "$num" | array 1 "$num"
-    printf '' | array 1 0
     f64 0.1 0.2 | head -c $((8 * num)) | array 0 "$num"
 }
 plane='2points|8|2dimension|2|2max_frequency|2|'

@@ -6,9 +6,11 @@
 #include "answers/check/saved_spectrum.h"
 #include "files/packed/npz_records.h"
 #include "fuzz.h"
+#include "store/figures_file.h"
 #include "tables/table.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <xxhash.h>
 
@@ -49,16 +51,34 @@ static bool take_array(ps_npz_array *array, size_t *shape, fuzz_bytes *input) {
     return true;
 }
 
+/* Of column i, from the list of fields; "x": there are fewer. */
+static void find_name(char name[16], const ps_npz_array *fields, size_t num_bytes, size_t i) {
+    const char *const bytes = fields->data;
+    snprintf(name, 16, "x");
+    for (size_t at = 1; at + 1 < num_bytes; at++) {
+        if (bytes[at - 1] == '\0' && bytes[at] == 'c' && i-- == 0) {
+            snprintf(name, 16, "%.*s", (int)strnlen(bytes + at + 1, num_bytes - at - 1),
+                     bytes + at + 1);
+            return;
+        }
+    }
+}
+
 static void make_file(ps_text *out, fuzz_bytes input) {
-    static const char *const names[] = {"fields",    "cell_kinds", "bin",    "power",
-                                        "frequency", "count",      "degree", "standard_error"};
     ps_npz_records all = {.limit = PS_NPZ_LIMIT};
     size_t shape[PS_NPY_MAX_RANK];
+    char name[16];
     ps_npz_array array;
-    for (size_t i = 0;
-         i < sizeof names / sizeof names[0] && input.size > 0 && take_array(&array, shape, &input);
-         i++) {
-        array.name = names[i];
+    ps_npz_array fields = {0};
+    size_t num_bytes = 0;
+    for (size_t i = 0; input.size > 0 && take_array(&array, shape, &input); i++) {
+        if (i == 0) {
+            fields = array;
+            (void)ps_npz_count_bytes(&fields, &num_bytes);
+        } else if (i > 1) {
+            find_name(name, &fields, num_bytes, i - 2);
+        }
+        array.name = i == 0 ? "fields" : i == 1 ? "cell_kinds" : name;
         put_array(out, &all, &array);
     }
     const XXH128_hash_t digest = XXH3_128bits(ps_text_string(out), out->length);
@@ -149,5 +169,48 @@ void fuzz_saved(const char *argument, fuzz_bytes input) {
         }
     }
     ps_saved_spectrum_free(&saved);
+    ps_table_destroy(table);
+}
+
+/* ---- figures of devices ---------------------------------------------------------------------- */
+
+static void check_range(double value, double least, double most) {
+    if (value != 0 && !(value >= least && value <= most)) {
+        fuzz_fail("%g is no figure of a device", value);
+    }
+}
+
+static void check_figures(const ps_figures *figures) {
+    if (figures->num_engines > PS_FIGURES_ENGINES) {
+        fuzz_fail("%zu engines", figures->num_engines);
+    }
+    check_range(figures->flops[0], 1e3, 1e18);
+    check_range(figures->flops[1], 1e3, 1e18);
+    check_range(figures->copied_bytes, 1e3, 1e18);
+    for (size_t i = 0; i < figures->num_engines; i++) {
+        for (unsigned p = 0; p < PS_FIGURES_PRECISIONS; p++) {
+            check_range(figures->engines[i].scales[p], 1e-3, 1e3);
+            const double scale = ps_figures_scale(figures, figures->engines[i].engine, p);
+            if (!(scale > 0 && isfinite(scale))) {
+                fuzz_fail("times %g", scale);
+            }
+        }
+    }
+}
+
+void fuzz_figures(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    ps_table *const table = take_table(input);
+    ps_figures figures;
+    ps_error error = {0};
+    if (table == NULL) {
+        return;
+    }
+    const pspec_status status = ps_figures_take(&figures, table, &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if (figures.is_measured != (status == PSPEC_OK)) {
+        fuzz_fail("refused, and yet measured");
+    }
+    check_figures(&figures);
     ps_table_destroy(table);
 }

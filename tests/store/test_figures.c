@@ -5,10 +5,7 @@
 
 #include "base/workers.h"
 #include "plan/host_cost.h"
-#include "store/figures_text.h"
 #include "store/host_figures.h"
-
-#include "pointspec_version.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -38,15 +35,7 @@ static ps_figures some_figures(void) {
     return figures;
 }
 
-static ps_text some_text(void) {
-    const ps_device_limits limits = some_device();
-    const ps_figures figures = some_figures();
-    ps_text text = {0};
-    assert_ok(ps_figures_format(&text, &figures, &limits, error));
-    return text;
-}
-
-/* ---- text ---------------------------------------------------------------------------------- */
+/* ---- tables -------------------------------------------------------------------------------- */
 
 static void assert_same(const ps_figures *a, const ps_figures *b) {
     assert_true(a->is_measured && b->is_measured);
@@ -62,135 +51,68 @@ static void assert_same(const ps_figures *a, const ps_figures *b) {
     }
 }
 
-static void comes_back(void **state) {
+/* A table of figures with one row and one entry. */
+static ps_table *make_table(const char *name, int column, double number, const char *key,
+                            ps_cell value) {
+    static const char *const columns[] = {"name", "single", "double", "extended"};
+    ps_cell cells[] = {PS_TEXT(name), PS_MISSING, PS_MISSING, PS_MISSING};
+    ps_table *table = NULL;
+    cells[column] = PS_NUMBER(number);
+    assert_ok(ps_table_create(&table, "figures", columns, 4, error));
+    assert_ok(ps_table_add_meta(table, key, value, error));
+    assert_ok(ps_table_add_meta(table, "date", PS_TEXT("today"), error));
+    assert_ok(ps_table_add_row(table, cells, error));
+    return table;
+}
+
+static void what_no_device_can_be_is_refused(void **state) {
     (void)state;
-    const ps_device_limits limits = some_device();
-    const ps_figures figures = some_figures();
-    ps_text text = some_text();
-    ps_figures back;
-    assert_ok(ps_figures_parse(&back, text.data, text.length, &limits, error));
-    assert_same(&figures, &back);
-    assert_non_null(strstr(back.note, "measured on 2026-11-22T10:00:00Z"));
-    ps_text_free(&text);
-}
-
-/* Nothing of it is taken, and the sentence has the part. */
-static void assert_refused(const char *text, size_t length, const ps_device_limits *limits,
-                           const char *part) {
-    ps_figures back = some_figures();
-    ps_error said = {0};
-    assert_int_equal(ps_figures_parse(&back, text, length, limits, &said), PSPEC_ERROR_INPUT);
-    if (strstr(said.message, part) == NULL) {
-        fail_msg("not \"%s\": %s", part, said.message);
-    }
-    assert_false(back.is_measured);
-    assert_int_equal(back.num_engines, 0);
-    assert_true(back.flops[0] == 0 && back.copied_bytes == 0);
-}
-
-static void any_damage_is_seen(void **state) {
-    (void)state;
-    const ps_device_limits limits = some_device();
-    ps_text text = some_text();
-    for (size_t i = 0; i < text.length; i++) {
-        char *const byte = &text.data[i];
-        *byte = (char)(*byte ^ 1);
-        assert_refused(text.data, text.length, &limits, "checksum");
-        *byte = (char)(*byte ^ 1);
-        assert_refused(text.data, i, &limits, "checksum"); /* cut off there */
-    }
-    ps_text_append(&text, "\n");
-    assert_refused(text.data, text.length, &limits, "checksum");
-    ps_text_free(&text);
-}
-
-static void others_are_refused(void **state) {
-    (void)state;
-    ps_text text = some_text();
-    ps_device_limits other = some_device();
-    snprintf(other.driver, sizeof other.driver, "1.3");
-    assert_refused(text.data, text.length, &other, "another device or driver");
-    other = some_device();
-    snprintf(other.name, sizeof other.name, "a device");
-    assert_refused(text.data, text.length, &other, "another device or driver");
-    ps_text_free(&text);
-    ps_text_append(&text, "pointspec-figures 1 0.0.0\ndevice x\n");
-    ps_figures_add_checksum(&text);
-    assert_refused(text.data, text.length, &other, "another version");
-    ps_text_free(&text);
-}
-
-/* A file of this device with a right checksum, and one line more. */
-static ps_text with_line(const char *line) {
-    ps_text text = {0};
-    ps_text_append(&text,
-                   "pointspec-figures 1 " PS_VERSION
-                   "\ndevice a device?with two lines\nplatform a platform\ndriver 1.2\n"
-                   "date today\n%s",
-                   line);
-    ps_figures_add_checksum(&text);
-    return text;
-}
-
-static void wrong_lines(void **state) {
-    (void)state;
-    static const char *const lines[] = {
-        "scale torus_nufft single nan\n",
-        "scale torus_nufft single inf\n",
-        "scale torus_nufft single 0\n",
-        "scale torus_nufft single -1\n",
-        "scale torus_nufft single 1e4\n",
-        "scale torus_nufft single 1e-4\n",
-        "scale torus_nufft single 1e999\n",
-        "scale torus_nufft single 1 2\n",
-        "scale torus_nufft single \n",
-        "scale torus_nufft half 1\n",
-        "scale torus_nufft\n",
-        "scale  single 1\n",
-        "scale an_engine_of_a_name_that_is_too_long_to_be_kept single 1\n",
-        "flops single 1e2\n",
-        "flops extended 1e9\n",
-        "bytes copied 0\n",
-        "bytes copied 0x1p40\n",
-        "bytes sent 0\n",
-        "launches small 0.5\n",
-        "launches 1e5\n",
-        "date a day of so many words that they do not fit\n",
-        "speed 3\n",
-        "host pair 0\n",
-        "host pair\n",
-        "host  1\n",
-        "host pair 1 2\n",
-        "\n",
-        "flops single 1e9", /* goes on with the checksum */
-    };
-    const ps_device_limits limits = some_device();
-    ps_figures back;
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        ps_text text = with_line(lines[i]);
+    const struct {
+        const char *name;
+        int column;
+        double number;
+        const char *key;
+        ps_cell value;
+    } cases[] = {{"torus_nufft", 1, INFINITY, "launches", PS_MISSING},
+                 {"torus_nufft", 1, 0, "launches", PS_MISSING},
+                 {"torus_nufft", 2, -1, "launches", PS_MISSING},
+                 {"torus_nufft", 3, 1e4, "launches", PS_MISSING},
+                 {"torus_nufft", 1, 1e-4, "launches", PS_MISSING},
+                 {"", 1, 1, "launches", PS_MISSING},
+                 {"an_engine_of_a_name_that_is_too_long_to_be_kept", 1, 1, "launches", PS_MISSING},
+                 {"host:white", 1, 1e4, "launches", PS_MISSING},
+                 {"host:white", 2, 1, "launches", PS_MISSING},
+                 {"torus_nufft", 1, 1, "launches", PS_NUMBER(0.5)},
+                 {"torus_nufft", 1, 1, "flops_single", PS_NUMBER(1e2)},
+                 {"torus_nufft", 1, 1, "copied_bytes", PS_NUMBER(1e19)},
+                 {"torus_nufft", 1, 1, "sent_bytes", PS_TEXT("fast")},
+                 {"torus_nufft", 1, 1, "date", PS_TEXT("a day of so many words that it is none")},
+                 {"torus_nufft", 1, 1, "date", PS_MISSING}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_figures back = some_figures();
         ps_error said = {0};
-        assert_int_equal(ps_figures_parse(&back, text.data, text.length, &limits, &said),
-                         PSPEC_ERROR_INPUT);
+        ps_table *const table = make_table(cases[i].name, cases[i].column, cases[i].number,
+                                           cases[i].key, cases[i].value);
+        assert_int_equal(ps_figures_take(&back, table, &said), PSPEC_ERROR_INPUT);
         assert_false(back.is_measured);
-        ps_text_free(&text);
+        assert_int_equal(back.num_engines, 0);
+        assert_true(back.flops[0] == 0 && back.copied_bytes == 0);
+        ps_table_destroy(table);
     }
-    ps_text text = with_line("scale torus_nufft single 1e3\n");
-    assert_ok(ps_figures_parse(&back, text.data, text.length, &limits, error));
-    assert_true(back.engines[0].scales[PS_SINGLE] == 1e3);
-    ps_text_free(&text);
-}
-
-static void too_many_engines(void **state) {
-    (void)state;
-    const ps_device_limits limits = some_device();
-    ps_text lines = {0};
-    for (int i = 0; i <= PS_FIGURES_ENGINES; i++) {
-        ps_text_append(&lines, "scale engine%d single 1\n", i);
+    ps_figures back;
+    ps_table *const table = make_table("torus_nufft", 1, 1e3, "launches", PS_NUMBER(1));
+    assert_ok(ps_figures_take(&back, table, error));
+    assert_true(back.is_measured && back.engines[0].scales[PS_SINGLE] == 1e3);
+    assert_true(back.engines[0].scales[PS_DOUBLE] == 0 && back.launches == 1);
+    for (int i = 0; i < PS_FIGURES_ENGINES; i++) { /* one more than find room */
+        char name[16];
+        snprintf(name, sizeof name, "engine%d", i);
+        const ps_cell cells[] = {PS_TEXT(name), PS_NUMBER(1), PS_MISSING, PS_MISSING};
+        assert_ok(ps_table_add_row(table, cells, error));
     }
-    ps_text text = with_line(ps_text_string(&lines));
-    assert_refused(text.data, text.length, &limits, "a line");
-    ps_text_free(&text);
-    ps_text_free(&lines);
+    ps_error said = {0};
+    assert_int_equal(ps_figures_take(&back, table, &said), PSPEC_ERROR_INPUT);
+    ps_table_destroy(table);
 }
 
 /* ---- files --------------------------------------------------------------------------------- */
@@ -237,14 +159,12 @@ static void files(void **state) {
     snprintf(other.driver, sizeof other.driver, "1.3");
     assert_ok(ps_figures_read(&back, folder.data, &other, error)); /* has a file of its own */
     assert_false(back.is_measured);
-    write_some(path.data, "pointspec-figures 1 \n");
-    read_note(folder.data, "checksum");
-    write_some(path.data, "");
-    read_note(folder.data, "empty");
-    assert_int_equal(remove(path.data), 0);
-    alarm(600); /* instead of for ever */
+    write_some(path.data, "PK\003\004");
+    read_note(folder.data, "was not measured"); /* and is gone */
+    alarm(600);                                 /* instead of for ever */
     assert_int_equal(mkfifo(path.data, 0600), 0);
-    read_note(folder.data, "is no file");
+    read_note(folder.data, "was not measured");
+    assert_int_equal(mkfifo(path.data, 0600), 0);
     assert_ok(ps_figures_write(folder.data, &figures, &limits, error));
     alarm(0);
     assert_ok(ps_figures_read(&back, folder.data, &limits, error));
@@ -381,11 +301,7 @@ static void host_figures_come_back(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),
-        cmocka_unit_test(any_damage_is_seen),
-        cmocka_unit_test(others_are_refused),
-        cmocka_unit_test(wrong_lines),
-        cmocka_unit_test(too_many_engines),
+        cmocka_unit_test(what_no_device_can_be_is_refused),
         cmocka_unit_test(files),
         cmocka_unit_test(planner_scales_seconds),
         cmocka_unit_test(planner_does_not_choose_by_them),

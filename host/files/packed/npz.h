@@ -25,6 +25,10 @@ typedef struct ps_npz_array {
 
 typedef struct ps_npz ps_npz;
 
+/* The last array: the digest (XXH3, 128 bits) of all bytes before its record, as two integers, the
+ * lower one first. */
+#define PS_NPZ_DIGEST "file_digest"
+
 /* What does not fit into a field of 32 bits: the limit for all but tests. */
 #define PS_NPZ_LIMIT ((uint64_t)UINT32_MAX)
 
@@ -47,7 +51,8 @@ typedef struct ps_npz_file ps_npz_file;
 
 /* Reads a whole file that was written with this limit, by a machine of this byte order. Any bytes
  * may come: what is damaged, cut off, compressed or of another program is PSPEC_ERROR_INPUT. Memory
- * is in proportion to the file. name: for sentences; the descriptor stays the caller's. */
+ * is in proportion to the file. name: for sentences; the descriptor, at the beginning of the file,
+ * stays the caller's. */
 pspec_status ps_npz_read(ps_npz_file **out, int descriptor, const char *name, uint64_t limit,
                          ps_error *error) PS_MUST_CHECK;
 const char *ps_npz_name(const ps_npz_file *file);

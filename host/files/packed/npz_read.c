@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 typedef struct stored {
@@ -220,16 +219,20 @@ static pspec_status take_all(ps_npz_file *file, uint64_t limit, ps_error *error)
 static pspec_status read_bytes(ps_npz_file *file, int descriptor, ps_error *error) {
     struct stat facts;
     char magic[2];
-    size_t count = 1;
+    size_t count = 0;
     if (fstat(descriptor, &facts) != 0) {
         return ps_read_fail(file->name, error);
     }
-    if (!S_ISREG(facts.st_mode) || pread(descriptor, magic, sizeof magic, 0) != sizeof magic ||
-        memcmp(magic, "PK", sizeof magic) != 0) {
+    const size_t num = S_ISREG(facts.st_mode) ? (size_t)facts.st_size : 0;
+    if (num > sizeof magic) {
+        PS_TRY(ps_descriptor_read(descriptor, file->name, magic, sizeof magic, &count, error));
+    }
+    if (count < sizeof magic || memcmp(magic, "PK", sizeof magic) != 0) {
         return fail_npz(file, "is no NPZ file", error);
     }
-    const size_t num = (size_t)facts.st_size;
     PS_TRY(PS_NEW(&file->bytes, num, "an NPZ file", error));
+    memcpy(file->bytes, magic, sizeof magic);
+    file->num_bytes = sizeof magic;
     while (count > 0 && file->num_bytes < num) {
         PS_TRY(ps_descriptor_read(descriptor, file->name, file->bytes + file->num_bytes,
                                   num - file->num_bytes, &count, error));

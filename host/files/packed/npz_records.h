@@ -46,8 +46,4 @@ size_t ps_npz_make_header(char header[PS_NPY_HEADER_BYTES], const ps_npz_array *
 /* Of the data; false: more than memory could hold. */
 bool ps_npz_count_bytes(const ps_npz_array *array, size_t *bytes);
 
-/* The last array has the digest (XXH3, 128 bits) of all bytes of the file before its record, as two
- * integers, the lower one first. */
-#define PS_NPZ_DIGEST "file_digest"
-
 #endif

@@ -6,7 +6,7 @@
 /* In the middle of what engines of each precision are asked for. The referee has none. */
 static const double tolerances[] = {1e-4, 1e-10, 1};
 
-/* What a factor may be: host/store/figures_text.c does not take others. */
+/* What a factor may be: host/store/figures_file.c does not take others. */
 static const double least_scale = 1e-3, most_scale = 1e3;
 
 enum { MOST_CASES = 32 };

@@ -16,7 +16,7 @@
  * usually takes here, on a machine with neighbours, too. */
 enum { ROUNDS = 7 };
 
-/* What a figure may be: host/store/figures_text.c does not take others. */
+/* What a figure may be: host/store/figures_file.c does not take others. */
 static const double least_scale = 1e-3, most_scale = 1e3;
 
 /* Seconds over predicted ones, of every round: of the probes, then of the samplers. */
