@@ -12,7 +12,7 @@ print_fields() { # PAGE
     # Commands that give no answers have none.
     mapfile -t kinds < <("$POINTSPEC_PROGRAM" --help | awk '/^Commands:/ { on = 1; next } !NF { on = 0 } on { print $1 }')
     sed '/^## /,$d' "$1" | sed '$d' # without the empty line before the first heading
-    for group in Columns Header Arrays; do
+    for group in Columns Header Arrays State; do
         printf '\n## %s\n\n| name | of | |\n|---|---|---|\n' $group
         for kind in "${kinds[@]}"; do
             { "$POINTSPEC_PROGRAM" help "$kind" fields 2>/dev/null || true; } | awk -v kind="$kind" -v group="$group:" '
@@ -92,7 +92,7 @@ function print_lists(arguments, name,   help, line, goes_on, title, term, text, 
             title = line
             num++
             # These stand under a heading of the page.
-            if (name !~ /^(Options|Columns|Header|Arrays)$/) print ".Pp\n" title
+            if (name !~ /^(Options|Columns|Header|Arrays|State)$/) print ".Pp\n" title
             print ".Bl -tag -width Ds" (name == "Options" ? "" : " -compact")
         } else if (title != "" && goes_on) {
             text = text " " line

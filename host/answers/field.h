@@ -11,17 +11,20 @@
 typedef enum ps_field_group {
     PS_FIELD_ENTRY = 0, /* of the header */
     PS_FIELD_COLUMN,
-    PS_FIELD_ARRAY /* a file of its own */
+    PS_FIELD_ARRAY, /* of its own shape, in NPZ or a file of its own */
+    PS_FIELD_STATE  /* what an answer is merged by: arrays that NPZ alone has */
 } ps_field_group;
 
-/* Their names, "entry", "column", "array". */
+/* Their names, "entry", "column", "array", "state". */
 extern const char *const ps_field_groups[];
 
 typedef struct ps_field_row {
     const char *name; /* NULL ends a list */
     const char *unit; /* "": none */
     ps_field_group group;
-    bool is_repeated;     /* the key of an entry may come several times, as for several samplers */
+    /* The key of an entry may come several times, as for several samplers; state of the second
+     * question is NAME_2 */
+    bool is_repeated;
     ps_command_set kinds; /* 0: all that have the list */
     const char *when;     /* options and cases in which it is there; "": always */
     const char *meaning;  /* one sentence */
@@ -32,6 +35,7 @@ typedef struct ps_field_row {
 #define PS_ENTRIES PS_FIELD_ENTRY, true
 #define PS_COLUMN PS_FIELD_COLUMN, false
 #define PS_ARRAY PS_FIELD_ARRAY, false
+#define PS_STATE PS_FIELD_STATE, true
 
 /* Of several kinds: the request's record, points, frequencies, device and engine. */
 extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[],

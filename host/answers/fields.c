@@ -6,8 +6,10 @@
 #define SPHERE (OF(angular) | OF(pairs) | OF(check) | OF(variance))
 #define SPECTRA (TORUS | SPHERE)
 
-const char *const ps_field_groups[] = {
-    [PS_FIELD_ENTRY] = "entry", [PS_FIELD_COLUMN] = "column", [PS_FIELD_ARRAY] = "array"};
+const char *const ps_field_groups[] = {[PS_FIELD_ENTRY] = "entry",
+                                       [PS_FIELD_COLUMN] = "column",
+                                       [PS_FIELD_ARRAY] = "array",
+                                       [PS_FIELD_STATE] = "state"};
 
 const ps_field_row ps_fields_asked[] = {
     {"pointspec_version", "", PS_ENTRY, 0, "", "version of the program"},

@@ -86,6 +86,14 @@ double ps_compared_predicted_bound(const ps_both_tables *both, const char *value
 double ps_compared_rule_bound(const ps_both_tables *both, const char *value);
 double ps_compared_variance_bound(const ps_both_tables *both, const char *value);
 
+/* Answers to one question, in the order of their realizations. */
+typedef struct ps_parts {
+    const ps_table *const *tables; /* [num], with their state */
+    const char *const *names;      /* [num], in sentences: a file in quotes, or "answer 2" */
+    size_t num;                    /* at least 1 */
+    const char *command_line;      /* of who merges, for the header */
+} ps_parts;
+
 typedef struct ps_command {
     const char *name;
 
@@ -134,6 +142,9 @@ typedef struct ps_command {
     /* *out is {0} before, and freed by ps_answer_free, also after an error. */
     pspec_status (*tabulate)(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error);
+    /* The answer of all realizations of the parts, which are of the kind; NULL: its answers have no
+     * state. *out is as that of tabulate. */
+    pspec_status (*merge)(ps_answer *out, const ps_parts *parts, ps_error *error);
     void (*discard)(void *computed); /* NULL is allowed */
 
     /* What the tables mean. */
@@ -196,6 +207,16 @@ void ps_answer_free(ps_answer *answer);
 /* How far the tables are apart, in units of what their headers announce, so that 1 is what is
  * allowed. Infinite where one has rows that the other lacks. */
 double ps_answer_compare(const ps_kind *kind, const ps_table *a, const ps_table *b);
+
+/* The answer of the realizations of the first part, then those of the second, and so on. What one
+ * job would have answered, but for the last digits of the sums over realizations, which have about
+ * 106 bits (48 for single frequencies in single precision): means over bins and their standard
+ * errors are the same doubles but for rare last bits; powers of single frequencies in single
+ * precision agree to 1e-13. The numerical error is the largest of theirs. Parts without state, and
+ * answers to different questions (kind, dimension, frequencies, bins, normalization), are
+ * PSPEC_ERROR_INPUT; numbers of points, engines, precisions and tolerances may differ. *out is
+ * freed by ps_answer_free, also after an error. */
+pspec_status ps_answer_merge(ps_answer *out, const ps_parts *parts, ps_error *error) PS_MUST_CHECK;
 
 /* What a command that prints the kind does: whatever can be refused is refused before hours of
  * work, then it is computed, and the files are written that the request names: table (an output

@@ -120,13 +120,38 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
                                const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;
     ps_table_format format = PS_FORMAT_CSV;
+    ps_request own = *request;
     *out = (ps_answer){0};
     PS_TRY(check(&format, kind, request, hooks, error));
-    pspec_status status = kind->compute(&computed, request, hooks, error);
+    own.wants_state = request->wants_state || format == PS_FORMAT_NPZ;
+    pspec_status status = kind->compute(&computed, &own, hooks, error);
     ps_answer_end(hooks);
     if (status == PSPEC_OK) {
-        status = write_files(out, kind, computed, request, format, hooks, error);
+        status = write_files(out, kind, computed, &own, format, hooks, error);
     }
     kind->discard(computed);
     return status;
+}
+
+pspec_status ps_answer_merge(ps_answer *out, const ps_parts *parts, ps_error *error) {
+    const char *const name = ps_table_command(parts->tables[0]);
+    size_t i = 0;
+    *out = (ps_answer){0};
+    while (ps_kinds[i] != NULL && strcmp(ps_kinds[i]->name, name) != 0) {
+        i++;
+    }
+    if (ps_kinds[i] == NULL || ps_kinds[i]->merge == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s is an answer of %s, and those of power, angular and pairs are merged",
+                       parts->names[0], name);
+    }
+    for (size_t p = 1; p < parts->num; p++) {
+        const char *const other = ps_table_command(parts->tables[p]);
+        if (strcmp(other, name) != 0) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s is an answer of %s instead of %s",
+                           parts->names[p], other, name);
+        }
+    }
+    PS_TRY(ps_kinds[i]->merge(out, parts, error));
+    return ps_kind_visit_fields(ps_kinds[i], mark_repeated, out->table, error);
 }

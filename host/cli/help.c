@@ -190,8 +190,10 @@ typedef struct field_list {
 
 /* "points ...", whose key may come several times; its meaning, unit, and when it is there. */
 static pspec_status print_field(const ps_field_row *row, void *payload, ps_error *error) {
-    static const char *const titles[] = {
-        [PS_FIELD_ENTRY] = "Header", [PS_FIELD_COLUMN] = "Columns", [PS_FIELD_ARRAY] = "Arrays"};
+    static const char *const titles[] = {[PS_FIELD_ENTRY] = "Header",
+                                         [PS_FIELD_COLUMN] = "Columns",
+                                         [PS_FIELD_ARRAY] = "Arrays",
+                                         [PS_FIELD_STATE] = "State"};
     field_list *const list = payload;
     (void)error;
     if (row->group != list->group) {
@@ -212,7 +214,8 @@ static pspec_status print_field(const ps_field_row *row, void *payload, ps_error
 }
 
 pspec_status ps_help_fields(FILE *stream, const ps_command *command, ps_error *error) {
-    static const ps_field_group order[] = {PS_FIELD_COLUMN, PS_FIELD_ENTRY, PS_FIELD_ARRAY};
+    static const ps_field_group order[] = {PS_FIELD_COLUMN, PS_FIELD_ENTRY, PS_FIELD_ARRAY,
+                                           PS_FIELD_STATE};
     if (command->fields == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "fields are those of tables, and %s gives none: " PS_KINDS_IN_SENTENCE

@@ -49,6 +49,7 @@ typedef struct ps_problem {
     ps_harmonics harmonics;  /* whose coefficients are wanted, too */
     bool keeps_coefficients; /* of every set, until the end; else of the only one */
     bool fills_boxes;        /* with those of every set on the torus at the end */
+    bool keeps_sums;         /* sums of frequencies become state of the answer */
     size_t num_weighted;     /* weighted sums of the powers of every realization */
     double making_bytes;     /* of the host, while a sampler makes a set (ps_sampler_work_bytes) */
 } ps_problem;

@@ -3,6 +3,9 @@
 #include "engines/error_units.h"
 #include "jobs/estimator_private.h"
 
+#include <math.h>
+#include <string.h>
+
 /* In the engine's units; of an engine that is still to be made again, what is planned for such
  * powers. */
 static double own_error(const ps_estimator *self, double mean_power, double share) {
@@ -86,11 +89,18 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, p
     PS_TRY(require_realizations(estimator, error));
     PS_TRY(ps_estimator_settle(estimator, error));
     PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num,
-                                   estimator->spares, error));
+                                   options->want_frequencies, options->want_c2, estimator->spares,
+                                   error));
+    const ps_accuracy accuracy = ps_estimator_accuracy(estimator);
     out->normalization = options->normalization;
     out->reference_points = estimator->reference_points;
     out->totals = estimator->totals;
-    out->error = ps_estimator_accuracy(estimator).error;
+    out->error = accuracy.error;
+    out->self_check = accuracy.was_checked ? accuracy.self_check : NAN;
+    out->length_error = accuracy.length_error;
+    if (out->c2 != NULL) {
+        memcpy(out->c2, estimator->c2.sums, out->frequencies.num * sizeof *out->c2);
+    }
     const pspec_status status =
         ps_accumulator_sums(estimator->accumulator, out->bins, out->powers, error);
     if (status != PSPEC_OK) {

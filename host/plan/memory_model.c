@@ -90,6 +90,7 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     const double num = (double)problem->frequencies->num;
     const bool is_unified = limits == NULL || limits->has_unified_memory;
     const double coordinates = work->coordinate_bytes;
+    const double sums_bytes = 2 * 4 * sizeof(double); /* their pairs, and the array of these */
     /* of every frequency twice its vector and its slot, its place in a bin, mean and standard
      * error; and the weights of weighted sums */
     ps_memory sum = {.device = work->fixed_bytes - work->host_bytes +
@@ -103,7 +104,7 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
                              num * (2 * dimension * (double)sizeof(int32_t) +
                                     3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double)) +
                              num * (double)problem->num_weighted * (double)sizeof(double) +
-                             problem->making_bytes};
+                             (problem->keeps_sums ? num * sums_bytes : 0) + problem->making_bytes};
     const double states = running_states(problem, batch);
     if (limits == NULL || engine->rows_on_host) {
         sum.host += num * states * (double)sizeof(double); /* the sums of the accumulator */

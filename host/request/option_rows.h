@@ -35,6 +35,6 @@
 #define ENGINES READERS
 #define PICTURES (SPECTRA | LOBES | BIT(variance))
 #define SUITES (BIT(bench) | BIT(stress))
-#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
+#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(merge) | BIT(devices))
 
 #endif

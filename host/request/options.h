@@ -19,6 +19,7 @@
     PLANNED(sample)                                                                                \
     PLANNED(convert)                                                                               \
     KIND(check)                                                                                    \
+    OTHER(merge)                                                                                   \
     PLANNED(run)                                                                                   \
     OTHER(plan)                                                                                    \
     PROGRAM(bench)                                                                                 \

@@ -2,23 +2,28 @@
 
 #include "base/memory.h"
 #include "base/workers.h"
-#include "spectra/file/spectrum_format.h"
-
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static pspec_status allocate(ps_spectrum_sums *out, ps_error *error) {
+static pspec_status allocate(ps_spectrum_sums *out, bool has_powers, bool has_c2, ps_error *error) {
+    const size_t num = out->frequencies.num;
     PS_TRY(PS_NEW(&out->bins, out->num_bins, "sums of bins", error));
-    return PS_TAKE(out->spares, &out->powers, out->frequencies.num, "sums of frequencies", error);
+    if (has_c2) {
+        PS_TRY(PS_NEW(&out->c2, num, "sums of C_l^2", error));
+    }
+    return has_powers ? PS_TAKE(out->spares, &out->powers, num, "sums of frequencies", error)
+                      : PSPEC_OK;
 }
 
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
-                                     size_t num_bins, ps_spares *spares, ps_error *error) {
+                                     size_t num_bins, bool has_powers, bool has_c2,
+                                     ps_spares *spares, ps_error *error) {
     *out = (ps_spectrum_sums){
         .reference_points = 1, .num_bins = num_bins, .spares = ps_spares_share(spares)};
     pspec_status status = ps_frequencies_copy(&out->frequencies, frequencies, error);
     if (status == PSPEC_OK) {
-        status = allocate(out, error);
+        status = allocate(out, has_powers, has_c2, error);
     }
     if (status != PSPEC_OK) {
         ps_spectrum_sums_free(out);
@@ -28,15 +33,23 @@ pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies
 
 pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
                                    ps_error *error) {
-    PS_TRY(ps_spectrum_sums_create(out, &original->frequencies, original->num_bins, NULL, error));
+    PS_TRY(ps_spectrum_sums_create(out, &original->frequencies, original->num_bins,
+                                   original->powers != NULL, original->c2 != NULL, NULL, error));
     const ps_spectrum_sums owned = *out;
     *out = *original;
     out->frequencies = owned.frequencies;
     out->bins = owned.bins;
     out->powers = owned.powers;
+    out->c2 = owned.c2;
     out->spares = NULL;
     memcpy(out->bins, original->bins, original->num_bins * sizeof(ps_sums));
-    memcpy(out->powers, original->powers, original->frequencies.num * sizeof(ps_sums));
+    const size_t bytes = original->frequencies.num * sizeof(ps_sums);
+    if (out->powers != NULL) {
+        memcpy(out->powers, original->powers, bytes);
+    }
+    if (out->c2 != NULL) {
+        memcpy(out->c2, original->c2, bytes);
+    }
     return PSPEC_OK;
 }
 
@@ -45,12 +58,13 @@ void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
     ps_spares_leave(sums->spares);
     ps_frequencies_free(&sums->frequencies);
     free(sums->bins);
+    free(sums->c2);
     *sums = (ps_spectrum_sums){0};
 }
 
 /* ---- merge ------------------------------------------------------------------------------- */
 
-/* What a double counts exactly, and a file may hold (spectrum_format.h). */
+/* What a double counts exactly, and state of an answer may hold (spectrum_state.h). */
 #define MOST_REALIZATIONS ((uint64_t)1 << 53)
 
 static const char *kind_name(const ps_frequencies *set) {
@@ -108,6 +122,9 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
                        (int)b->max_frequency, (int)a->max_frequency);
     }
     PS_TRY(compare_rules(&a->bins, &b->bins, which, error));
+    if (a->reach != b->reach || memcmp(a->stretch, b->stretch, sizeof a->stretch) != 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has rings of a box of another shape", which);
+    }
     if (a->num != b->num) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %zu frequencies instead of %zu", which,
                        b->num, a->num);
@@ -122,13 +139,15 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
     return a->rings != NULL ? compare_rings(a, b, which, error) : PSPEC_OK;
 }
 
+/* By the enumerators. */
+static const char *const normalizations[] = {"power", "effective", "pairs", "integral"};
+
 pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
                                            const char *which, ps_error *error) {
     PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
     if (a->normalization != b->normalization) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has the normalization %s instead of %s", which,
-                       ps_spectrum_normalizations[b->normalization],
-                       ps_spectrum_normalizations[a->normalization]);
+                       normalizations[b->normalization], normalizations[a->normalization]);
     }
     return PSPEC_OK;
 }
@@ -146,24 +165,38 @@ static void add_totals(ps_pattern_totals *totals, const ps_pattern_totals *other
     }
 }
 
+static void merge_all(ps_sums *sums, const ps_sums *others, size_t num, double factor) {
+    for (size_t i = 0; sums != NULL && i < num; i++) {
+        ps_sums_merge(&sums[i], &others[i], factor);
+    }
+}
+
+/* nan stays */
+static double find_larger(double a, double b) {
+    return a >= b || isnan(a) ? a : b;
+}
+
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) {
     PS_TRY(ps_spectrum_sums_require_same(sums, other, which, error));
+    if (sums->num_equal > 0 || other->num_equal > 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, or what it is merged with, is of a deterministic set, one realization "
+                       "of which stands for all: more of them (--realizations) need no merging",
+                       which);
+    }
     if (other->totals.num_realizations > MOST_REALIZATIONS - sums->totals.num_realizations) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s brings the realizations to more than 2^53",
                        which);
     }
     const double factor = sums->reference_points / other->reference_points;
-    for (size_t b = 0; b < sums->num_bins; b++) {
-        ps_sums_merge(&sums->bins[b], &other->bins[b], factor);
-    }
-    for (size_t i = 0; i < sums->frequencies.num; i++) {
-        ps_sums_merge(&sums->powers[i], &other->powers[i], factor);
-    }
+    merge_all(sums->bins, other->bins, sums->num_bins, factor);
+    merge_all(sums->powers, other->powers, sums->frequencies.num, factor);
+    merge_all(sums->c2, other->c2, sums->frequencies.num, factor);
     add_totals(&sums->totals, &other->totals);
-    if (!(other->error <= sums->error)) { /* nan stays */
-        sums->error = other->error;
-    }
+    sums->error = find_larger(sums->error, other->error);
+    sums->self_check = find_larger(sums->self_check, other->self_check);
+    sums->length_error = find_larger(sums->length_error, other->length_error);
     return PSPEC_OK;
 }
 
@@ -190,6 +223,23 @@ static void finish_all(const ps_sums *sums, size_t num, uint64_t num_realization
     ps_workers_share(num, finish_some, &work);
 }
 
+void ps_spectrum_sums_bins(const ps_spectrum_sums *sums, ps_mean *means) {
+    const double factor =
+        ps_spectrum_factor(sums->normalization, &sums->totals, sums->reference_points);
+    finish_all(sums->bins, sums->num_bins, sums->totals.num_realizations, means);
+    for (size_t b = 0; b < sums->num_bins; b++) {
+        means[b].mean *= factor;
+        means[b].standard_error *= factor;
+    }
+}
+
+void ps_spectrum_sums_c2(const ps_spectrum_sums *sums, ps_mean *means) {
+    finish_all(sums->c2, sums->frequencies.num, sums->totals.num_realizations, means);
+    for (size_t i = 0; sums->num_equal > 0 && i < sums->frequencies.num; i++) {
+        means[i].standard_error = 0;
+    }
+}
+
 pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins *bins,
                                      ps_spectrum *out, ps_error *error) {
     ps_mean *bin_means = NULL;
@@ -200,13 +250,19 @@ pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins
         ps_spectrum_factor(sums->normalization, &sums->totals, sums->reference_points);
     *out = (ps_spectrum){0};
     PS_TRY_OUT(status, PS_NEW(&bin_means, bins->num, "the bins", error));
-    PS_TRY_OUT(status, PS_TAKE(sums->spares, &powers, sums->frequencies.num, "the powers", error));
+    if (sums->powers != NULL) {
+        PS_TRY_OUT(status,
+                   PS_TAKE(sums->spares, &powers, sums->frequencies.num, "the powers", error));
+        finish_all(sums->powers, sums->frequencies.num, num, powers);
+    }
     finish_all(sums->bins, sums->num_bins, num, bin_means);
-    finish_all(sums->powers, sums->frequencies.num, num, powers);
     status = ps_spectrum_from_means(out, &sums->frequencies, bins, bin_means, powers, factor,
                                     &sums->totals, error);
     if (status == PSPEC_OK) {
         out->spares = ps_spares_share(sums->spares);
+    }
+    if (status == PSPEC_OK && sums->num_equal > 0) {
+        ps_spectrum_repeat(out, sums->num_equal);
     }
     powers = NULL;
 out:

@@ -14,18 +14,23 @@ typedef struct ps_spectrum_sums {
     ps_frequencies frequencies; /* its own, enumerated */
     pspec_normalization normalization;
     double reference_points; /* N_ref; 1 under the other normalizations */
-    double error;            /* largest bound of the numerical error of S */
+    /* Largest of all: bound of the numerical error of S, deviation from the referee (nan: not all
+     * were checked), and what vectors were off from length 1 (jobs/estimator.h, ps_accuracy) */
+    double error, self_check, length_error;
     ps_pattern_totals totals;
+    /* Of a deterministic set: the only realization stands for so many; 0: every one was computed */
+    uint64_t num_equal;
     size_t num_bins;   /* all, the unreported one included */
     ps_sums *bins;     /* [num_bins] */
-    ps_sums *powers;   /* [frequencies.num] */
+    ps_sums *powers;   /* [frequencies.num]; NULL: nobody asked for them */
+    ps_sums *c2;       /* [frequencies.num], C_l^2 of pair sums; NULL: there are none */
     ps_spares *spares; /* where powers come from and go to, or NULL */
 } ps_spectrum_sums;
 
 /* Copies the frequencies; all sums are 0, or with spares anything. */
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
-                                     size_t num_bins, ps_spares *spares,
-                                     ps_error *error) PS_MUST_CHECK;
+                                     size_t num_bins, bool has_powers, bool has_c2,
+                                     ps_spares *spares, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
                                    ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_sums_free(ps_spectrum_sums *sums);
@@ -35,11 +40,15 @@ void ps_spectrum_sums_free(ps_spectrum_sums *sums);
 pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
                                            const char *which, ps_error *error) PS_MUST_CHECK;
 
-/* Adds the realizations of other after those of sums. Different questions are PSPEC_ERROR_INPUT
- * with the difference; which names other in the sentence. */
+/* Adds the realizations of other after those of sums. Different questions, and deterministic sets,
+ * which are all equal, are PSPEC_ERROR_INPUT; which names other in the sentence. */
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) PS_MUST_CHECK;
 
+/* Means and standard errors of bins over realizations: means[num_bins]; or of C_l^2:
+ * means[frequencies.num]. */
+void ps_spectrum_sums_bins(const ps_spectrum_sums *sums, ps_mean *means);
+void ps_spectrum_sums_c2(const ps_spectrum_sums *sums, ps_mean *means);
 /* The averages; bins are those of the frequencies. */
 pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins *bins,
                                      ps_spectrum *out, ps_error *error) PS_MUST_CHECK;

@@ -1,5 +1,6 @@
 /* What answers have is what their kinds declare: every entry and column of the answers below is a
  * row of pspec_fields_table, and every row is of one of them. */
+#include "answers/kind.h"
 #include "harness_public.h"
 
 #include <stdio.h>
@@ -15,7 +16,7 @@ static char folder[] = "/tmp/test_fields_XXXXXX";
  * others wrote. The engine is the one without a device; after "engine=" the program's choice. Few points: a line
  * takes some hundredths of a second. */
 static const char *const questions[] = {
-    "power sampler=sobol sampler=white points=8,16 max-frequency=2 homogenize",
+    "power sampler=sobol sampler=white points=8,16 max-frequency=2 homogenize output=two.npz",
     "power sampler=white points=144 max-frequency=6 realizations=8 fit=auto bins=floor "
     "plot=a.svg",
     "power sampler=white points=8 max-frequency=2 realizations=9 scatter=1,1 output=saved.npz",
@@ -25,14 +26,15 @@ static const char *const questions[] = {
     "power files=points.txt files=unequal.txt box=0,2,0,1 max-frequency=2",
     "power files=a.xyz files=b.xyz max-frequency=2",
     "power files=corner.txt max-frequency=8 engine=",
-    "power sampler=white dimension=6 points=4 frequencies=six.txt",
-    "power sampler=sobol dimension=3 points=4 per-ring=2 max-frequency=2",
+    "power sampler=white dimension=6 points=4 frequencies=six.txt output=list.npz",
+    "power sampler=sobol dimension=3 points=4 per-ring=2 max-frequency=2 output=rings.npz",
     "angular sampler=white-sphere points=8 max-degree=3 coefficients=lm.npy",
     "angular sampler=white-sphere points=64 max-degree=32 realizations=8 fit=auto plot=b.svg",
     "angular sampler=white-sphere points=8 realizations=9 max-degree=2 output=sphere.npz",
-    "angular files=long.txt max-degree=2",
+    "angular files=long.txt max-degree=2 output=long.npz",
     "angular files=points.txt lift=hemisphere morph=glossy:n=3 max-degree=2",
     "pairs sampler=white-sphere points=8 max-degree=2 plot=c.svg",
+    "pairs sampler=white-sphere points=8 max-degree=2 output=pairs.npz",
     "variance sampler=white sampler=jittered points=4,9 max-frequency=2 realizations=8 "
     "integrand=disk integrand=gaussian rates=auto rank bounds=auto paper-formula "
     "tail=0.9",
@@ -156,6 +158,43 @@ static void see_arrays(const pspec_table *declared, const char *question) {
     }
 }
 
+/* What an NPZ file has besides: state, of the second question "NAME_2"; and merged, it names its
+ * parts. */
+static void see_state(const pspec_table *declared, const char *question) {
+    static const char option[] = "output=";
+    char path[LINE];
+    char shown[LINE];
+    const char *const output = strstr(question, option);
+    ps_error error = {0};
+    ps_table *table = NULL;
+    ps_answer merged = {0};
+    if (output == NULL || strstr(output, ".npz") == NULL) {
+        return;
+    }
+    snprintf(path, sizeof path, "%s", output + strlen(option));
+    path[strcspn(path, " ")] = '\0';
+    assert_int_equal(ps_table_read_npz(&table, path, &error), PSPEC_OK);
+    for (size_t i = 0; i < ps_table_num_arrays(table); i++) {
+        const char *name = NULL;
+        bool is_state = false;
+        ps_table_array(table, i, &name, &is_state);
+        snprintf(shown, sizeof shown, "%s", name);
+        const size_t length = strlen(shown);
+        if (length > 2 && shown[length - 2] == '_' && strchr("234", shown[length - 1]) != NULL) {
+            shown[length - 2] = '\0';
+        }
+        see(declared, shown, is_state ? "state" : "array", question);
+    }
+    const ps_table *const part = table;
+    const char *const name = path;
+    if (ps_answer_merge(&merged, &(ps_parts){&part, &name, 1, "merge"}, &error) == PSPEC_OK &&
+        ps_table_find_meta(merged.table, "merged").kind == PS_CELL_TEXT) {
+        see(declared, "merged", "entry", question);
+    }
+    ps_answer_free(&merged);
+    ps_table_destroy(table);
+}
+
 /* Cuts line into options. */
 static size_t split(pspec_option *options, char *line) {
     size_t num = 0;
@@ -212,6 +251,7 @@ static void ask(const char *question) {
         see_entry(answer, declared, i, question);
     }
     see_arrays(declared, question);
+    see_state(declared, question);
     pspec_table_destroy(declared);
     pspec_table_destroy(answer);
     pspec_context_destroy(context);

@@ -31,7 +31,7 @@ for command in "${commands[@]}"; do
     [[ -f $page ]] || { complain "$page is not there"; continue; }
     grep -qxF ".\\\" ./dev man: $command --help, Options" "$page" || complain "$page has no options made by ./dev man"
     if "$program" help "$command" fields >"$scratch/fields" 2>&1; then
-        for list in Columns Header Arrays; do
+        for list in Columns Header Arrays State; do
             ! grep -qx "$list:" "$scratch/fields" || grep -qxF ".\\\" ./dev man: help $command fields, $list" "$page" || complain "$page has no $list made by ./dev man"
         done
     fi

@@ -112,10 +112,10 @@ static pspec_status end_saved(ps_table *table, const ps_saved_spectrum *measured
 static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_check_results *results, size_t first, ps_error *error) {
     const ps_power_job *const job = results->job;
-    PS_TRY(job != NULL ? ps_header_begin(table, arguments, job, error)
+    PS_TRY(job != NULL ? ps_header_add_job(table, arguments, &job, 1, 0, true, error)
                        : begin_saved(table, arguments, error));
     PS_TRY(add_verdict(table, arguments, results, error));
-    PS_TRY(job != NULL ? ps_header_add_job(table, arguments, &job, 1, 0, error)
+    PS_TRY(job != NULL ? ps_header_add_job(table, arguments, &job, 1, 0, false, error)
                        : end_saved(table, results->measured, error));
     return add_rows(table, results, first, error);
 }

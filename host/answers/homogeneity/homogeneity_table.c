@@ -151,10 +151,10 @@ static pspec_status add_verdict(ps_table *table, const ps_request *arguments,
 static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_homogeneity_results *results, ps_error *error) {
     const ps_frequencies *const set = ps_power_job_problem(results->job)->frequencies;
-    PS_TRY(ps_header_begin(table, arguments, results->job, error));
-    PS_TRY(add_verdict(table, arguments, results, is_on_sphere(set), error));
     const ps_power_job *const job = results->job;
-    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, error));
+    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, true, error));
+    PS_TRY(add_verdict(table, arguments, results, is_on_sphere(set), error));
+    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, false, error));
     return add_rows(table, results, set, error);
 }
 

@@ -36,9 +36,9 @@ static const char *const columns[] = {"degree", "normalized_degree", "power", "s
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
 static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
-                                const ps_power_job *job, const ps_lead *lead, ps_error *error) {
+                                const ps_measured *self, ps_error *error) {
     ps_shape shape = {0};
-    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    const ps_spectrum *spectrum = self->spectrum;
     if (arguments->wants_fit) {
         PS_TRY(ps_shape_find(&shape, spectrum, arguments->fit_exponent, error));
         PS_TRY(ps_shape_add_header(table, &shape, spectrum, error));
@@ -52,18 +52,18 @@ static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
             ps_number_or_missing(bin->standard_error),
         };
         const size_t num = ps_shape_add_cells(cells, NUM_COLUMNS, arguments, &shape, spectrum, bin);
-        PS_TRY(ps_lead_add_row(table, lead, cells, num, error));
+        PS_TRY(ps_lead_add_row(table, &self->lead, cells, num, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status make_table(ps_table **out, const ps_request *arguments,
-                               const ps_power_job *const *jobs, size_t num, ps_error *error) {
-    const char *all[NUM_COLUMNS + PS_SHAPE_COLUMNS];
-    memcpy(all, columns, sizeof columns);
-    const size_t num_columns = ps_shape_add_columns(all, NUM_COLUMNS, arguments);
-    const ps_job_table kind = {"angular", all, num_columns, add_degrees};
-    return ps_job_table_make(out, &kind, arguments, jobs, num, error);
+static pspec_status make_table(ps_table **out, const ps_request *arguments, const ps_measured *all,
+                               size_t num, ps_error *error) {
+    const char *names[NUM_COLUMNS + PS_SHAPE_COLUMNS];
+    memcpy(names, columns, sizeof columns);
+    const size_t num_columns = ps_shape_add_columns(names, NUM_COLUMNS, arguments);
+    const ps_job_table kind = {"angular", names, num_columns, add_degrees};
+    return ps_job_table_make(out, &kind, arguments, all, num, error);
 }
 
 static pspec_status add_coefficients(ps_table *table, const ps_power_job *job, ps_error *error) {
@@ -82,6 +82,10 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     return request->wants_coefficients || request->coefficients != NULL
                ? add_coefficients(out->table, spectra->jobs[0], error)
                : PSPEC_OK;
+}
+
+static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_error *error) {
+    return ps_spectra_merge(out, parts, make_table, error);
 }
 
 static const ps_picture_kind pictures[] = {{.make = ps_spectra_figure,
@@ -130,6 +134,7 @@ const ps_kind ps_kind_angular = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
+    .merge = merge,
     .discard = ps_spectra_discard,
     .fields = fields,
     .summary = ps_spectra_summary,

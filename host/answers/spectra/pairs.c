@@ -23,10 +23,10 @@ static const char *const columns[] = {"degree", "legendre_sum", "legendre_sum_er
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
 static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
-                                const ps_power_job *job, const ps_lead *lead, ps_error *error) {
+                                const ps_measured *self, ps_error *error) {
     (void)arguments;
-    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
-    const ps_mean *c2 = ps_power_job_c2(job);
+    const ps_spectrum *spectrum = self->spectrum;
+    const ps_mean *c2 = self->c2;
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         const ps_spectrum_bin *bin = &spectrum->bins[b];
         const ps_cell cells[NUM_COLUMNS] = {
@@ -36,15 +36,15 @@ static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
             PS_NUMBER(c2[b].mean),
             ps_number_or_missing(c2[b].standard_error),
         };
-        PS_TRY(ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error));
+        PS_TRY(ps_lead_add_row(table, &self->lead, cells, NUM_COLUMNS, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status make_table(ps_table **out, const ps_request *arguments,
-                               const ps_power_job *const *jobs, size_t num, ps_error *error) {
+static pspec_status make_table(ps_table **out, const ps_request *arguments, const ps_measured *all,
+                               size_t num, ps_error *error) {
     const ps_job_table kind = {"pairs", columns, NUM_COLUMNS, add_degrees};
-    return ps_job_table_make(out, &kind, arguments, jobs, num, error);
+    return ps_job_table_make(out, &kind, arguments, all, num, error);
 }
 
 /* What white noise of the weights of each question has: mean(W)^2 over mean(W^2/V), 1/N of equal
@@ -64,6 +64,10 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                              ps_error *error) {
     PS_TRY(ps_spectra_tabulate(out, computed, request, make_table, error));
     return request->plot != NULL ? add_white_sums(out->table, computed, error) : PSPEC_OK;
+}
+
+static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_error *error) {
+    return ps_spectra_merge(out, parts, make_table, error);
 }
 
 static const ps_picture_kind pictures[] = {
@@ -108,6 +112,7 @@ const ps_kind ps_kind_pairs = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
+    .merge = merge,
     .discard = ps_spectra_discard,
     .fields = fields,
     .summary = ps_spectra_summary,

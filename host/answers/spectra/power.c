@@ -33,13 +33,16 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     const ps_spectra *const spectra = computed;
     const ps_power_job *const job = spectra->jobs[0];
     PS_TRY(ps_spectra_tabulate(out, computed, request, ps_power_table, error));
-    PS_TRY(ps_power_add_full(out->table, request, ps_power_job_spectrum(job), error));
     if (request->wants_coefficients || request->coefficients != NULL) {
         PS_TRY(ps_power_add_coefficients(out->table, job, error));
     }
     return request->frequencies.num_shown > 0
                ? add_scatter(out->table, &request->frequencies, job, error)
                : PSPEC_OK;
+}
+
+static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_error *error) {
+    return ps_spectra_merge(out, parts, ps_power_table, error);
 }
 
 static const ps_picture_kind pictures[] = {{.make = ps_spectra_figure,
@@ -104,6 +107,7 @@ const ps_kind ps_kind_power = {
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
+    .merge = merge,
     .discard = ps_spectra_discard,
     .fields = fields,
     .summary = ps_spectra_summary,

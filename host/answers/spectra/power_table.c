@@ -74,21 +74,22 @@ static size_t choose_columns(const char **columns, const ps_request *arguments,
     return ps_shape_add_columns(columns, num, arguments);
 }
 
-static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
-                             const ps_lead *lead, ps_error *error) {
-    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_measured *self,
+                             ps_error *error) {
     if (arguments->frequencies.num_shown > 0) {
-        PS_TRY(ps_scatter_add_header(table, &arguments->frequencies, job, error));
+        PS_TRY(ps_scatter_add_header(table, &arguments->frequencies, self->job, error));
     }
-    return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, lead, error)
-                                               : add_bins(table, arguments, spectrum, lead, error);
+    return arguments->frequencies.path != NULL
+               ? add_frequencies(table, self->spectrum, &self->lead, error)
+               : add_bins(table, arguments, self->spectrum, &self->lead, error);
 }
 
-pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
-                            const ps_power_job *const *jobs, size_t num, ps_error *error) {
+pspec_status ps_power_table(ps_table **out, const ps_request *arguments, const ps_measured *all,
+                            size_t num, ps_error *error) {
     const char *columns[MOST_COLUMNS];
-    const unsigned dimension = ps_power_job_problem(jobs[0])->frequencies->dimension;
+    const unsigned dimension = all[0].spectrum->frequencies.dimension;
     const size_t num_columns = choose_columns(columns, arguments, dimension);
     const ps_job_table kind = {"power", columns, num_columns, add_rows};
-    return ps_job_table_make(out, &kind, arguments, jobs, num, error);
+    PS_TRY(ps_job_table_make(out, &kind, arguments, all, num, error));
+    return ps_power_add_full(*out, arguments, all[0].spectrum, error);
 }

@@ -2,13 +2,13 @@
 #ifndef PS_ANSWERS_SPECTRA_POWER_TABLE_H
 #define PS_ANSWERS_SPECTRA_POWER_TABLE_H
 
-#include "answers/spectra/question.h"
+#include "answers/spectra/measured.h"
 #include "tables/table.h"
 
-/* Header lines and rows of num jobs that have run, behind the columns of their lead. */
-pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
-                            const ps_power_job *const *jobs, size_t num,
-                            ps_error *error) PS_MUST_CHECK;
+/* Header lines and rows of num questions, behind the columns of their lead, and the arrays of
+ * ps_power_add_full of the first. */
+pspec_status ps_power_table(ps_table **out, const ps_request *arguments, const ps_measured *all,
+                            size_t num, ps_error *error) PS_MUST_CHECK;
 
 /* Are the names after --full and --coefficients, if any, those of NPY files? */
 pspec_status ps_power_check_arrays(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;

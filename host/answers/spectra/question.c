@@ -132,6 +132,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
                             arguments->wants_picture || arguments->wants_array ||
                             (arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
                              arguments->frequencies.per_ring == 0),
+        .keeps_sums = arguments->wants_state,
         .fills_boxes = kind == PS_QUESTION_POWER &&
                        (arguments->coefficients != NULL || arguments->wants_coefficients),
         .keeps_first = shows_points(arguments, kind),

@@ -183,8 +183,16 @@ pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_
                                  ps_make_spectra_table *make, ps_error *error) {
     const ps_spectra *const spectra = computed;
     const ps_point_set *const first = ps_power_job_first_set(spectra->jobs[0]);
-    PS_TRY(make(&out->table, request, (const ps_power_job *const *)spectra->jobs, spectra->list.num,
-                error));
-    return request->plot != NULL && first != NULL ? add_first_set(out->table, first, error)
-                                                  : PSPEC_OK;
+    const size_t num = spectra->list.num;
+    ps_measured *all = NULL;
+    pspec_status status =
+        ps_measured_of_jobs(&all, request, (const ps_power_job *const *)spectra->jobs, num, error);
+    if (status == PSPEC_OK) {
+        status = make(&out->table, request, all, num, error);
+    }
+    ps_measured_free(all, num);
+    if (status == PSPEC_OK && request->plot != NULL && first != NULL) {
+        status = add_first_set(out->table, first, error);
+    }
+    return status == PSPEC_OK ? ps_spectra_add_state(out->table, spectra, request, error) : status;
 }

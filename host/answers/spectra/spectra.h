@@ -4,7 +4,7 @@
 #define PS_ANSWERS_SPECTRA_SPECTRA_H
 
 #include "answers/kind.h"
-#include "answers/spectra/question.h"
+#include "answers/spectra/measured.h"
 
 /* One job for each question; all have run. */
 typedef struct ps_spectra {
@@ -50,11 +50,16 @@ pspec_status ps_spectra_plan(ps_planner *planner, const ps_request *request, ps_
                              ps_error *error) PS_MUST_CHECK;
 
 typedef pspec_status ps_make_spectra_table(ps_table **out, const ps_request *request,
-                                           const ps_power_job *const *jobs, size_t num,
-                                           ps_error *error);
-/* The table of all jobs. */
+                                           const ps_measured *all, size_t num, ps_error *error);
+/* The table of all jobs, with state where the request wants it. */
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
                                  ps_make_spectra_table *make, ps_error *error) PS_MUST_CHECK;
+/* State of all jobs, where the request wants it. */
+pspec_status ps_spectra_add_state(ps_table *table, const ps_spectra *spectra,
+                                  const ps_request *request, ps_error *error) PS_MUST_CHECK;
+/* ps_kind.merge, tables made by `make`. */
+pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, ps_make_spectra_table *make,
+                              ps_error *error) PS_MUST_CHECK;
 /* Curves of all jobs, as PS_FIGURE_SPECTRA; of one question alone beside its averaged periodogram
  * and the points of its first set, where the table has these. */
 ps_make_figure ps_spectra_figure;

@@ -2,9 +2,12 @@
 #include "answers/spectra/spectra.h"
 
 #define OF(name) PS_COMMAND_BIT(name)
+#define OF_ALL (OF(power) | OF(angular) | OF(pairs))
 static const char *const of_list = "--frequencies";
+static const char *const kept = "-o FILE.npz";
 
 const ps_field_row ps_fields_powers[] = {
+    {"merged", "", PS_ENTRIES, OF_ALL, "pointspec merge", "the command line of a part"},
     {"scatter_frequency", "", PS_ENTRIES, OF(power), "--scatter", "k"},
     {"scatter_real", "", PS_ENTRIES, OF(power), "--scatter", "mean of S(k), real part"},
     {"scatter_imaginary", "", PS_ENTRIES, OF(power), "--scatter", "mean of S(k), imaginary part"},
@@ -53,6 +56,26 @@ const ps_field_row ps_fields_powers[] = {
     {"white_sums", "", PS_ARRAY, OF(pairs), "--plot",
      "for each question what Q(l) of white noise of these weights is in the mean, sum w^2; no file "
      "of its own"},
+    {"state_asked", "", PS_STATE, OF_ALL, kept,
+     "what was asked and no sum has: --per-ring, --standard-error, --floor, --fit and its "
+     "exponent"},
+    {"state_question", "", PS_STATE, OF_ALL, kept,
+     "what the frequencies are: dimension, kind, step of degrees, K, reach, per ring, rule of "
+     "bins, "
+     "normalization, stretch"},
+    {"state_totals", "", PS_STATE, OF_ALL, kept,
+     "realizations, equal ones, smallest and largest N, sum of weights, N_ref, errors, sums of N "
+     "and of W^2 / V"},
+    {"state_bins", "", PS_STATE, OF_ALL, kept,
+     "sums over realizations of means over bins, [bins][4]: sum and sum of squares, each as a "
+     "double and what it lost"},
+    {"state_powers", "", PS_STATE, OF(power), kept,
+     "the same of frequencies, [frequencies][4], or [2] where nobody asked for their errors"},
+    {"state_c2", "", PS_STATE, OF(pairs), kept, "the same of C_l^2, [degrees][4]"},
+    {"state_frequencies", "", PS_STATE, OF(power), "-o FILE.npz with --frequencies, --per-ring",
+     "the frequencies, [frequencies][d]"},
+    {"state_rings", "", PS_STATE, OF(power), "-o FILE.npz with --per-ring",
+     "frequencies that a ring has and their mean |k|, [bins][2]"},
     {.name = NULL}};
 
 const ps_field_row ps_fields_shape[] = {

@@ -9,6 +9,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 ps_cell ps_number_or_missing(double value) {
     return isnan(value) ? PS_MISSING : PS_NUMBER(value);
@@ -77,10 +78,38 @@ static void put(header *head, const char *key, ps_cell value) {
     }
 }
 
+const char *const ps_told_keys[] = {
+    "seed",      "homogenize",   "merged",        "sampler", "sampler_note",
+    "input",     "input_format", "input_columns", "box",     "box_changes",
+    "lift",      "morph",        "empty",         "device",  "engine",
+    "precision", "tolerance",    "planned_twice", "skipped", NULL};
+
+static size_t find_key(const char *key) {
+    size_t i = 0;
+    while (strcmp(ps_told_keys[i], key) != 0) {
+        i++;
+    }
+    return i;
+}
+
+/* The entries of these keys, from the first to the last. */
+static void put_told(header *head, const ps_measured *self, const char *first, const char *last) {
+    const size_t end = find_key(last);
+    for (size_t key = find_key(first); key <= end; key++) {
+        for (size_t i = 0; i < ps_table_num_meta(self->told); i++) {
+            const char *name = NULL;
+            const ps_cell value = ps_table_meta(self->told, i, &name);
+            if (strcmp(name, ps_told_keys[key]) == 0) {
+                put(head, name, value);
+            }
+        }
+    }
+}
+
 /* What |S|^2 is called: on the sphere it is a sum over orders. */
-static const char *name_normalization(const ps_request *arguments, const ps_problem *problem) {
-    const bool on_sphere = is_on_sphere(problem->frequencies);
-    if (problem->measure == PS_OF_PAIR_SUMS) {
+static const char *name_normalization(const ps_request *arguments, const ps_measured *self) {
+    const bool on_sphere = is_on_sphere(&self->spectrum->frequencies);
+    if (self->are_pair_sums) {
         return "pairs: Q(l), weights 1/N unless given";
     }
     switch (arguments->normalization) {
@@ -95,18 +124,12 @@ static const char *name_normalization(const ps_request *arguments, const ps_prob
     }
 }
 
-static void put_common(header *head, const ps_request *arguments, const ps_problem *problem) {
+static void put_common(header *head, const ps_request *arguments, const ps_measured *first) {
     put(head, "pointspec_version", PS_TEXT(PS_VERSION));
     put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
     put(head, "command", PS_TEXT(arguments->command_line));
-    put(head, "normalization", PS_TEXT(name_normalization(arguments, problem)));
-    const bool has_samplers = ps_request_has_samplers(arguments);
-    if (has_samplers || arguments->frequencies.per_ring > 0) {
-        put(head, "seed", PS_INTEGER(arguments->seed));
-    }
-    if (has_samplers) {
-        put(head, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
-    }
+    put(head, "normalization", PS_TEXT(name_normalization(arguments, first)));
+    put_told(head, first, "seed", "merged");
 }
 
 /* Sets whose N differ by less are as good as of one N. */
@@ -128,8 +151,8 @@ static void put_different_points(header *head, const ps_request *arguments,
                       "integrals want --normalize integral"));
 }
 
-static void put_points(header *head, bool with_range, const ps_spectrum *spectrum,
-                       const ps_needs *needs) {
+static void put_points(header *head, bool with_range, const ps_measured *self) {
+    const ps_spectrum *const spectrum = self->spectrum;
     const ps_points_range range = {spectrum->mean_points, spectrum->smallest_points,
                                    spectrum->largest_points};
     head->status = head->status == PSPEC_OK
@@ -142,7 +165,7 @@ static void put_points(header *head, bool with_range, const ps_spectrum *spectru
                         ? "one realization: that of the choice of frequencies, none for complete "
                           "rings"
                         : "none: one realization"));
-    } else if (!needs->one_realization && !is_on_sphere(&spectrum->frequencies)) {
+    } else if (!self->is_one_for_all && !is_on_sphere(&spectrum->frequencies)) {
         put(head, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
     }
     put(head, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
@@ -189,35 +212,36 @@ static void put_frequencies(header *head, const ps_request *arguments, const ps_
     put_subset(head, arguments, set);
 }
 
-static void put_self_check(header *head, const ps_accuracy *accuracy, const ps_problem *problem) {
-    const bool on_sphere = is_on_sphere(problem->frequencies);
+static void put_self_check(header *head, const ps_measured *self) {
+    const bool on_sphere = is_on_sphere(&self->spectrum->frequencies);
     char text[96];
-    if (accuracy->was_checked && problem->measure == PS_OF_PAIR_SUMS) {
-        snprintf(text, sizeof text, "%.2g (sum |w|)^2, largest deviation of Q(l) from host_direct",
-                 accuracy->self_check);
-        put(head, "self_check", PS_TEXT(text));
-    } else if (accuracy->was_checked) {
-        snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
-                 accuracy->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
-        put(head, "self_check", PS_TEXT(text));
-    } else {
+    if (isnan(self->self_check)) {
         put(head, "self_check", PS_TEXT("none"));
+        return;
     }
+    if (self->are_pair_sums) {
+        snprintf(text, sizeof text, "%.2g (sum |w|)^2, largest deviation of Q(l) from host_direct",
+                 self->self_check);
+    } else {
+        snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
+                 self->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
+    }
+    put(head, "self_check", PS_TEXT(text));
 }
 
 /* Rounding of coordinates in double precision is not worth a line. */
-static void put_lengths(header *head, const ps_accuracy *accuracy) {
+static void put_lengths(header *head, const ps_measured *self) {
     const double rounding = 1e-15;
     char text[96];
-    if (accuracy->length_error > rounding) {
+    if (self->length_error > rounding) {
         snprintf(text, sizeof text, "divided by their lengths, which differ from 1 by up to %.2g",
-                 accuracy->length_error);
+                 self->length_error);
         put(head, "vectors", PS_TEXT(text));
     }
 }
 
-static void put_look(header *head, const ps_request *arguments, const ps_power_job *job) {
-    const ps_sequential_look *look = ps_power_job_look(job);
+static void put_look(header *head, const ps_request *arguments, const ps_measured *self) {
+    const ps_sequential_look *look = self->look;
     char text[160];
     if (look == NULL) {
         return;
@@ -225,135 +249,47 @@ static void put_look(header *head, const ps_request *arguments, const ps_power_j
     snprintf(text, sizeof text, "%.3g, %s; largest %.3g, of %s %lld, %.3g with the correction",
              arguments->accuracy.standard_error,
              look->corrected <= arguments->accuracy.standard_error ? "reached" : "not reached",
-             look->relative_error,
-             is_on_sphere(ps_power_job_problem(job)->frequencies) ? "degree" : "bin",
+             look->relative_error, is_on_sphere(&self->spectrum->frequencies) ? "degree" : "bin",
              (long long)look->bin, look->corrected);
     put(head, "relative_standard_error", PS_TEXT(text));
 }
 
-/* Points of a smaller box look like a spectrum of clusters. */
-static void put_empty_axis(header *head, const ps_power_job *job) {
-    char text[192];
-    ps_empty_axis empty = {0};
-    if (ps_power_job_empty_axis(job, &empty)) {
-        snprintf(text, sizeof text,
-                 "axis %u of the first set has no point from %.3g to %.3g%s: if the points are of "
-                 "a smaller box, --box X0,X1 takes that for the unit cell",
-                 empty.axis + 1, empty.begin, empty.end,
-                 empty.end <= empty.begin ? ", through 1" : "");
-        put(head, "empty", PS_TEXT(text));
-    }
-}
-
-static bool have_ranges(const ps_power_job *const *jobs, size_t num) {
+static bool have_ranges(const ps_measured *all, size_t num) {
     size_t i = 0;
-    while (i < num && ps_power_job_spectrum(jobs[i])->smallest_points ==
-                          ps_power_job_spectrum(jobs[i])->largest_points) {
+    while (i < num && all[i].spectrum->smallest_points == all[i].spectrum->largest_points) {
         i++;
     }
     return i < num;
 }
 
-/* That of the first set; of the others what changes powers: their edges. */
-static void put_boxes(header *head, const ps_power_job *job) {
-    const ps_boxes *const boxes = ps_power_job_boxes(job);
-    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
-    ps_text text = {0};
-    head->status = head->status == PSPEC_OK
-                       ? ps_header_add_box(head->table, &boxes->first, head->error)
-                       : head->status;
-    if (!boxes->differ) {
-        return;
+static void put_question(header *head, const ps_request *arguments, const ps_measured *self,
+                         bool with_range) {
+    put_told(head, self, "sampler", "morph");
+    put_points(head, with_range, self);
+    if (!self->are_pair_sums) {
+        put_different_points(head, arguments, self->spectrum);
     }
-    for (unsigned i = 0; i < boxes->dimension; i++) {
-        ps_text_append(&text, "%s%.10g to %.10g", i > 0 ? ", " : "edges of the sets are ",
-                       boxes->shortest[i], boxes->longest[i]);
-    }
-    if (boxes->differ_in_shape && set->max_norm2 > 0) {
-        ps_text_append(&text, "; rings are those of the first");
-    }
-    if (head->status == PSPEC_OK) {
-        head->status = ps_text_check(&text, head->error);
-    }
-    put(head, "box_changes", PS_TEXT(ps_text_string(&text)));
-    ps_text_free(&text);
+    put_look(head, arguments, self);
+    put_told(head, self, "empty", "empty");
+    put_lengths(head, self);
+    put_frequencies(head, arguments, &self->spectrum->frequencies);
+    put_told(head, self, "device", "tolerance");
+    put(head, "predicted_error", PS_NUMBER(self->error));
+    put_told(head, self, "planned_twice", "planned_twice");
+    put_self_check(head, self);
+    put_told(head, self, "skipped", "skipped");
 }
 
-static void put_files(header *head, const ps_request *arguments, const ps_power_job *job) {
-    const bool predicts = ps_power_job_takes_part(job) && arguments->num_shifts > 0;
-    head->status =
-        head->status == PSPEC_OK
-            ? ps_header_add_files(head->table, ps_power_job_num_files(job),
-                                  ps_power_job_spectrum(job)->num_realizations,
-                                  predicts ? " to predict, the others to measure" : ", one average",
-                                  head->error)
-            : head->status;
-    put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
-    put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
-    put_boxes(head, job);
-    head->status = head->status == PSPEC_OK
-                       ? ps_header_add_lift(head->table, &arguments->reading, head->error)
-                       : head->status;
-}
-
-static void put_source(header *head, const ps_request *arguments, const ps_power_job *job,
-                       size_t index) {
-    const ps_sampler_request *const sampler = ps_power_job_sampler(job);
-    const char *const note = sampler != NULL ? ps_sampler_note(sampler) : NULL;
-    head->status = head->status == PSPEC_OK
-                       ? ps_lead_add_source(head->table, arguments, index, head->error)
-                       : head->status;
-    if (note != NULL) {
-        put(head, "sampler_note", PS_TEXT(note));
-    }
-    if (sampler == NULL) {
-        put_files(head, arguments, job);
-    }
-}
-
-static void put_job(header *head, const ps_request *arguments, const ps_power_job *job,
-                    size_t index, bool with_range) {
-    const ps_device_limits *limits = ps_power_job_limits(job);
-    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
-    ps_text skipped = {0};
-    put_source(head, arguments, job, index);
-    put_points(head, with_range, ps_power_job_spectrum(job), ps_power_job_needs(job));
-    if (ps_power_job_problem(job)->measure != PS_OF_PAIR_SUMS) {
-        put_different_points(head, arguments, ps_power_job_spectrum(job));
-    }
-    put_look(head, arguments, job);
-    put_empty_axis(head, job);
-    put_lengths(head, ps_power_job_accuracy(job));
-    put_frequencies(head, arguments, ps_power_job_problem(job)->frequencies);
-    put(head, "device",
-        PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
-    put(head, "engine", PS_TEXT(ps_power_job_description(job)));
-    put(head, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
-    put(head, "tolerance", PS_NUMBER(ps_power_job_problem(job)->tolerance));
-    put(head, "predicted_error", PS_NUMBER(ps_power_job_accuracy(job)->error));
-    if (ps_power_job_was_replanned(job)) {
-        put(head, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
-    }
-    put_self_check(head, ps_power_job_accuracy(job), ps_power_job_problem(job));
-    ps_needs_describe(ps_power_job_needs(job), &skipped);
-    if (head->status == PSPEC_OK) {
-        head->status = ps_text_check(&skipped, head->error);
-    }
-    put(head, "skipped", PS_TEXT(ps_text_string(&skipped)));
-    ps_text_free(&skipped);
-}
-
-pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
-                             const ps_power_job *first, ps_error *error) {
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments, const ps_measured *first,
+                             ps_error *error) {
     header head = {table, error, PSPEC_OK};
-    put_common(&head, arguments, ps_power_job_problem(first));
+    put_common(&head, arguments, first);
     return head.status;
 }
 
-pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
-                               const ps_power_job *const *jobs, size_t num, size_t index,
-                               ps_error *error) {
+pspec_status ps_header_add(ps_table *table, const ps_request *arguments, const ps_measured *all,
+                           size_t num, size_t index, ps_error *error) {
     header head = {table, error, PSPEC_OK};
-    put_job(&head, arguments, jobs[index], index, have_ranges(jobs, num));
+    put_question(&head, arguments, &all[index], have_ranges(all, num));
     return head.status;
 }

@@ -2,17 +2,15 @@
 #ifndef PS_ANSWERS_SPECTRA_SPECTRUM_HEADER_H
 #define PS_ANSWERS_SPECTRA_SPECTRUM_HEADER_H
 
-#include "answers/spectra/question.h"
+#include "answers/spectra/measured.h"
 #include "tables/table.h"
 
-/* What all jobs have in common. */
-pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
-                             const ps_power_job *first, ps_error *error) PS_MUST_CHECK;
-/* Adds what is to be said of the job of question `index` of those that the table is of, which all
- * have run. */
-pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
-                               const ps_power_job *const *jobs, size_t num, size_t index,
-                               ps_error *error) PS_MUST_CHECK;
+/* What all questions have in common. */
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments, const ps_measured *first,
+                             ps_error *error) PS_MUST_CHECK;
+/* Adds what is to be said of question `index` of the num that the table is of. */
+pspec_status ps_header_add(ps_table *table, const ps_request *arguments, const ps_measured *all,
+                           size_t num, size_t index, ps_error *error) PS_MUST_CHECK;
 
 /* Numbers of points of sets. */
 typedef struct ps_points_range {

@@ -178,7 +178,7 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         PS_TRY(add_integrand(table, request, ps_variance_job_integrand(jobs[0], i), i, error));
     }
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_header_add_job(table, request, spectra, num, i, error));
+        PS_TRY(ps_header_add_job(table, request, spectra, num, i, false, error));
         PS_TRY(add_files(table, jobs[i], error));
         PS_TRY(add_quantile(table, jobs[i], error));
         PS_TRY(add_most_power(table, jobs[i], error));

@@ -18,7 +18,8 @@ static void turn(ps_power_job *job) {
     }
 }
 
-static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
+static pspec_status report_progress(void *payload, ps_error *error) {
+    const ps_power_job *const job = payload;
     return ps_watch_tell(&job->question->watch, "realizations", job->runner.num_done,
                          job->num_realizations, NULL, error);
 }
@@ -178,6 +179,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .harmonics = question->harmonics,
         .keeps_coefficients = question->keeps_sets || question->harmonics == PS_EXPONENTIALS,
         .fills_boxes = question->fills_boxes,
+        .keeps_sums = question->keeps_sums,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =
             question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
@@ -274,10 +276,6 @@ static pspec_status begin(void *payload, ps_error *error) {
     return ps_power_device_sets_begin(job, error);
 }
 
-static pspec_status tell(void *payload, ps_error *error) {
-    return report_progress(payload, error);
-}
-
 static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
     ps_power_job *const job = payload;
     ps_power_sets *const sets = &job->sets;
@@ -319,7 +317,7 @@ static pspec_status rewind_sets(void *payload, ps_error *error) {
 static const ps_runner_kind kind = {.plan = plan,
                                     .options = choose_options,
                                     .begin = begin,
-                                    .tell = tell,
+                                    .tell = report_progress,
                                     .give = give,
                                     .look = look_at_errors,
                                     .rewind = rewind_sets};

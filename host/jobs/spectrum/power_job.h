@@ -54,6 +54,7 @@ typedef struct ps_power_question {
     /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
     ps_harmonics harmonics;
     bool fills_boxes; /* on the torus, coefficients of every set are handed on as boxes */
+    bool keeps_sums;  /* somebody will ask for ps_power_job_sums, and keep them */
     bool keeps_sets;  /* on the sphere, too, those of every set are wanted */
     bool keeps_first; /* a copy of the first set, for a picture */
     bool is_turned;   /* on the sphere: about the x axis, see ps_source_turn */
@@ -112,6 +113,9 @@ bool ps_power_job_empty_axis(const ps_power_job *job, ps_empty_axis *out);
 /* The points of the first set, as they came; NULL unless question.keeps_first, and of sets of more
  * than PS_MOST_POINTS_KEPT. */
 const ps_point_set *ps_power_job_first_set(const ps_power_job *job);
+/* The sums that the spectrum, and C_l^2, were made of; freed by the caller. */
+pspec_status ps_power_job_sums(const ps_power_job *job, ps_spectrum_sums *out,
+                               ps_error *error) PS_MUST_CHECK;
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 /* "(torus_direct ...)" */
 const char *ps_power_job_description(const ps_power_job *job);

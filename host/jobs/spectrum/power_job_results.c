@@ -53,6 +53,12 @@ const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
     return &job->spectrum;
 }
 
+pspec_status ps_power_job_sums(const ps_power_job *job, ps_spectrum_sums *out, ps_error *error) {
+    PS_TRY(ps_estimator_sums(job->runner.estimator, out, error));
+    out->num_equal = job->needs.one_realization ? job->spectrum.num_realizations : 0;
+    return PSPEC_OK;
+}
+
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job) {
     return &job->runner.accuracy;
 }

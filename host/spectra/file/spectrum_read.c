@@ -224,7 +224,7 @@ static pspec_status read_body(ps_spectrum_reader *in, const ps_spectrum_head *he
         PS_TRY(read_rings(in, head, set));
     }
     PS_TRY(make_bins(in, head, set, bins));
-    PS_TRY(ps_spectrum_sums_create(out, set, bins->num, NULL, in->error));
+    PS_TRY(ps_spectrum_sums_create(out, set, bins->num, true, false, NULL, in->error));
     out->normalization = totals.normalization;
     out->reference_points = totals.reference_points;
     out->totals = totals.totals;

@@ -1,0 +1,188 @@
+#include "answers/spectra/measured.h"
+
+#include "answers/spectra/spectrum_header.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- what is told ---------------------------------------------------------------------------- */
+
+pspec_status ps_told_create(ps_table **out, ps_error *error) {
+    return ps_table_create(out, "", NULL, 0, error);
+}
+
+typedef struct teller {
+    ps_table *table;
+    ps_error *error;
+    pspec_status status; /* the first failure; later entries do nothing */
+} teller;
+
+static void put(teller *self, const char *key, ps_cell value) {
+    if (self->status == PSPEC_OK) {
+        self->status = ps_table_add_meta(self->table, key, value, self->error);
+    }
+}
+
+static void put_random(teller *self, const ps_request *arguments) {
+    const bool has_samplers = ps_request_has_samplers(arguments);
+    if (has_samplers || arguments->frequencies.per_ring > 0) {
+        put(self, "seed", PS_INTEGER(arguments->seed));
+    }
+    if (has_samplers) {
+        put(self, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
+    }
+}
+
+/* Points of a smaller box look like a spectrum of clusters. */
+static void put_empty_axis(teller *self, const ps_power_job *job) {
+    char text[192];
+    ps_empty_axis empty = {0};
+    if (ps_power_job_empty_axis(job, &empty)) {
+        snprintf(text, sizeof text,
+                 "axis %u of the first set has no point from %.3g to %.3g%s: if the points are of "
+                 "a smaller box, --box X0,X1 takes that for the unit cell",
+                 empty.axis + 1, empty.begin, empty.end,
+                 empty.end <= empty.begin ? ", through 1" : "");
+        put(self, "empty", PS_TEXT(text));
+    }
+}
+
+/* That of the first set; of the others what changes powers: their edges. */
+static void put_boxes(teller *self, const ps_power_job *job) {
+    const ps_boxes *const boxes = ps_power_job_boxes(job);
+    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
+    ps_text text = {0};
+    self->status = self->status == PSPEC_OK
+                       ? ps_header_add_box(self->table, &boxes->first, self->error)
+                       : self->status;
+    if (!boxes->differ) {
+        return;
+    }
+    for (unsigned i = 0; i < boxes->dimension; i++) {
+        ps_text_append(&text, "%s%.10g to %.10g", i > 0 ? ", " : "edges of the sets are ",
+                       boxes->shortest[i], boxes->longest[i]);
+    }
+    if (boxes->differ_in_shape && set->max_norm2 > 0) {
+        ps_text_append(&text, "; rings are those of the first");
+    }
+    if (self->status == PSPEC_OK) {
+        self->status = ps_text_check(&text, self->error);
+    }
+    put(self, "box_changes", PS_TEXT(ps_text_string(&text)));
+    ps_text_free(&text);
+}
+
+static void put_files(teller *self, const ps_request *arguments, const ps_power_job *job) {
+    const bool predicts = ps_power_job_takes_part(job) && arguments->num_shifts > 0;
+    self->status =
+        self->status == PSPEC_OK
+            ? ps_header_add_files(self->table, ps_power_job_num_files(job),
+                                  ps_power_job_spectrum(job)->num_realizations,
+                                  predicts ? " to predict, the others to measure" : ", one average",
+                                  self->error)
+            : self->status;
+    put(self, "input_format", PS_TEXT(ps_power_job_source_format(job)));
+    put(self, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+    put_boxes(self, job);
+    self->status = self->status == PSPEC_OK
+                       ? ps_header_add_lift(self->table, &arguments->reading, self->error)
+                       : self->status;
+}
+
+static void put_source(teller *self, const ps_request *arguments, const ps_power_job *job,
+                       size_t index) {
+    const ps_sampler_request *const sampler = ps_power_job_sampler(job);
+    const char *const note = sampler != NULL ? ps_sampler_note(sampler) : NULL;
+    self->status = self->status == PSPEC_OK
+                       ? ps_lead_add_source(self->table, arguments, index, self->error)
+                       : self->status;
+    if (note != NULL) {
+        put(self, "sampler_note", PS_TEXT(note));
+    }
+    if (sampler == NULL) {
+        put_files(self, arguments, job);
+    }
+}
+
+static void put_computed(teller *self, const ps_power_job *job) {
+    const ps_device_limits *const limits = ps_power_job_limits(job);
+    const ps_candidate *const chosen = ps_power_job_plan(job)->chosen;
+    ps_text skipped = {0};
+    put(self, "device",
+        PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
+    put(self, "engine", PS_TEXT(ps_power_job_description(job)));
+    put(self, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
+    put(self, "tolerance", PS_NUMBER(ps_power_job_problem(job)->tolerance));
+    if (ps_power_job_was_replanned(job)) {
+        put(self, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
+    }
+    ps_needs_describe(ps_power_job_needs(job), &skipped);
+    if (self->status == PSPEC_OK) {
+        self->status = ps_text_check(&skipped, self->error);
+    }
+    put(self, "skipped", PS_TEXT(ps_text_string(&skipped)));
+    ps_text_free(&skipped);
+}
+
+static pspec_status tell(ps_table *table, const ps_request *arguments, const ps_power_job *job,
+                         size_t index, ps_error *error) {
+    teller self = {table, error, PSPEC_OK};
+    put_random(&self, arguments);
+    put_source(&self, arguments, job, index);
+    put_empty_axis(&self, job);
+    put_computed(&self, job);
+    return self.status;
+}
+
+/* ---- jobs ------------------------------------------------------------------------------------ */
+
+static ps_measured measure(const ps_power_job *job) {
+    const ps_accuracy *const accuracy = ps_power_job_accuracy(job);
+    return (ps_measured){
+        .spectrum = ps_power_job_spectrum(job),
+        .c2 = ps_power_job_c2(job),
+        .are_pair_sums = ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS,
+        .is_one_for_all = ps_power_job_needs(job)->one_realization,
+        .error = accuracy->error,
+        .self_check = accuracy->was_checked ? accuracy->self_check : NAN,
+        .length_error = accuracy->length_error,
+        .look = ps_power_job_look(job),
+        .job = job,
+    };
+}
+
+pspec_status ps_measured_of_jobs(ps_measured **out, const ps_request *arguments,
+                                 const ps_power_job *const *jobs, size_t num, ps_error *error) {
+    PS_TRY(PS_NEW(out, num, "answers of jobs", error));
+    for (size_t i = 0; i < num; i++) {
+        ps_table *told = NULL;
+        PS_TRY(ps_told_create(&told, error));
+        (*out)[i] = measure(jobs[i]);
+        (*out)[i].lead = ps_lead_make(arguments, i);
+        (*out)[i].told = told;
+        PS_TRY(tell(told, arguments, jobs[i], i, error));
+    }
+    return PSPEC_OK;
+}
+
+void ps_measured_free(ps_measured *all, size_t num) {
+    for (size_t i = 0; all != NULL && i < num; i++) {
+        ps_table_destroy(all[i].told);
+    }
+    free(all);
+}
+
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
+                               const ps_power_job *const *jobs, size_t num, size_t index,
+                               bool begins, ps_error *error) {
+    ps_measured *all = NULL;
+    pspec_status status = ps_measured_of_jobs(&all, arguments, jobs, num, error);
+    if (status == PSPEC_OK) {
+        status = begins ? ps_header_begin(table, arguments, all, error)
+                        : ps_header_add(table, arguments, all, num, index, error);
+    }
+    ps_measured_free(all, num);
+    return status;
+}

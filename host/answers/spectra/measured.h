@@ -1,0 +1,40 @@
+/* What a table of spectra is made of, whether jobs have just run or answers are merged. */
+#ifndef PS_ANSWERS_SPECTRA_MEASURED_H
+#define PS_ANSWERS_SPECTRA_MEASURED_H
+
+#include "answers/lead.h"
+#include "answers/spectra/question.h"
+#include "tables/table.h"
+
+/* Of one question. All is borrowed. */
+typedef struct ps_measured {
+    ps_lead lead;
+    const ps_spectrum *spectrum;
+    const ps_mean *c2; /* of pair sums; else NULL */
+    bool are_pair_sums;
+    bool is_one_for_all;                    /* realizations are equal, and one was computed */
+    double error, self_check, length_error; /* as ps_spectrum_sums has them */
+    const ps_sequential_look *look;         /* as ps_power_job_look has it */
+    /* Header entries, of ps_told_keys, that do not follow from numbers: of points, of the device */
+    ps_table *told;
+    const ps_power_job *job; /* NULL: of a merged answer */
+} ps_measured;
+
+/* In the order of headers; ended by NULL. */
+extern const char *const ps_told_keys[];
+/* An empty table for them. */
+pspec_status ps_told_create(ps_table **out, ps_error *error) PS_MUST_CHECK;
+
+/* Of jobs that have run: *out is [num], and freed by ps_measured_free, also after an error. */
+pspec_status ps_measured_of_jobs(ps_measured **out, const ps_request *arguments,
+                                 const ps_power_job *const *jobs, size_t num,
+                                 ps_error *error) PS_MUST_CHECK;
+void ps_measured_free(ps_measured *all, size_t num);
+
+/* Header lines of jobs that have run: where it begins what all have in common, else what is to be
+ * said of job `index` (spectrum_header.h). */
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
+                               const ps_power_job *const *jobs, size_t num, size_t index,
+                               bool begins, ps_error *error) PS_MUST_CHECK;
+
+#endif

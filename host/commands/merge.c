@@ -1,0 +1,87 @@
+/* pointspec merge: answers to one question of other realizations, saved as NPZ, as one answer. */
+#include "answers/kind.h"
+#include "answers/output_check.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <stdlib.h>
+
+typedef struct parts {
+    size_t num;
+    ps_table **tables; /* [num] */
+    ps_text *names;    /* [num], in quotes */
+    const char **said; /* [num], the same */
+} parts;
+
+static void discard(parts *self) {
+    for (size_t i = 0; i < self->num; i++) {
+        ps_table_destroy(self->tables[i]);
+        ps_text_free(&self->names[i]);
+    }
+    free(self->tables);
+    free(self->names);
+    free(self->said);
+}
+
+static pspec_status load(parts *self, const ps_request *request, ps_error *error) {
+    const size_t num = request->num_files;
+    PS_TRY(PS_NEW(&self->tables, num, "answers", error));
+    PS_TRY(PS_NEW(&self->names, num, "answers", error));
+    PS_TRY(PS_NEW(&self->said, num, "answers", error));
+    self->num = num;
+    for (size_t i = 0; i < num; i++) {
+        ps_text_append(&self->names[i], "\"%s\"", request->files[i]);
+        PS_TRY(ps_text_check(&self->names[i], error));
+        self->said[i] = ps_text_string(&self->names[i]);
+        PS_TRY(ps_table_read_npz(&self->tables[i], request->files[i], error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status merge(ps_answer *out, parts *self, const ps_request *request, ps_error *error) {
+    PS_TRY(load(self, request, error));
+    const ps_parts all = {(const ps_table *const *)self->tables, self->said, self->num,
+                          request->command_line};
+    return ps_answer_merge(out, &all, error);
+}
+
+/* An output NULL is none. */
+static pspec_status run(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
+                        ps_error *error) {
+    ps_table_format format = PS_FORMAT_CSV;
+    parts self = {0};
+    (void)hooks;
+    if (request->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "there are no answers to merge: pointspec merge A.npz B.npz");
+    }
+    PS_TRY(ps_outputs_check(request, true, error));
+    PS_TRY(ps_table_choose_format(&format, request->format, request->output, error));
+    pspec_status status = merge(out, &self, request, error);
+    discard(&self);
+    if (status == PSPEC_OK && request->output != NULL) {
+        ps_table_set_view(out->table, &request->view);
+        status = ps_table_write(out->table, request->output, format, error);
+    }
+    return status;
+}
+
+const ps_command ps_command_merge = {
+    .name = "merge",
+    .purpose = "the answer of the realizations of several answers",
+    .usage = "merge [options] FILE...",
+    .description =
+        "Reads answers of power, angular or pairs to one question, which -o FILE.npz saved with "
+        "their sums over realizations, and prints the answer of all their realizations, of the "
+        "first file first: what one job would have printed, but for last digits of the sums. "
+        "Dimension, frequencies, rings, normalization, and samplers where there are several, must "
+        "be the same; numbers of points, engines and tolerances may differ. Realizations of one "
+        "sampler and seed are the same in every answer: give each part a seed of its own. The "
+        "output is merged again where it is NPZ.",
+    .takes = PS_COMMAND_BIT(merge),
+    .examples = {"for s in 1 2; do pointspec power --sampler white -n 64 -k 4 -m 8 --seed $s -o "
+                 "part$s.npz; done && pointspec merge part1.npz part2.npz",
+                 "pointspec merge part1.npz part2.npz -o both.npz"},
+    .speaker = "pointspec merge",
+    .run = run,
+};

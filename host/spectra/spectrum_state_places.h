@@ -1,0 +1,50 @@
+/* What writer and reader of state agree on: places in its arrays, and their names. */
+#ifndef PS_SPECTRA_SPECTRUM_STATE_PLACES_H
+#define PS_SPECTRA_SPECTRUM_STATE_PLACES_H
+
+#include "math/dimension.h"
+
+#include <stddef.h>
+
+/* Places of state_question: members of ps_frequencies, its rule of bins and its stretch. */
+enum {
+    DIMENSION,
+    KIND,
+    DEGREE_STEP,
+    MAX_FREQUENCY,
+    REACH,
+    PER_RING,
+    BINS,
+    NUMERATOR,
+    DENOMINATOR,
+    RELATIVE_TO, /* number of points of relative widths */
+    NORMALIZATION,
+    STRETCH,
+    QUESTION_SIZE = STRETCH + PS_MAX_DIMENSION
+};
+
+/* Places of state_totals: members of ps_spectrum_sums and of its totals. */
+enum { SUM_SIZE = 4, MEAN_SIZE = 2 };
+enum {
+    REALIZATIONS,
+    NUM_EQUAL,
+    SMALLEST,
+    LARGEST,
+    SUM_WEIGHTS,
+    REFERENCE,
+    ERROR,
+    SELF_CHECK,
+    LENGTH_ERROR,
+    POINTS,
+    SAMPLE_SIZES = POINTS + SUM_SIZE,
+    TOTALS_SIZE = SAMPLE_SIZES + SUM_SIZE
+};
+
+typedef struct ps_state_name {
+    char text[48];
+} ps_state_name;
+
+/* Of an array of that question, "state_bins" or "state_bins_2". */
+ps_state_name ps_state_name_of(const char *stem, size_t question);
+
+#endif
