@@ -50,7 +50,7 @@ static void measure_yard(void *payload, unsigned index, unsigned count) {
     ((yard_sums *)payload)->sums[index % 64] = x[0] + x[3];
 }
 
-/* Of the machine that the built-in figures are of: see host/plan/host_cost.c. */
+/* Of the machine that the built-in figures are of: see host/plan/phases.c. */
 static const double usual_single = 14e-3, usual_all = 16e-3;
 
 /* Seconds of one thread, and of as many as there are processors. */

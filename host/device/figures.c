@@ -40,13 +40,13 @@ ps_engine_figure *ps_figures_row(ps_figures *figures, const char *engine) {
     return row;
 }
 
-double ps_figures_host_scale(const ps_figures *figures, const char *kind) {
+double ps_figures_host_scale(const ps_figures *figures, const char *sampler) {
     double logarithms = 0;
     if (figures == NULL || !figures->is_measured || figures->num_host == 0) {
         return 1;
     }
     for (size_t i = 0; i < figures->num_host; i++) {
-        if (strcmp(figures->host[i].kind, kind) == 0) {
+        if (sampler != NULL && strcmp(figures->host[i].sampler, sampler) == 0) {
             return figures->host[i].scale;
         }
         logarithms += log(figures->host[i].scale);
@@ -54,17 +54,18 @@ double ps_figures_host_scale(const ps_figures *figures, const char *kind) {
     return exp(logarithms / (double)figures->num_host);
 }
 
-ps_host_figure *ps_figures_host_row(ps_figures *figures, const char *kind) {
+ps_host_figure *ps_figures_host_row(ps_figures *figures, const char *sampler) {
     for (size_t i = 0; i < figures->num_host; i++) {
-        if (strcmp(figures->host[i].kind, kind) == 0) {
+        if (strcmp(figures->host[i].sampler, sampler) == 0) {
             return &figures->host[i];
         }
     }
-    if (figures->num_host == PS_FIGURES_HOST || strlen(kind) >= sizeof figures->host[0].kind) {
+    if (figures->num_host == PS_FIGURES_HOST ||
+        strlen(sampler) >= sizeof figures->host[0].sampler) {
         return NULL;
     }
     ps_host_figure *const row = &figures->host[figures->num_host++];
     *row = (ps_host_figure){.scale = 1};
-    memcpy(row->kind, kind, strlen(kind) + 1);
+    memcpy(row->sampler, sampler, strlen(sampler) + 1);
     return row;
 }

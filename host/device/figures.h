@@ -1,5 +1,5 @@
 /* What was measured of a device: its peaks, and how long engines take there against the built-in
- * cost model; of the host, how long its own work takes. Plain data: written and read by
+ * cost model; of the host, how long samplers take. Plain data: written and read by
  * store/figures_file.h, measured by verify/bench/bench.h, looked at by the planner and by nobody
  * else.
  */
@@ -17,9 +17,9 @@ typedef struct ps_engine_figure {
     double scales[PS_FIGURES_PRECISIONS];
 } ps_engine_figure;
 
-/* Seconds taken over seconds of plan/host_cost.c, of one kind of work. */
+/* Seconds taken over those of its row, of one sampler. */
 typedef struct ps_host_figure {
-    char kind[32];
+    char sampler[32];
     double scale;
 } ps_host_figure;
 
@@ -44,13 +44,13 @@ double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned 
 double ps_figures_launch_seconds(const ps_figures *figures, double built_in);
 double ps_figures_sent_bytes(const ps_figures *figures, double built_in);
 
-/* That of a kind of the host's work; where it was not measured, the geometric mean of those that
- * were. figures may be NULL. */
-double ps_figures_host_scale(const ps_figures *figures, const char *kind);
+/* That of a sampler; where it was not measured, and of all other work of the host (NULL), the
+ * geometric mean of those that were. figures may be NULL. */
+double ps_figures_host_scale(const ps_figures *figures, const char *sampler);
 
 /* Its row, made if there is none yet; NULL when the table is full or the name too long. */
 ps_engine_figure *ps_figures_row(ps_figures *figures, const char *engine);
-/* The same of a kind of work. */
-ps_host_figure *ps_figures_host_row(ps_figures *figures, const char *kind);
+/* The same of a sampler. */
+ps_host_figure *ps_figures_host_row(ps_figures *figures, const char *sampler);
 
 #endif

@@ -7,17 +7,13 @@
 
 /* ---- samplers ------------------------------------------------------------------------------ */
 
-/* What becomes of a point that was made. */
-static double change_seconds(const ps_sampler_request *request) {
-    const double lifted = 40e-9, moved = 3e-9, morphed = 30e-9;
-    return (request->lift != PS_SAMPLES_TORUS ? lifted : 0) + (request->homogenize ? moved : 0) +
-           (request->morph.kind != PS_MORPH_NONE ? morphed : 0);
-}
-
 void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations,
                       const ps_sets_options *options) {
     const ps_set_place *const place = &options->place;
     static const char name[] = "points";
+    const double changed_seconds = 35e-9; /* of a point that is lifted to the sphere, or morphed */
+    const int changes =
+        (request->lift != PS_SAMPLES_TORUS) + (request->morph.kind != PS_MORPH_NONE);
     const double points = (double)request->num_points * realizations;
     const uint64_t num_kept = ps_sets_count_kept(request, place, (uint64_t)realizations);
     const double num_made = realizations - (double)num_kept;
@@ -26,7 +22,7 @@ void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, doub
                               ps_sets_makers(request, options, (uint64_t)num_made) *
                               ps_figures_host_scale(phases->host, request->sampler->name));
     ps_phases_add_seconds(phases, name, ps_set_store_seconds(request) * (double)num_kept);
-    ps_phases_add(phases, name, PS_HOST_SCALAR, points * change_seconds(request));
+    ps_phases_add(phases, name, points * changes * changed_seconds);
     if (ps_set_place_takes(place, request)) {
         ps_phases_say(phases, name, "%.4g of %s, %" PRIu64 " of %.0f sets kept", points,
                       request->sampler->name, num_kept, realizations);
@@ -48,10 +44,9 @@ double ps_phases_read(ps_phases *phases, const char *const *paths, size_t num_pa
             continue;
         }
         const ps_file_estimate file = ps_file_estimate_of(paths[i], options->format);
-        ps_phases_add(phases, name, file.is_text ? PS_HOST_TEXT : PS_HOST_BINARY,
-                      file.bytes * (file.is_text ? text_byte : binary_byte));
-        ps_phases_add(phases, name, PS_HOST_BINARY,
-                      file.is_compressed ? file.bytes * inflated_byte : 0);
+        ps_phases_add(phases, name,
+                      file.bytes * ((file.is_text ? text_byte : binary_byte) +
+                                    (file.is_compressed ? inflated_byte : 0)));
         points += ps_file_estimate_points(&file, columns);
         bytes += file.bytes;
     }
@@ -65,7 +60,6 @@ void ps_phases_write(ps_phases *phases, const char *path, const char *format, do
     const char *const used = format != NULL ? format : ps_points_format_by_ending(path);
     const bool is_binary =
         strcmp(used, "npy") == 0 || strcmp(used, "rps") == 0 || strcmp(used, "utk-binary") == 0;
-    ps_phases_add(phases, name, is_binary ? PS_HOST_BINARY : PS_HOST_TEXT,
-                  numbers * (is_binary ? binary_number : text_number));
+    ps_phases_add(phases, name, numbers * (is_binary ? binary_number : text_number));
     ps_phases_say(phases, name, "%.4g numbers as %s", numbers, used);
 }

@@ -1,5 +1,7 @@
 #include "plan/phases.h"
 
+#include "base/workers.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,33 +26,38 @@ void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds) 
     }
 }
 
-void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double seconds) {
-    ps_phases_add_seconds(phases, name, ps_host_seconds(phases->host, kind, seconds));
+/* The machine of all seconds of the host's work: one core of 2 of a Zen 5 EPYC (AVX-512) at a
+ * nominal 2.6 GHz, Debian 12, 2026-11; the machine is shared. `pointspec bench --calibrate`
+ * measures how many times longer samplers take on the machine at hand, and the rest of the host's
+ * work is taken to be as much slower as they are in the mean. */
+void ps_phases_add(ps_phases *phases, const char *name, double seconds) {
+    ps_phases_add_seconds(phases, name, seconds * ps_figures_host_scale(phases->host, NULL));
 }
 
-void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double things,
-                        double each, double sets) {
-    ps_phases_add_seconds(phases, name,
-                          ps_host_seconds_of_sets(phases->host, kind, things, each, sets));
+void ps_phases_share(ps_phases *phases, const char *name, double things, double each, double sets) {
+    const double threads = ps_workers_most();
+    const bool is_shared = threads > 1 && things >= PS_WORKERS_LEAST;
+    ps_phases_add(phases, name, sets * things * each / (is_shared ? threads : 1));
+    ps_phases_add_seconds(phases, name, is_shared ? sets * PS_WORKERS_SECONDS : 0);
 }
 
 void ps_phases_touch(ps_phases *phases, double bytes) {
     static const char name[] = "memory";
     const double byte_seconds = 0.5e-9;
-    ps_phases_add(phases, name, PS_HOST_MEMORY, bytes * byte_seconds);
+    ps_phases_add(phases, name, bytes * byte_seconds);
     ps_phases_say(phases, name, "%.3g bytes, which the system clears", bytes);
 }
 
 void ps_phases_tabulate(ps_phases *phases, double rows) {
     static const char name[] = "results";
     const double row_seconds = 3e-6;
-    ps_phases_add(phases, name, PS_HOST_TEXT, rows * row_seconds);
+    ps_phases_add(phases, name, rows * row_seconds);
     ps_phases_say(phases, name, "a table");
 }
 
 void ps_phases_draw(ps_phases *phases, const char *name, size_t num) {
     const double picture_seconds = 0.15;
-    ps_phases_add(phases, name, PS_HOST_START, (double)num * picture_seconds);
+    ps_phases_add(phases, name, (double)num * picture_seconds);
 }
 
 void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) {

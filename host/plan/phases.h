@@ -1,10 +1,11 @@
 /* What a job is made of besides the sums of its engine, and how long each part of it takes: what
- * plan prints. */
+ * plan prints. Nothing is chosen by it. What a piece of work takes stands beside the formula that
+ * counts it, in seconds of one core of the machine of phases.c. */
 #ifndef PS_PLAN_PHASES_H
 #define PS_PLAN_PHASES_H
 
 #include "base/status.h"
-#include "plan/host_cost.h"
+#include "device/figures.h"
 
 typedef struct ps_phase_cost {
     const char *name; /* "points"; static storage */
@@ -28,13 +29,13 @@ typedef struct ps_phases {
     ps_phase_cost list[PS_MAX_PHASES];
 } ps_phases;
 
-/* Work of so many seconds (ps_host_seconds) becomes a phase, or more of the phase of that name,
- * whose `what` stays; nothing for no seconds. */
-void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double seconds);
-/* The same of so many sets that are shared out among threads one by one
- * (ps_host_seconds_of_sets). */
-void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double things,
-                        double each, double sets);
+/* Work of so many seconds becomes a phase, or more of the phase of that name, whose `what` stays;
+ * nothing for no seconds. */
+void ps_phases_add(ps_phases *phases, const char *name, double seconds);
+/* The same of sets of so many things each, which take `each` seconds and are shared out among the
+ * threads of this machine one set at a time: few things are left to one thread, and for many the
+ * threads are started for every set (ps_workers_share). */
+void ps_phases_share(ps_phases *phases, const char *name, double things, double each, double sets);
 /* The same of seconds of this machine. */
 void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds);
 /* Adds the time that the system takes for memory of so many bytes, when they are touched for the

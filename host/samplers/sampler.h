@@ -112,7 +112,7 @@ struct ps_sampler {
     size_t minimum_points;      /* 1 unless it says more */
     ps_sampler_parameter parameters[PS_MAX_SAMPLER_PARAMETERS + 1]; /* ended by key == NULL */
 
-    /* What a realization costs on one core of the machine of plan/host_cost.c: nanoseconds of a
+    /* What a realization costs on one core of the machine of plan/phases.c: nanoseconds of a
      * coordinate, on the sphere of a point; or, where it is not so simple, seconds. */
     double nanoseconds;
     double (*seconds)(const ps_sampler_request *);
@@ -219,7 +219,7 @@ size_t ps_sampler_most_points(const ps_sampler_request *request);
 bool ps_sampler_varies(const ps_sampler_request *request);
 /* Numbers of a realization as costs count them: coordinates, on the sphere points. */
 double ps_sampler_numbers(const ps_sampler_request *request);
-/* Seconds of a realization on one core of the machine of plan/host_cost.c, without what lift,
+/* Seconds of a realization on one core of the machine of plan/phases.c, without what lift,
  * homogenize and morph add. */
 double ps_sampler_seconds(const ps_sampler_request *request);
 /* Bytes that are taken while it is made, besides its points; 0: none worth counting. */

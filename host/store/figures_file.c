@@ -103,8 +103,8 @@ static pspec_status add_rows(ps_table *table, const ps_figures *figures, ps_erro
         PS_TRY(ps_table_add_row(table, cells, error));
     }
     for (size_t i = 0; i < figures->num_host; i++) {
-        char name[sizeof host + sizeof figures->host[i].kind];
-        snprintf(name, sizeof name, "%s%s", host, figures->host[i].kind);
+        char name[sizeof host + sizeof figures->host[i].sampler];
+        snprintf(name, sizeof name, "%s%s", host, figures->host[i].sampler);
         const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(name), positive(figures->host[i].scale)};
         PS_TRY(ps_table_add_row(table, cells, error));
     }

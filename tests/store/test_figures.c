@@ -4,7 +4,7 @@
 #include "harness_plan.h"
 
 #include "base/workers.h"
-#include "plan/host_cost.h"
+#include "plan/phases.h"
 #include "store/host_figures.h"
 
 #include <math.h>
@@ -254,16 +254,21 @@ static void planner_does_not_choose_by_them(void **state) {
 
 /* ---- the host ------------------------------------------------------------------------------ */
 
+/* Samplers that were measured, and the rest of the host's work by their geometric mean. */
 static void host_figures_scale_its_work(void **state) {
     (void)state;
     ps_figures figures = {.is_measured = true};
-    assert_true(ps_host_seconds(NULL, PS_HOST_TEXT, 3) == 3);
-    assert_true(ps_host_seconds(&figures, PS_HOST_TEXT, 3) == 3); /* nothing measured */
-    ps_figures_host_row(&figures, "text")->scale = 4;
-    assert_true(ps_host_seconds(&figures, PS_HOST_TEXT, 3) == 12);
-    ps_figures_host_row(&figures, "sums")->scale = 1; /* others: the geometric mean */
-    assert_true(fabs(ps_host_seconds(&figures, PS_HOST_SCALAR, 1) - 2) < 1e-12);
-    assert_true(ps_host_seconds(&figures, PS_HOST_SUMS, 1) == 1.0 / ps_workers_most());
+    ps_phases phases = {.host = &figures};
+    assert_true(ps_figures_host_scale(&figures, "white") == 1); /* nothing measured */
+    ps_figures_host_row(&figures, "white")->scale = 4;
+    ps_figures_host_row(&figures, "jittered")->scale = 1;
+    assert_true(fabs(ps_figures_host_scale(&figures, "halton") - 2) < 1e-12);
+    ps_phases_add(&phases, "work", 3);
+    assert_true(fabs(ps_phases_seconds(&phases) - 6) < 1e-12);
+    ps_phases_share(&phases, "few", 10, 1, 3);      /* by one thread */
+    ps_phases_share(&phases, "many", 1e6, 1e-6, 3); /* by all */
+    const double seconds = 66 + (ps_workers_most() > 1 ? 6.0 / ps_workers_most() + 3e-4 : 6);
+    assert_true(fabs(ps_phases_seconds(&phases) - seconds) < 1e-12);
 }
 
 static void host_figures_come_back(void **state) {
@@ -274,18 +279,17 @@ static void host_figures_come_back(void **state) {
     ps_device_limits host;
     ps_text path = {0};
     assert_non_null(mkdtemp(root));
-    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) { /* all of them find room */
-        ps_host_figure *const row =
-            ps_figures_host_row(&figures, ps_host_kind_name((ps_host_kind)kind));
+    size_t num = 0;
+    for (; ps_samplers[num] != NULL; num++) { /* all of them find room */
+        ps_host_figure *const row = ps_figures_host_row(&figures, ps_samplers[num]->name);
         assert_non_null(row);
-        row->scale = 1 + kind / 64.0;
+        row->scale = 1 + (double)num / 64;
     }
     assert_ok(ps_host_figures_write(root, &figures, error));
     assert_ok(ps_host_figures_read(&back, root, error));
-    assert_int_equal(back.num_host, PS_NUM_HOST_KINDS);
-    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) {
-        assert_true(ps_figures_host_scale(&back, ps_host_kind_name((ps_host_kind)kind)) ==
-                    1 + kind / 64.0);
+    assert_int_equal(back.num_host, num);
+    for (size_t i = 0; i < num; i++) {
+        assert_true(ps_figures_host_scale(&back, ps_samplers[i]->name) == 1 + (double)i / 64);
     }
     ps_host_describe(&host);
     assert_ok(ps_figures_path(&path, root, &host, error));

@@ -199,7 +199,7 @@ static pspec_status add_figures(answer *shown, const ps_figures *figures, const 
 static pspec_status add_host_figures(answer *shown, const ps_figures *host, ps_error *error) {
     for (size_t i = 0; i < host->num_host; i++) {
         char name[64];
-        snprintf(name, sizeof name, "host %s", host->host[i].kind);
+        snprintf(name, sizeof name, "host %s", host->host[i].sampler);
         const ps_cell cells[] = {PS_TEXT(name), PS_MISSING, PS_NUMBER(host->host[i].scale)};
         PS_TRY(ps_table_add_row(shown->table, cells, error));
     }
@@ -227,7 +227,7 @@ static pspec_status calibrate(answer *shown, const ps_bench_options *options,
     shown->progress = ps_progress_begin(shown->arguments, "cases");
     pspec_status status = ps_bench_calibrate(options, shown->device, &figures, error);
     if (status == PSPEC_OK) {
-        status = ps_bench_calibrate_host(options, folder, &host, error);
+        status = ps_bench_calibrate_host(options, &host, error);
     }
     ps_progress_end(shown->progress);
     PS_TRY(status);
@@ -302,8 +302,6 @@ static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_an
     const ps_bench_options options = {.case_name = arguments->case_name,
                                       .engine = arguments->limits.constraints.engine,
                                       .precision = arguments->limits.constraints.precision,
-                                      .program = "/proc/self/exe",
-                                      .device = arguments->limits.device,
                                       .quick = arguments->quick,
                                       .should_stop = should_stop,
                                       .report = report,

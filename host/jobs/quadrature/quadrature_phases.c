@@ -21,24 +21,19 @@ static const double power_seconds = 4e-9;
 void ps_phases_lobe(ps_phases *phases, const ps_representer *representer) {
     const double tries = 3; /* degrees grow by half until they are enough: 1 + 2/3 + 4/9 + .. */
     const double coefficient_seconds = 3.5e-8;
-    ps_phases_add(phases, "lobe", PS_HOST_SCALAR,
-                  tries * (double)representer->max_degree * coefficient_seconds);
+    ps_phases_add(phases, "lobe", tries * (double)representer->max_degree * coefficient_seconds);
     ps_phases_say(phases, "lobe", "%zu coefficients", representer->max_degree + 1);
 }
 
 void ps_phases_kappa(ps_phases *phases, const char *name, double points, double terms,
                      double sets) {
-    ps_phases_add_sets(phases, name, PS_HOST_SUMS, points * terms, ps_cost_rule_seconds(0, 1),
-                       sets);
+    ps_phases_share(phases, name, points * terms, ps_cost_rule_seconds(0, 1), sets);
 }
 
 void ps_phases_distances(ps_phases *phases, const char *name, double smoothness, double distances,
                          double sets) {
-    if (needs_powers(smoothness)) {
-        ps_phases_add_sets(phases, name, PS_HOST_POWERS, distances, power_seconds, sets);
-    } else {
-        ps_phases_add_sets(phases, name, PS_HOST_SUMS, distances, ps_cost_rule_seconds(1, 0), sets);
-    }
+    ps_phases_share(phases, name, distances,
+                    needs_powers(smoothness) ? power_seconds : ps_cost_rule_seconds(1, 0), sets);
 }
 
 /* Realizations that are made; of files as many as their size suggests. */
@@ -56,42 +51,30 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
     return fmax(1, nearbyint(points / each));
 }
 
-/* The sum is imposed by a second system of equations. */
-static double num_solutions(const ps_quadrature_question *question) {
-    return question->weights.sum_to_one ? 2 : 1;
-}
-
-static void add_matrices(const ps_quadrature_question *question, double points, double sets,
-                         ps_phases *phases) {
-    const double operation_seconds = 1.25e-11;                       /* of the factor */
-    const double entry_seconds = 14e-9, power_entry_seconds = 19e-9; /* made and summed */
-    const double solution_seconds = 8e-9; /* an entry, of condition and solutions */
+/* The factor of the kernel matrix and its entries; or conjugate gradients, where one step is a
+ * product, and so are the condition, the residual and what the kernel form does. The sum of the
+ * weights is imposed by a second system of equations. */
+static void add_weights(const ps_quadrature_question *question, double points, double sets,
+                        ps_phases *phases) {
+    static const char name[] = "weights";
+    const double operation_seconds = 1.25e-11; /* of the factor */
+    const double entry_seconds = 25e-9;        /* made, summed, and solved with */
+    const double product_seconds = 0.8e-9;     /* a pair, in a product by the device */
+    const double others = 3;                   /* products */
     const bool powers = needs_powers(question->smoothness);
-    const double square = points * points * sets;
-    ps_phases_add(phases, "weights", PS_HOST_DENSE, square * points / 3 * operation_seconds);
-    ps_phases_add(phases, "weights", powers ? PS_HOST_POWERS : PS_HOST_SUMS,
-                  square * (powers ? power_entry_seconds : entry_seconds));
-    ps_phases_add(phases, "weights", PS_HOST_SCALAR,
-                  num_solutions(question) * square * solution_seconds);
-    ps_phases_say(phases, "weights", "Cholesky of %.6g x %.6g", points, points);
-}
-
-/* One step is a product; so are the condition, the residual and what the kernel form does. */
-static void add_gradients(const ps_quadrature_question *question, double points, double sets,
-                          ps_phases *phases) {
-    const double others = 3;
-    const double search_seconds = 1.5e-9;  /* a pair of points, in the search for neighbours */
-    const double inverse_seconds = 14e-6;  /* a point: its row of an inverse */
-    const double product_seconds = 0.8e-9; /* a pair, in a product by the device */
-    const bool powers = needs_powers(question->smoothness);
-    const double steps = powers ? most_steps_of_powers : most_steps;
-    ps_phases_add(phases, "weights", PS_HOST_SUMS, points * points / 2 * sets * search_seconds);
-    ps_phases_add(phases, "weights", PS_HOST_DENSE, points * sets * inverse_seconds);
-    ps_phases_add(phases, "weights", powers ? PS_HOST_POWERS : PS_HOST_SUMS,
-                  (num_solutions(question) * steps + others) * points * points * sets *
-                      (powers ? power_seconds : product_seconds));
-    ps_phases_say(phases, "weights", "conjugate gradients, %g steps", steps);
-    ps_phases_limit(phases, "weights");
+    const double solutions = question->weights.sum_to_one ? 2 : 1;
+    const double square = points * points;
+    if (ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit)) {
+        ps_phases_share(phases, name, square,
+                        points / 3 * operation_seconds + solutions * entry_seconds, sets);
+        ps_phases_say(phases, name, "Cholesky of %.6g x %.6g", points, points);
+    } else {
+        const double steps = powers ? most_steps_of_powers : most_steps;
+        ps_phases_share(phases, name, (solutions * steps + others) * square,
+                        powers ? power_seconds : product_seconds, sets);
+        ps_phases_say(phases, name, "conjugate gradients, %g steps", steps);
+        ps_phases_limit(phases, name);
+    }
 }
 
 static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_question *question,
@@ -101,11 +84,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
     ps_phases_kappa(phases, "kappa", points, terms, sets);
     ps_phases_say(phases, "kappa", "%.4g points, %.4g terms", sets * points, terms);
     if (question->weights.kind == PS_WEIGHTS_OPTIMAL) {
-        if (ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit)) {
-            add_matrices(question, points, sets, phases);
-        } else {
-            add_gradients(question, points, sets, phases);
-        }
+        add_weights(question, points, sets, phases);
     }
     const double distances =
         setup->num_distances > 0 ? setup->num_distances : ps_distance_count(points);

@@ -127,8 +127,7 @@ static void add_conversion(const ps_truncation_job *job, ps_phases *phases) {
     const double usual = 1000;
     const double step_seconds = 2e-9; /* a degree of each kind of harmonics */
     const double x = fmax(usual, 4 * (double)job->question.max_degree);
-    ps_phases_add(phases, "conversion", PS_HOST_SCALAR,
-                  (double)job->question.max_degree * x * x * step_seconds);
+    ps_phases_add(phases, "conversion", (double)job->question.max_degree * x * x * step_seconds);
     ps_phases_say(phases, "conversion", "of hemispherical harmonics to spherical ones");
     ps_phases_limit(phases, "conversion");
 }

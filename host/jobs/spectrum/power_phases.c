@@ -26,7 +26,7 @@ static const char start_name[] = "start";
 
 void ps_phases_load_kernels(ps_phases *phases, double kernels) {
     const double kernel_seconds = 34e-3;
-    ps_phases_add(phases, start_name, PS_HOST_START, kernels * kernel_seconds);
+    ps_phases_add(phases, start_name, kernels * kernel_seconds);
 }
 
 /* Each once in a process. */
@@ -37,14 +37,14 @@ void ps_phases_start(ps_phases *phases, const ps_candidate *chosen,
     const double gpu_seconds = 0.2;      /* what pairs of 100 small sets took more on an H200 */
     ps_begun first = {false, false, 0};
     ps_begun *const begun = phases->begun != NULL ? phases->begun : &first;
-    ps_phases_add(phases, start_name, PS_HOST_START, begun->program ? 0 : program_seconds);
+    ps_phases_add(phases, start_name, begun->program ? 0 : program_seconds);
     begun->program = true;
     ps_phases_say(phases, start_name, "libraries");
     if (chosen != NULL && chosen->engine->needs_device) {
         const unsigned bit = bit_of(chosen->engine);
         const bool is_there = (begun->engines & bit) != 0;
         const bool is_gpu = limits->has_dedicated_local_memory;
-        ps_phases_add(phases, start_name, PS_HOST_START,
+        ps_phases_add(phases, start_name,
                       begun->driver ? 0 : driver_seconds + (is_gpu ? gpu_seconds : 0));
         ps_phases_load_kernels(phases, is_there ? 0 : chosen->kernels);
         ps_phases_say(phases, start_name, "driver and kernels, which the driver's cache has");
@@ -66,15 +66,12 @@ void ps_phases_run(ps_phases *phases, const ps_candidate *chosen, const ps_devic
     const double coordinate_seconds = 2.5e-9;
     const double bytes_per_second = 6e9;
     const double bytes = load->coordinates * sizeof(uint64_t);
-    const bool is_on_device = chosen->engine->needs_device;
-    ps_phases_add_seconds(phases, "powers",
-                          is_on_device
-                              ? load->seconds
-                              : ps_host_seconds(phases->host, PS_HOST_REFEREE, load->seconds));
+    (chosen->engine->needs_device ? ps_phases_add_seconds : ps_phases_add)(phases, "powers",
+                                                                           load->seconds);
     ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
                   ps_precision_name(chosen->precision));
     if (has_own_memory(chosen, limits)) {
-        ps_phases_add(phases, name, PS_HOST_BINARY, load->coordinates * coordinate_seconds);
+        ps_phases_add(phases, name, load->coordinates * coordinate_seconds);
         ps_phases_add_seconds(phases, name,
                               bytes / ps_figures_sent_bytes(limits->figures, bytes_per_second));
         ps_phases_say(phases, name, "%.3g bytes to the device", bytes);
@@ -112,7 +109,7 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
         out.points = out.sets * each;
     }
     const bool is_checked = question->on_sphere || job->problem.has_weights;
-    ps_phases_add(phases, "points", PS_HOST_BINARY, is_checked ? out.points * checked_seconds : 0);
+    ps_phases_add(phases, "points", is_checked ? out.points * checked_seconds : 0);
     return out;
 }
 
@@ -126,12 +123,12 @@ static void add_frequencies(const ps_power_job *job, ps_phases *phases) {
     if (set->kind == PS_FREQUENCIES_DEGREES) {
         return;
     }
-    ps_phases_add(phases, name, PS_HOST_SCALAR,
+    ps_phases_add(phases, name,
                   num * (set->kind == PS_FREQUENCIES_LIST ? listed_seconds : lattice_seconds));
     if (job->question->frequencies.per_ring >
         0) { /* rings are counted axis by axis: frequencies/frequency_sample.h */
         const double k = set->max_frequency;
-        ps_phases_add(phases, name, PS_HOST_SCALAR, job->dimension * k * k * k * counted_seconds);
+        ps_phases_add(phases, name, job->dimension * k * k * k * counted_seconds);
     }
     ps_phases_say(phases, name, "%.4g of them, and their rings", num);
 }
@@ -164,7 +161,7 @@ static void add_check(const ps_power_job *job, ps_phases *phases) {
         return;
     }
     const double terms = ps_self_check_count(&job->frequencies, job->num_points, &is_of_degrees);
-    ps_phases_add(phases, "self-check", PS_HOST_REFEREE,
+    ps_phases_add(phases, "self-check",
                   is_of_degrees ? terms * degree_seconds
                                 : ps_cost_seconds(&(ps_work){.phases = terms}, NULL, PS_EXTENDED));
     ps_phases_add_seconds(phases, "self-check", beginning_seconds(job));
@@ -173,7 +170,7 @@ static void add_check(const ps_power_job *job, ps_phases *phases) {
 
 void ps_phases_sum_zonal(ps_phases *phases, double points, double degrees) {
     const double term_seconds = 1e-9;
-    ps_phases_add(phases, "averages", PS_HOST_SUMS, points * degrees * term_seconds);
+    ps_phases_share(phases, "averages", points * degrees, term_seconds, 1);
 }
 
 /* Powers of realizations, by the host or, on a GPU, by kernels that read them twice: 429 million
@@ -186,7 +183,7 @@ static void add_averages(const ps_power_job *job, const amounts *amount, ps_phas
         ps_device_get_limits(job->device)->has_dedicated_local_memory) {
         ps_phases_add_seconds(phases, "averages", num * amount->sets * gpu_power_seconds);
     } else {
-        ps_phases_add(phases, "averages", PS_HOST_SUMS, num * amount->sets * power_seconds);
+        ps_phases_share(phases, "averages", num * amount->sets, power_seconds, 1);
     }
     if (job->question->wants_pair_sums) {
         ps_phases_sum_zonal(phases, amount->points, job->frequencies.max_frequency);
@@ -205,8 +202,7 @@ static void add_products(const ps_power_job *job, double sets, ps_phases *phases
     }
     const double steps =
         on_sphere ? ps_turn_products_steps(set->max_frequency) : ps_shift_products_cells(set);
-    ps_phases_add(phases, name, PS_HOST_SCALAR,
-                  steps * sets * (on_sphere ? turn_seconds : shift_seconds));
+    ps_phases_add(phases, name, steps * sets * (on_sphere ? turn_seconds : shift_seconds));
     ps_phases_say(phases, name, "products of %.4g coefficients of %.4g realizations",
                   (double)ps_num_coefficients_at(set) / 2, sets);
 }
@@ -215,15 +211,13 @@ static void add_products(const ps_power_job *job, double sets, ps_phases *phases
 static void add_results(const ps_power_job *job, ps_phases *phases) {
     const ps_power_question *const question = job->question;
     const double k = job->frequencies.max_frequency;
-    const double side = 2 * k + 1;
     const double number_seconds = 60e-9; /* of an array in a file */
     ps_phases_tabulate(phases, k);
     if (question->wants_full_array && !question->on_sphere) {
-        ps_phases_add(phases, "results", PS_HOST_BINARY,
-                      pow(side, job->dimension) * number_seconds);
+        ps_phases_add(phases, "results", pow(2 * k + 1, job->dimension) * number_seconds);
     }
     if (question->harmonics != PS_NO_HARMONICS) {
-        ps_phases_add(phases, "results", PS_HOST_BINARY, (k + 1) * (k + 2) / 2 * number_seconds);
+        ps_phases_add(phases, "results", (k + 1) * (k + 2) / 2 * number_seconds);
     }
     ps_phases_say(phases, "results", "tables and arrays");
 }
@@ -256,7 +250,7 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
             .seconds = chosen->seconds * repeats,
             .coordinates = ps_power_job_leaves_points(job) ? 0 : all.points * job->dimension};
         ps_phases_run(phases, chosen, limits, &load);
-        ps_phases_add(phases, "powers", PS_HOST_MEMORY, scatter_seconds(job, &all));
+        ps_phases_add(phases, "powers", scatter_seconds(job, &all));
     }
     add_averages(job, &all, phases);
     add_check(job, phases);

@@ -208,7 +208,7 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
         const ps_integrand *const integrand = job->integrands[i];
         seconds += value_points * ps_integrand_steps(integrand) * step_seconds(job, integrand);
     }
-    ps_phases_add(phases, "trials", PS_HOST_SCALAR, seconds);
+    ps_phases_add(phases, "trials", seconds);
     ps_phases_say(phases, "trials", "%.4g values of integrands, %s of memory", values,
                   ps_size_show(size, job->trial_bytes));
 }

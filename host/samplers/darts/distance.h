@@ -29,7 +29,7 @@ struct ps_distance_kind {
     /* More points than this are never at the radius from each other; SIZE_MAX for radii that are
      * refused. */
     size_t (*most_points)(const ps_blue_noise *asked);
-    double (*nanoseconds)(const ps_blue_noise *asked); /* of a point, plan/host_cost.c's machine */
+    double (*nanoseconds)(const ps_blue_noise *asked); /* of a point, plan/phases.c's machine */
     /* Are radius and tries possible? */
     pspec_status (*check)(const ps_blue_noise *asked, ps_error *error);
     /* Points [*num_points][dimension] in the order of their acceptance. */

@@ -39,10 +39,7 @@ typedef struct ps_bench_row {
 typedef struct ps_bench_options {
     const char *case_name, *engine; /* NULL: all */
     int precision;                  /* a ps_precision, or -1: all */
-    /* for ps_bench_calibrate_host: a path to pointspec itself, which is started, */
-    const char *program;
-    const char *device; /* on the device of that --device; NULL: the usual one */
-    bool quick;         /* the quick cases only, unless one is named, and shorter runs */
+    bool quick; /* the quick cases only, unless one is named, and shorter runs */
     bool (*should_stop)(void *payload);
     /* Told of the rows of a case when it is done, tightest tolerance first; and of cases done and
      * to be done. */
@@ -69,10 +66,9 @@ void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);
 pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 
-/* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written,
- * read and removed. After ps_bench_calibrate, whose kernels the driver has kept. */
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
-                                     ps_figures *figures, ps_error *error) PS_MUST_CHECK;
+/* The same of samplers against their rows; 1 where the fewest points take too long. */
+pspec_status ps_bench_calibrate_host(const ps_bench_options *options, ps_figures *figures,
+                                     ps_error *error) PS_MUST_CHECK;
 
 /* Rows of pointspec bench, kept for a picture of run time against error: a panel for every case. */
 typedef struct ps_bench_rows {

@@ -1,132 +1,86 @@
-/* How long the host's own work takes against the built-in cost model: every kind that has a probe
- * (host_probes.h). */
+/* How long samplers take on this host against their rows. */
 #include "verify/bench/bench_private.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "samplers/sampler.h"
-#include "verify/bench/host_probes.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
-/* All probes take their turn so often, and the middle of their times counts: a plan says what a job
- * usually takes here, on a machine with neighbours, too. */
+/* All samplers take their turn so often, and the middle of their times counts: a plan says what a
+ * job usually takes here, on a machine with neighbours, too. */
 enum { ROUNDS = 7 };
+
+enum { MOST_POINTS = 1 << 17 };
+
+/* A realization should not take longer, and cannot be timed well far below. */
+static const double most_seconds = 10e-3;
 
 /* What a figure may be: host/store/figures_file.c does not take others. */
 static const double least_scale = 1e-3, most_scale = 1e3;
 
-/* Seconds over predicted ones, of every round: of the probes, then of the samplers. */
-typedef double probe_scales[PS_FIGURES_HOST][ROUNDS];
-
-static double limit_scale(double scale) {
-    return fmin(fmax(scale, least_scale), most_scale);
+/* May it be, and is there room? */
+static bool fits(ps_sampler_request *request, size_t num_points) {
+    request->num_points = num_points;
+    return ps_sampler_resolve(request, NULL) == PSPEC_OK &&
+           ps_sampler_most_points(request) <= MOST_POINTS &&
+           ps_sampler_seconds(request) <= most_seconds;
 }
 
-static pspec_status measure_probe(ps_probe_data *data, const ps_probe *what, double *scale,
-                                  ps_error *error) {
-    data->unmeasured = 0;
-    const double begin = ps_clock_seconds();
-    PS_TRY(what->run(data, what, error));
-    *scale = limit_scale((ps_clock_seconds() - begin - data->unmeasured) /
-                         ps_host_seconds(NULL, what->kind, what->seconds));
-    return PSPEC_OK;
-}
-
-static pspec_status measure_sampler(ps_probe_data *data, const ps_sampler *sampler, double *scale,
-                                    ps_error *error) {
-    double predicted = 1;
-    const double begin = ps_clock_seconds();
-    PS_TRY(ps_probe_sampler(sampler, data->numbers, &predicted, error));
-    *scale = predicted > 0 ? limit_scale((ps_clock_seconds() - begin) / predicted) : 1;
-    return PSPEC_OK;
-}
-
-static pspec_status measure_round(ps_probe_data *data, const ps_bench_options *options,
-                                  probe_scales scales, size_t round, ps_error *error) {
-    size_t at = 0;
-    for (size_t i = 0; i < PS_NUM_PROBES; i++) {
-        PS_TRY(ps_bench_go_on(options, error));
-        PS_TRY(measure_probe(data, &ps_probes[i], &scales[at++][round], error));
-    }
-    for (size_t i = 0; ps_samplers[i] != NULL && at < PS_FIGURES_HOST; i++) {
-        PS_TRY(ps_bench_go_on(options, error));
-        PS_TRY(measure_sampler(data, ps_samplers[i], &scales[at++][round], error));
-    }
-    return PSPEC_OK;
-}
-
-static void keep(ps_figures *figures, const char *name, double scale) {
-    ps_host_figure *const row = ps_figures_host_row(figures, name);
-    if (row != NULL) {
-        row->scale = scale;
-    }
-}
-
-/* Of a kind that has several probes, the geometric mean of theirs. */
-static void keep_kind(ps_figures *figures, ps_host_kind kind, probe_scales scales) {
-    double logarithms = 0;
-    double num = 0;
-    for (size_t i = 0; i < PS_NUM_PROBES; i++) {
-        if (ps_probes[i].kind == kind) {
-            logarithms += log(ps_bench_median(scales[i], ROUNDS));
-            num++;
+/* Every sampler has some of the powers of two, or of three quarters of them: HEALPix has 12 nside^2
+ * points. False: it takes too long even for the fewest points. */
+static bool choose_points(ps_sampler_request *request) {
+    for (size_t num = MOST_POINTS; num > 0; num /= 2) {
+        if (fits(request, num) || fits(request, num - num / 4)) {
+            return true;
         }
     }
-    keep(figures, ps_host_kind_name(kind), exp(logarithms / num));
+    return false;
 }
 
-static pspec_status measure_all(ps_probe_data *data, const ps_bench_options *options,
-                                ps_figures *figures, ps_error *error) {
-    probe_scales scales;
-    size_t at = PS_NUM_PROBES;
+static pspec_status measure(const ps_sampler *sampler, double *room, double *scale,
+                            ps_error *error) {
+    ps_sampler_request request = {.seed = 1};
+    size_t num = 0;
+    *scale = 1;
+    PS_TRY(ps_sampler_parse(&request, sampler->name, error));
+    if (choose_points(&request)) {
+        const double begin = ps_clock_seconds();
+        PS_TRY(ps_sampler_generate(&request, 0, room, &num, NULL, error));
+        *scale = (ps_clock_seconds() - begin) / ps_sampler_seconds(&request);
+        *scale = fmin(fmax(*scale, least_scale), most_scale);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status measure_all(const ps_bench_options *options, double *room,
+                                double scales[PS_FIGURES_HOST][ROUNDS], ps_error *error) {
     for (size_t round = 0; round < ROUNDS; round++) {
         if (options->advance != NULL) {
             options->advance(options->payload, round, ROUNDS);
         }
-        PS_TRY(measure_round(data, options, scales, round, error));
-    }
-    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) {
-        keep_kind(figures, (ps_host_kind)kind, scales);
-    }
-    for (size_t i = 0; ps_samplers[i] != NULL && at < PS_FIGURES_HOST; i++) {
-        keep(figures, ps_samplers[i]->name, ps_bench_median(scales[at++], ROUNDS));
+        for (size_t i = 0; ps_samplers[i] != NULL && i < PS_FIGURES_HOST; i++) {
+            PS_TRY(ps_bench_go_on(options, error));
+            PS_TRY(measure(ps_samplers[i], room, &scales[i][round], error));
+        }
     }
     return PSPEC_OK;
 }
 
-static pspec_status prepare(ps_probe_data *data, void **memory, ps_error *error) {
-    ps_sampler_request white = {0};
-    PS_TRY(ps_allocate(memory, PS_PROBE_POINTS, 6 * sizeof(double), "points", error));
-    data->points = *memory;
-    data->numbers = data->points + (size_t)3 * PS_PROBE_POINTS;
-    PS_TRY(ps_sampler_parse(&white, "white-sphere", error));
-    white.num_points = PS_PROBE_POINTS;
-    PS_TRY(ps_sampler_resolve(&white, error));
-    return ps_sampler_generate(&white, 0, data->points, NULL, NULL, error);
-}
-
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
-                                     ps_figures *figures, ps_error *error) {
-    void *memory = NULL;
-    ps_text file = {0};
-    ps_text_append(&file, "%s/devices/probe.%ld", folder, (long)getpid());
-    ps_probe_data data = {
-        .file = ps_text_string(&file), .program = options->program, .device = options->device};
+pspec_status ps_bench_calibrate_host(const ps_bench_options *options, ps_figures *figures,
+                                     ps_error *error) {
+    double scales[PS_FIGURES_HOST][ROUNDS];
+    double *room = NULL;
     *figures = (ps_figures){.is_measured = true};
-    pspec_status status = ps_text_check(&file, error);
-    if (status == PSPEC_OK) {
-        status = prepare(&data, &memory, error);
+    PS_TRY(ps_allocate_for(&room, MOST_POINTS, 3 * sizeof *room, "points", error));
+    const pspec_status status = measure_all(options, room, scales, error);
+    free(room);
+    for (size_t i = 0; status == PSPEC_OK && ps_samplers[i] != NULL && i < PS_FIGURES_HOST; i++) {
+        ps_host_figure *const row = ps_figures_host_row(figures, ps_samplers[i]->name);
+        if (row != NULL) {
+            row->scale = ps_bench_median(scales[i], ROUNDS);
+        }
     }
-    if (status == PSPEC_OK) {
-        status = measure_all(&data, options, figures, error);
-        unlink(data.file);
-    }
-    ps_representer_destroy(&data.representer);
-    free(memory);
-    ps_text_free(&file);
     return status;
 }
