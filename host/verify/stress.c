@@ -1,6 +1,5 @@
 #include "verify/stress.h"
 
-#include "base/text.h"
 #include "plan/choose.h"
 #include "verify/stress_sample.h"
 
@@ -9,113 +8,29 @@
 #include <string.h>
 
 typedef struct run {
-    const ps_stress_options *options;
+    const ps_suite_options *options;
     ps_device *device;
     ps_stress_totals *totals;
 } run;
 
 /* ---- what is chosen ------------------------------------------------------------------------ */
 
-static bool wants_case(const ps_stress_options *options, const ps_stress_case *what) {
-    return options->case_name != NULL ? strcmp(options->case_name, what->name) == 0
-                                      : what->is_quick || !options->quick;
-}
-
-static bool wants(const ps_stress_options *options, const char *engine, int precision) {
-    return (options->engine == NULL || strcmp(options->engine, engine) == 0) &&
-           (options->precision < 0 || options->precision == precision);
-}
-
-static unsigned domain_of(const ps_stress_case *what) {
-    return what->kind == PS_STRESS_TORUS ? PS_ON_TORUS : PS_ON_SPHERE;
-}
-
 /* The referee is not tried against itself. */
-static bool may_try(const ps_stress_case *what, const ps_engine *engine, int precision) {
-    return (engine->domains & domain_of(what)) != 0 && engine->needs_device &&
-           engine->has_precision[precision];
+static bool takes(const ps_engine *engine, ps_stress_kind kind) {
+    (void)kind;
+    return engine->needs_device;
 }
 
-static bool has_row(const ps_stress_options *options, const ps_stress_case *what, bool on_device) {
-    for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
-        if (what->kind == PS_STRESS_PROBE) {
-            if (what->probe->has_precision[precision] && what->probe->needs_device == on_device &&
-                wants(options, what->probe->engine, precision)) {
-                return true;
-            }
-            continue;
-        }
-        for (const ps_engine *const *engine = ps_engines; on_device && *engine != NULL; engine++) {
-            if (may_try(what, *engine, precision) && wants(options, (*engine)->name, precision)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
+const ps_suite ps_stress_suite = {ps_stress_cases, takes, " to try"};
 
-static bool is_chosen(const ps_stress_options *options, const ps_stress_case *what) {
-    return wants_case(options, what) &&
-           (has_row(options, what, true) || has_row(options, what, false));
-}
-
-bool ps_stress_needs_device(const ps_stress_options *options) {
+bool ps_stress_needs_device(const ps_suite_options *options) {
     for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        if (wants_case(options, what) && has_row(options, what, true)) {
+        if ((what->kind != PS_STRESS_PROBE || what->probe->needs_device) &&
+            ps_suite_has_case(&ps_stress_suite, options, what)) {
             return true;
         }
     }
     return false;
-}
-
-static pspec_status check_case(const char *name, ps_error *error) {
-    const char *nearest = NULL;
-    for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        ps_text_keep_nearest(name, what->name, &nearest);
-    }
-    return strcmp(name, nearest) == 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no case \"%s\"%s", name,
-                         ps_text_suggest(name, nearest, ps_text_distance(name, nearest),
-                                         "; the nearest is ", "")
-                             .text);
-}
-
-static pspec_status check_engine(const char *name, ps_error *error) {
-    const char *nearest = NULL;
-    for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        if (what->kind == PS_STRESS_PROBE) {
-            ps_text_keep_nearest(name, what->probe->engine, &nearest);
-        }
-    }
-    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
-        if ((*engine)->needs_device) {
-            ps_text_keep_nearest(name, (*engine)->name, &nearest);
-        }
-    }
-    return strcmp(name, nearest) == 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no engine \"%s\" to try%s",
-                         name,
-                         ps_text_suggest(name, nearest, ps_text_distance(name, nearest),
-                                         "; the nearest is ", "")
-                             .text);
-}
-
-pspec_status ps_stress_check(const ps_stress_options *options, ps_error *error) {
-    if (options->case_name != NULL) {
-        PS_TRY(check_case(options->case_name, error));
-    }
-    if (options->engine != NULL) {
-        PS_TRY(check_engine(options->engine, error));
-    }
-    for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        if (is_chosen(options, what)) {
-            return PSPEC_OK;
-        }
-    }
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   "no case is left: none of those asked for has that engine and precision");
 }
 
 /* ---- rows ---------------------------------------------------------------------------------- */
@@ -198,7 +113,7 @@ static pspec_status find_obstacle(const run *self, const ps_problem *problem,
 
 static pspec_status try_engine(const run *self, ps_stress_sample *sample, const ps_engine *engine,
                                ps_precision precision, ps_error *error) {
-    const ps_stress_options *options = self->options;
+    const ps_suite_options *options = self->options;
     ps_stress_row row = {.what = sample->what,
                          .engine = engine->name,
                          .precision = precision,
@@ -224,20 +139,15 @@ static pspec_status try_engine(const run *self, ps_stress_sample *sample, const 
     return judge(self, &row, status, error);
 }
 
-static bool must_stop(const run *self) {
-    return self->options->should_stop != NULL && self->options->should_stop(self->options->payload);
-}
-
 static pspec_status run_engines(const run *self, const ps_stress_case *what, ps_error *error) {
     ps_stress_sample sample;
     PS_TRY(ps_stress_sample_create(&sample, what, error));
     pspec_status status = PSPEC_OK;
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_DOUBLE && status == PSPEC_OK; precision++) {
-            if (must_stop(self)) {
-                status = ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled");
-            } else if (may_try(what, *engine, precision) &&
-                       wants(self->options, (*engine)->name, precision)) {
+            status = ps_suite_go_on(self->options, error);
+            if (status == PSPEC_OK &&
+                ps_suite_tries(&ps_stress_suite, self->options, what, *engine, precision)) {
                 status = try_engine(self, &sample, *engine, (ps_precision)precision, error);
             }
         }
@@ -254,7 +164,8 @@ static pspec_status run_probe(const run *self, const ps_stress_case *what, ps_er
                              .precision = (ps_precision)precision,
                              .error = NAN,
                              .bound = NAN};
-        if (!probe->has_precision[precision] || !wants(self->options, probe->engine, precision)) {
+        if (!probe->has_precision[precision] ||
+            !ps_suite_wants(self->options, probe->engine, precision)) {
             continue;
         }
         if (probe->needs_device && lacks_precision(self, precision)) {
@@ -270,7 +181,8 @@ static pspec_status run_probe(const run *self, const ps_stress_case *what, ps_er
 
 /* CPUs like groups of one work-item, in which barriers do nothing; those of GPUs are tried there,
  * too. */
-static pspec_status run_case(const run *self, const ps_stress_case *what, ps_error *error) {
+static pspec_status run_case(void *payload, const ps_stress_case *what, ps_error *error) {
+    const run *const self = payload;
     if (self->device != NULL) {
         ps_device_set_group_size(self->device, what->group_size);
     }
@@ -282,32 +194,9 @@ static pspec_status run_case(const run *self, const ps_stress_case *what, ps_err
     return status;
 }
 
-static size_t count_cases(const ps_stress_options *options) {
-    size_t num = 0;
-    for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        num += is_chosen(options, what) ? 1 : 0;
-    }
-    return num;
-}
-
-pspec_status ps_stress_run(const ps_stress_options *options, ps_device *device,
+pspec_status ps_stress_run(const ps_suite_options *options, ps_device *device,
                            ps_stress_totals *totals, ps_error *error) {
-    const run self = {options, device, totals};
-    const size_t total = count_cases(options);
-    size_t done = 0;
+    run self = {options, device, totals};
     *totals = (ps_stress_totals){0};
-    for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        if (!is_chosen(options, what)) {
-            continue;
-        }
-        if (must_stop(&self)) {
-            return ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled");
-        }
-        if (options->advance != NULL) {
-            options->advance(options->payload, done, total);
-        }
-        PS_TRY(run_case(&self, what, error));
-        done++;
-    }
-    return PSPEC_OK;
+    return ps_suite_run(&ps_stress_suite, options, run_case, &self, error);
 }

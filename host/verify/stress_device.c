@@ -25,7 +25,8 @@ static pspec_status measure_chords(ps_device *device, ps_precision precision, do
     pspec_pattern pattern;
     long double truth = 0;
     double sum = 0;
-    PS_TRY(ps_vector_shape_make(ps_vector_shape_find("duplicates"), NUM, 1, &pattern, error));
+    PS_TRY(ps_stress_shape_make(ps_stress_shape_find(ps_vector_shapes, "duplicates"),
+                                PS_SPHERE_DIMENSION, NUM, 1, &pattern, error));
     const ps_batch batch = {.num_patterns = 1, .patterns = &pattern};
     pspec_status status = ps_kernel_chord_sums(device, precision, power, &batch, &sum, error);
     if (status == PSPEC_OK) {
@@ -70,7 +71,7 @@ static pspec_status make_averages(averages *self, ps_error *error) {
     PS_TRY(ps_frequencies_enumerate(&self->set, error));
     PS_TRY(PS_NEW(&self->powers, REALIZATIONS * self->set.num, "powers", error));
     for (size_t r = 0; r < REALIZATIONS; r++) {
-        PS_TRY(ps_torus_shape_make(&ps_torus_shapes[0], 2, POINTS, r, &self->patterns[r], error));
+        PS_TRY(ps_stress_shape_make(&ps_torus_shapes[0], 2, POINTS, r, &self->patterns[r], error));
         for (size_t i = 0; i < self->set.num; i++) {
             long double re = 0;
             long double im = 0;

@@ -140,7 +140,8 @@ static pspec_status measure_diagonal(ps_device *device, ps_precision precision, 
     long double truth = 0;
     double sum = 0;
     (void)device, (void)precision;
-    PS_TRY(ps_vector_shape_make(ps_vector_shape_find("duplicates"), NUM, 1, &pattern, error));
+    PS_TRY(ps_stress_shape_make(ps_stress_shape_find(ps_vector_shapes, "duplicates"),
+                                PS_SPHERE_DIMENSION, NUM, 1, &pattern, error));
     const ps_rule rule = {NUM, pattern.points, NULL};
     pspec_status status = ps_rule_distance(&rule, smoothness, NULL, &sum, error);
     if (status == PSPEC_OK) {

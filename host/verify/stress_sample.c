@@ -71,13 +71,11 @@ static void lift_above_horizon(pspec_pattern *pattern) {
 
 pspec_status ps_stress_points_make(const ps_stress_case *what, uint64_t realization,
                                    pspec_pattern *out, ps_error *error) {
-    const uint64_t seed = points_seed + realization;
-    if (what->kind == PS_STRESS_TORUS) {
-        return ps_torus_shape_make(ps_torus_shape_find(what->shape), what->dimension,
-                                   (size_t)what->num_points, seed, out, error);
-    }
-    PS_TRY(ps_vector_shape_make(ps_vector_shape_find(what->shape), (size_t)what->num_points, seed,
-                                out, error));
+    const bool on_torus = what->kind == PS_STRESS_TORUS;
+    PS_TRY(ps_stress_shape_make(
+        ps_stress_shape_find(on_torus ? ps_torus_shapes : ps_vector_shapes, what->shape),
+        on_torus ? what->dimension : PS_SPHERE_DIMENSION, (size_t)what->num_points,
+        points_seed + realization, out, error));
     if (what->is_hemisphere) {
         lift_above_horizon(out);
     }
@@ -162,27 +160,22 @@ static size_t first_order(const ps_stress_sample *self, size_t i) {
     return first;
 }
 
-static pspec_status ask_sphere(ps_stress_sample *self, size_t i) {
+/* Sums of pairs, too: one degree at a time costs much less than all pairs. */
+static pspec_status ask_degree(ps_stress_sample *self, size_t i) {
     const int32_t l = self->frequencies.vectors[self->checked[i]];
-    long double(*const out)[2] = self->harmonics + first_order(self, i);
+    long double(*const out)[2] =
+        self->harmonics != NULL ? self->harmonics + first_order(self, i) : NULL;
     ps_host_degree degree;
     PS_TRY(ps_host_degree_create(&degree, l, NULL));
     ps_host_degree_sum(&degree, &self->pattern);
-    for (int32_t m = 0; m <= l; m++) {
+    for (int32_t m = 0; out != NULL && m <= l; m++) {
         out[m][0] = ldexpl(degree.sums[m][0], -self->sums.exponent);
         out[m][1] = ldexpl(degree.sums[m][1], -self->sums.exponent);
     }
-    self->truth[i] = ldexpl(sqrtl(ps_host_degree_power(&degree)), -self->sums.exponent);
-    ps_host_degree_free(&degree);
-    return PSPEC_OK;
-}
-
-/* The host sums one degree at a time, which costs much less than all pairs. */
-static pspec_status ask_pairs_degree(ps_stress_sample *self, size_t i) {
-    ps_host_degree degree;
-    PS_TRY(ps_host_degree_create(&degree, self->frequencies.vectors[self->checked[i]], NULL));
-    ps_host_degree_sum(&degree, &self->pattern);
-    self->truth[i] = ldexpl(ps_host_degree_power(&degree), -2 * self->sums.exponent);
+    const long double power = ps_host_degree_power(&degree);
+    self->truth[i] = self->what->kind == PS_STRESS_PAIRS
+                         ? ldexpl(power, -2 * self->sums.exponent)
+                         : ldexpl(sqrtl(power), -self->sums.exponent);
     ps_host_degree_free(&degree);
     return PSPEC_OK;
 }
@@ -198,9 +191,7 @@ static void ask(void *payload, unsigned index) {
         if (sample->what->kind == PS_STRESS_TORUS) {
             ask_torus(sample, i);
         } else if (self->statuses[index] == PSPEC_OK) {
-            self->statuses[index] = sample->what->kind == PS_STRESS_PAIRS
-                                        ? ask_pairs_degree(sample, i)
-                                        : ask_sphere(sample, i);
+            self->statuses[index] = ask_degree(sample, i);
         }
     }
 }

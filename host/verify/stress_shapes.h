@@ -14,36 +14,31 @@
 /* Uniform on the multiples of 2^-53 in [0,1): the next of the sequence. */
 double ps_stress_uniform(uint64_t *state);
 
-/* Weights; `point` is its number in the set. */
-typedef double ps_stress_weight(size_t point, uint64_t *state);
+/* Of a set the point that is made, of which coordinates come axis by axis. */
+typedef struct ps_stress_spot {
+    size_t point, num_points;
+    unsigned axis;
+    uint64_t *state;
+} ps_stress_spot;
 
-/* A shape on the torus gives one coordinate after the other. */
-typedef struct ps_torus_shape {
+/* Of the torus a shape gives one coordinate after the other, of the sphere unit vectors. */
+typedef struct ps_stress_shape {
     const char *name;
-    double (*coordinate)(size_t point, size_t num_points, unsigned axis, uint64_t *state);
-    ps_stress_weight *weight; /* NULL: unit weights */
-} ps_torus_shape;
-
-/* A shape on the sphere gives unit vectors. */
-typedef struct ps_vector_shape {
-    const char *name;
-    void (*place)(size_t point, size_t num_points, uint64_t *state, double u[3]);
-    ps_stress_weight *weight; /* NULL: unit weights */
-} ps_vector_shape;
+    double (*coordinate)(const ps_stress_spot *at); /* NULL: of the sphere */
+    void (*place)(const ps_stress_spot *at, double u[3]);
+    double (*weight)(const ps_stress_spot *at); /* NULL: unit weights */
+} ps_stress_shape;
 
 /* Both ended by a row without a name. */
-extern const ps_torus_shape ps_torus_shapes[];
-extern const ps_vector_shape ps_vector_shapes[];
+extern const ps_stress_shape ps_torus_shapes[], ps_vector_shapes[];
 
 /* NULL when there is none of that name. */
-const ps_torus_shape *ps_torus_shape_find(const char *name);
-const ps_vector_shape *ps_vector_shape_find(const char *name);
+const ps_stress_shape *ps_stress_shape_find(const ps_stress_shape *shapes, const char *name);
 
-/* Points and weights are freed by ps_stress_pattern_free. */
-pspec_status ps_torus_shape_make(const ps_torus_shape *shape, unsigned dimension, size_t num_points,
-                                 uint64_t seed, pspec_pattern *out, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_vector_shape_make(const ps_vector_shape *shape, size_t num_points, uint64_t seed,
-                                  pspec_pattern *out, ps_error *error) PS_MUST_CHECK;
+/* Freed by ps_stress_pattern_free. The dimension of vectors is 3. */
+pspec_status ps_stress_shape_make(const ps_stress_shape *shape, unsigned dimension,
+                                  size_t num_points, uint64_t seed, pspec_pattern *out,
+                                  ps_error *error) PS_MUST_CHECK;
 void ps_stress_pattern_free(pspec_pattern *pattern);
 
 #endif

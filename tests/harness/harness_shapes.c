@@ -3,7 +3,7 @@
 pspec_pattern test_make_pattern(const test_shape *shape, unsigned dimension, size_t num_points,
                                 uint64_t seed) {
     pspec_pattern pattern;
-    assert_ok(ps_torus_shape_make(shape, dimension, num_points, seed, &pattern, error));
+    assert_ok(ps_stress_shape_make(shape, dimension, num_points, seed, &pattern, error));
     test_normalize_weights((double *)pattern.weights, pattern.weights != NULL ? num_points : 0);
     return pattern;
 }

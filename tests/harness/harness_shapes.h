@@ -6,7 +6,7 @@
 
 #include "verify/stress_shapes.h"
 
-typedef ps_torus_shape test_shape;
+typedef ps_stress_shape test_shape;
 
 /* The first ones of the table. */
 enum { TEST_WHITE, TEST_SIGNED_WEIGHTS = 8, TEST_WILD_WEIGHTS, TEST_SHAPES };

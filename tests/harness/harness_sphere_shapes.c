@@ -11,7 +11,7 @@
 pspec_pattern test_make_sphere_pattern(const test_sphere_shape *shape, size_t num_points,
                                        uint64_t seed) {
     pspec_pattern pattern;
-    assert_ok(ps_vector_shape_make(shape, num_points, seed, &pattern, error));
+    assert_ok(ps_stress_shape_make(shape, PS_SPHERE_DIMENSION, num_points, seed, &pattern, error));
     return pattern;
 }
 

@@ -7,7 +7,7 @@
 
 #include "verify/stress_shapes.h"
 
-typedef ps_vector_shape test_sphere_shape;
+typedef ps_stress_shape test_sphere_shape;
 
 /* The first ones of the table. */
 enum { TEST_SPHERE_WHITE, TEST_SPHERE_SHAPES = 10 };

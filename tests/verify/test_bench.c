@@ -17,41 +17,41 @@ static const double copied_bytes = 1e10;
 static void cases_make_sense(void **state) {
     (void)state;
     size_t num_quick = 0;
-    for (const ps_bench_case *one = ps_bench_cases; one->what.name != NULL; one++) {
-        const ps_stress_case *what = &one->what;
+    for (const ps_stress_case *what = ps_bench_cases; what->name != NULL; what++) {
         const bool on_torus = what->kind == PS_STRESS_TORUS;
         num_quick += what->is_quick ? 1 : 0;
         assert_null(strpbrk(what->name, " ,\"#"));
         assert_true(strlen(what->summary) > 0);
-        assert_true(one->num_realizations > 0 && what->num_points > 0 && what->reach > 0);
+        assert_true(what->num_realizations > 0 && what->num_points > 0 && what->reach > 0);
         assert_true(on_torus == (what->dimension > 0));
-        assert_true(on_torus ? ps_torus_shape_find(what->shape) != NULL
-                             : ps_vector_shape_find(what->shape) != NULL);
-        for (const ps_bench_case *other = ps_bench_cases; other != one; other++) {
-            assert_string_not_equal(other->what.name, what->name);
+        assert_non_null(
+            ps_stress_shape_find(on_torus ? ps_torus_shapes : ps_vector_shapes, what->shape));
+        for (const ps_stress_case *other = ps_bench_cases; other != what; other++) {
+            assert_string_not_equal(other->name, what->name);
         }
     }
     assert_true(num_quick > 0);
 }
 
-static void check_refused(const ps_bench_options *options, const char *part) {
+static void check_refused(const ps_suite_options *options, const char *part) {
     ps_error said = {0};
-    assert_int_equal(ps_bench_check(options, &said), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_suite_check(&ps_bench_suite, options, &said), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(said.message, part));
 }
 
 static void names_that_are_wrong(void **state) {
     (void)state;
-    check_refused(&(ps_bench_options){.case_name = "spher", .precision = -1}, "nearest is sphere");
-    check_refused(&(ps_bench_options){.engine = "torus_direkt", .precision = -1},
+    check_refused(&(ps_suite_options){.case_name = "spher", .precision = -1}, "nearest is sphere");
+    check_refused(&(ps_suite_options){.engine = "torus_direkt", .precision = -1},
                   "nearest is torus_direct");
-    check_refused(&(ps_bench_options){.engine = "torus_direct", .precision = PS_EXTENDED},
+    check_refused(&(ps_suite_options){.engine = "torus_direct", .precision = PS_EXTENDED},
                   "no case is left");
     check_refused(
-        &(ps_bench_options){.case_name = "sphere", .engine = "pairs_direct", .precision = -1},
+        &(ps_suite_options){.case_name = "sphere", .engine = "pairs_direct", .precision = -1},
         "no case is left");
-    assert_ok(ps_bench_check(
-        &(ps_bench_options){.case_name = "pairs", .engine = "pairs_direct", .precision = -1},
+    assert_ok(ps_suite_check(
+        &ps_bench_suite,
+        &(ps_suite_options){.case_name = "pairs", .engine = "pairs_direct", .precision = -1},
         error));
 }
 
@@ -59,10 +59,10 @@ static void names_that_are_wrong(void **state) {
 
 static void front_of_known_rows(void **state) {
     (void)state;
-    const ps_bench_case *const a = &ps_bench_cases[0];
-    const ps_bench_case *const b = &ps_bench_cases[1];
+    const ps_stress_case *const a = &ps_bench_cases[0];
+    const ps_stress_case *const b = &ps_bench_cases[1];
     const struct {
-        const ps_bench_case *what;
+        const ps_stress_case *what;
         double seconds, error;
         bool is_pareto;
     } known[] = {
@@ -108,12 +108,12 @@ static bool ask_to_stop(void *payload) {
     return collected->stops;
 }
 
-static ps_bench_options quick_options(const char *name, collection *collected) {
-    return (ps_bench_options){.case_name = name,
+static ps_suite_options quick_options(const char *name, collection *collected) {
+    return (ps_suite_options){.case_name = name,
                               .precision = -1,
                               .quick = true,
                               .should_stop = ask_to_stop,
-                              .report = collect,
+                              .report_rows = collect,
                               .payload = collected};
 }
 
@@ -142,7 +142,7 @@ static bool is_beaten(const collection *collected, const ps_bench_row *row) {
 static void check_row(const collection *collected, const ps_bench_row *row) {
     const double bytes = row->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
     const double least = 256 * 2 * sizeof(double) + 32 * 66 * bytes; /* points, half lattice */
-    assert_string_equal(row->what->what.name, "plane-many");
+    assert_string_equal(row->what->name, "plane-many");
     assert_true(isfinite(row->seconds) && row->seconds > 0);
     assert_true(isfinite(row->predicted_seconds) && row->predicted_seconds > 0);
     assert_true(row->error >= 0 && row->error <= row->tolerance); /* the contract */
@@ -161,7 +161,7 @@ static void rows_of_a_case(void **state) {
     (void)state;
     const bool has_fp64 = ps_device_get_limits(device)->has_fp64;
     collection collected = {0};
-    const ps_bench_options options = quick_options("plane-many", &collected);
+    const ps_suite_options options = quick_options("plane-many", &collected);
     assert_ok(ps_bench_run(&options, device, copied_bytes, error));
     assert_int_equal(collected.num_reports, 1);
     for (size_t i = 0; i < collected.num; i++) {
@@ -177,7 +177,7 @@ static void rows_of_a_case(void **state) {
 static void choice_of_rows(void **state) {
     (void)state;
     collection collected = {0};
-    ps_bench_options options = quick_options("pairs", &collected);
+    ps_suite_options options = quick_options("pairs", &collected);
     options.engine = "pairs_direct";
     options.precision = PS_SINGLE;
     assert_ok(ps_bench_run(&options, device, copied_bytes, error));
@@ -190,7 +190,7 @@ static void choice_of_rows(void **state) {
 static void stops_when_asked(void **state) {
     (void)state;
     collection collected = {.stops = true};
-    const ps_bench_options options = quick_options("plane-many", &collected);
+    const ps_suite_options options = quick_options("plane-many", &collected);
     ps_error said = {0};
     assert_int_equal(ps_bench_run(&options, device, copied_bytes, &said), PSPEC_ERROR_CANCELLED);
     assert_int_equal(collected.num_reports, 0);
@@ -204,7 +204,7 @@ static void calibration(void **state) {
     (void)state;
     const bool has_fp64 = ps_device_get_limits(device)->has_fp64;
     collection collected = {0};
-    const ps_bench_options options = quick_options("list", &collected);
+    const ps_suite_options options = quick_options("list", &collected);
     ps_figures figures;
     ps_figures absurd = {.is_measured = true};
     ps_figures_row(&absurd, "torus_direct")->scales[PS_SINGLE] = 1e3;

@@ -49,8 +49,8 @@ static void rows_make_sense(void **state) {
         }
         assert_true(what->num_points > 0 && what->reach > 0);
         assert_true(on_torus == (what->dimension > 0));
-        assert_true(on_torus ? ps_torus_shape_find(what->shape) != NULL
-                             : ps_vector_shape_find(what->shape) != NULL);
+        assert_non_null(
+            ps_stress_shape_find(on_torus ? ps_torus_shapes : ps_vector_shapes, what->shape));
     }
 }
 
@@ -58,26 +58,27 @@ static void every_engine_is_tried(void **state) {
     (void)state;
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
-            const ps_stress_options options = {.engine = (*engine)->name, .precision = precision};
+            const ps_suite_options options = {.engine = (*engine)->name, .precision = precision};
             if ((*engine)->needs_device && (*engine)->has_precision[precision]) {
-                assert_ok(ps_stress_check(&options, error));
+                assert_ok(ps_suite_check(&ps_stress_suite, &options, error));
                 assert_true(ps_stress_needs_device(&options));
             }
         }
     }
 }
 
-static void check_refused(const ps_stress_options *options, const char *part) {
+static void check_refused(const ps_suite_options *options, const char *part) {
     ps_error error = {0};
-    assert_int_equal(ps_stress_check(options, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_suite_check(&ps_stress_suite, options, &error),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(error.message, part));
 }
 
 static void names_that_are_wrong(void **state) {
     (void)state;
-    check_refused(&(ps_stress_options){.case_name = "pole", .precision = -1}, "nearest is poles");
-    check_refused(&(ps_stress_options){.engine = "hast", .precision = -1}, "nearest is host");
-    check_refused(&(ps_stress_options){.engine = "host", .precision = PS_EXTENDED}, "no case");
+    check_refused(&(ps_suite_options){.case_name = "pole", .precision = -1}, "nearest is poles");
+    check_refused(&(ps_suite_options){.engine = "hast", .precision = -1}, "nearest is host");
+    check_refused(&(ps_suite_options){.engine = "host", .precision = PS_EXTENDED}, "no case");
 }
 
 /* ---- verdicts ------------------------------------------------------------------------------ */
@@ -105,11 +106,11 @@ static void host_needs_no_device(void **state) {
     (void)state;
     seen what = {.stop_after = SIZE_MAX, .all_passed = true};
     ps_stress_totals totals;
-    const ps_stress_options options = {.engine = "host",
-                                       .precision = -1,
-                                       .should_stop = is_enough,
-                                       .report = look,
-                                       .payload = &what};
+    const ps_suite_options options = {.engine = "host",
+                                      .precision = -1,
+                                      .should_stop = is_enough,
+                                      .report = look,
+                                      .payload = &what};
     assert_false(ps_stress_needs_device(&options));
     assert_ok(ps_stress_run(&options, NULL, &totals, error));
     assert_true(what.all_passed && what.num_rows >= 5);
@@ -122,11 +123,11 @@ static void stops_between_cases(void **state) {
     ps_error failure = {0};
     seen what = {.stop_after = 2, .all_passed = true};
     ps_stress_totals totals;
-    const ps_stress_options options = {.engine = "host",
-                                       .precision = -1,
-                                       .should_stop = is_enough,
-                                       .report = look,
-                                       .payload = &what};
+    const ps_suite_options options = {.engine = "host",
+                                      .precision = -1,
+                                      .should_stop = is_enough,
+                                      .report = look,
+                                      .payload = &what};
     assert_int_equal(ps_stress_run(&options, NULL, &totals, &failure), PSPEC_ERROR_CANCELLED);
     assert_int_equal(what.num_rows, 2);
 }
@@ -200,7 +201,8 @@ static void referee_is_compensated(void **state) {
     pspec_pattern forward;
     const int32_t k = 1;
     long double sums[2][2];
-    assert_ok(ps_torus_shape_make(ps_torus_shape_find("sorted"), 1, NUM, 7, &forward, error));
+    assert_ok(ps_stress_shape_make(ps_stress_shape_find(ps_torus_shapes, "sorted"), 1, NUM, 7,
+                                   &forward, error));
     double *reversed = calloc(NUM, sizeof(double));
     for (size_t j = 0; j < NUM; j++) {
         reversed[j] = forward.points[NUM - 1 - j];

@@ -30,12 +30,12 @@ static ps_cell number_of(double value) {
 }
 
 static pspec_status add_row(ps_table *table, const ps_bench_row *row, ps_error *error) {
-    const ps_cell cells[] = {PS_TEXT(row->what->what.name),
+    const ps_cell cells[] = {PS_TEXT(row->what->name),
                              PS_TEXT(row->engine->name),
                              PS_NUMBER(row->tolerance),
                              PS_NUMBER(row->seconds),
                              PS_NUMBER(row->error),
-                             PS_NUMBER((double)row->what->what.num_points / row->seconds),
+                             PS_NUMBER((double)row->what->num_points / row->seconds),
                              number_of(row->fraction_of_peak),
                              PS_TEXT(ps_precision_name(row->precision)),
                              number_of(row->fraction_of_bandwidth),
@@ -149,7 +149,7 @@ static pspec_status make_table(answer *shown, ps_table_format format, const char
     return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
 }
 
-static pspec_status run_cases(answer *shown, const ps_bench_options *options,
+static pspec_status run_cases(answer *shown, const ps_suite_options *options,
                               ps_table_format format, const char *path, ps_error *error) {
     const ps_request *arguments = shown->arguments;
     PS_TRY(ps_device_peaks_measure(shown->device, &shown->peaks, error));
@@ -216,7 +216,7 @@ static void say_date(ps_figures *figures) {
 }
 
 /* Measures, keeps, and shows what was kept. */
-static pspec_status calibrate(answer *shown, const ps_bench_options *options,
+static pspec_status calibrate(answer *shown, const ps_suite_options *options,
                               ps_table_format format, const char *path, ps_error *error) {
     const char *const folder = shown->arguments->limits.cache_folder;
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
@@ -254,7 +254,7 @@ static pspec_status check_calibration(const ps_request *arguments, ps_error *err
                          "there is no folder to keep the figures in: set POINTSPEC_CACHE_DIR");
 }
 
-static pspec_status check_words(const ps_request *arguments, const ps_bench_options *options,
+static pspec_status check_words(const ps_request *arguments, const ps_suite_options *options,
                                 const ps_answer_hooks *hooks, ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -265,7 +265,7 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));
     }
-    return ps_bench_check(options, error);
+    return ps_suite_check(&ps_bench_suite, options, error);
 }
 
 /* The table is there also when answers differ. */
@@ -299,12 +299,12 @@ static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_an
     }
     const char *const path = arguments->output;
     answer shown = {.arguments = arguments, .hooks = hooks};
-    const ps_bench_options options = {.case_name = arguments->case_name,
+    const ps_suite_options options = {.case_name = arguments->case_name,
                                       .engine = arguments->limits.constraints.engine,
                                       .precision = arguments->limits.constraints.precision,
                                       .quick = arguments->quick,
                                       .should_stop = should_stop,
-                                      .report = report,
+                                      .report_rows = report,
                                       .advance = advance,
                                       .payload = &shown};
     ps_table_format format = PS_FORMAT_CSV;

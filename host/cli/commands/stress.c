@@ -101,13 +101,13 @@ static pspec_status conclude(const ps_stress_totals *totals, ps_error *error) {
                    is_refused ? first->reason : "the device or its driver computes wrongly");
 }
 
-static pspec_status check_words(const ps_request *arguments, const ps_stress_options *options,
+static pspec_status check_words(const ps_request *arguments, const ps_suite_options *options,
                                 ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
                        arguments->files[0]);
     }
-    return ps_stress_check(options, error);
+    return ps_suite_check(&ps_stress_suite, options, error);
 }
 
 static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_answer_hooks *hooks,
@@ -115,14 +115,14 @@ static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_an
     (void)out, (void)hooks;
     const char *const path = arguments->output;
     answer shown = {.arguments = arguments};
-    const ps_stress_options options = {.case_name = arguments->case_name,
-                                       .engine = arguments->limits.constraints.engine,
-                                       .precision = arguments->limits.constraints.precision,
-                                       .quick = arguments->quick,
-                                       .should_stop = should_stop,
-                                       .report = report,
-                                       .advance = advance,
-                                       .payload = &shown};
+    const ps_suite_options options = {.case_name = arguments->case_name,
+                                      .engine = arguments->limits.constraints.engine,
+                                      .precision = arguments->limits.constraints.precision,
+                                      .quick = arguments->quick,
+                                      .should_stop = should_stop,
+                                      .report = report,
+                                      .advance = advance,
+                                      .payload = &shown};
     ps_table_format format = PS_FORMAT_CSV;
     ps_stress_totals totals;
     pspec_status status = PSPEC_OK;

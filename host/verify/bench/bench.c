@@ -1,119 +1,32 @@
 #include "verify/bench/bench_private.h"
 
 #include "base/memory.h"
-#include "base/text.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* From tight to loose: what a looser one computes just as well is left out. */
 static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2};
 enum { NUM_TOLERANCES = sizeof tolerances / sizeof tolerances[0] };
+
+/* Of a calibration, in the middle of what engines of each precision are asked for. The referee has
+ * none. */
+static const double usual_tolerances[PS_FIGURES_PRECISIONS] = {1e-4, 1e-10, 1};
+
+/* What a factor may be: host/store/figures_file.c does not take others. */
+static const double least_scale = 1e-3, most_scale = 1e3;
 
 /* Where a batch of the cases would not fill a GPU. */
 enum { GPU_REALIZATIONS = 16 };
 
 enum { MOST_ROWS = NUM_TOLERANCES * PS_MAX_CANDIDATES };
 
-/* ---- what is chosen ------------------------------------------------------------------------ */
-
-bool ps_bench_wants_case(const ps_bench_options *options, const ps_bench_case *what) {
-    return options->case_name != NULL ? strcmp(options->case_name, what->what.name) == 0
-                                      : what->what.is_quick || !options->quick;
-}
-
-static unsigned domain_of(const ps_bench_case *what) {
-    return what->what.kind == PS_STRESS_TORUS ? PS_ON_TORUS : PS_ON_SPHERE;
-}
-
-static bool wants_engine(const ps_bench_options *options, const ps_engine *engine, int precision) {
-    return (options->engine == NULL || strcmp(options->engine, engine->name) == 0) &&
-           (options->precision < 0 || options->precision == precision);
-}
-
-bool ps_bench_wants(const ps_bench_options *options, const ps_candidate *candidate) {
-    return wants_engine(options, candidate->engine, (int)candidate->precision);
-}
-
-static pspec_status check_names(const ps_bench_options *options, ps_error *error) {
-    const char *nearest = NULL;
-    for (const ps_bench_case *what = ps_bench_cases;
-         options->case_name != NULL && what->what.name != NULL; what++) {
-        ps_text_keep_nearest(options->case_name, what->what.name, &nearest);
-    }
-    if (nearest != NULL && strcmp(options->case_name, nearest) != 0) {
-        return ps_fail(
-            error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no case \"%s\"%s", options->case_name,
-            ps_text_suggest(options->case_name, nearest,
-                            ps_text_distance(options->case_name, nearest), "; the nearest is ", "")
-                .text);
-    }
-    nearest = NULL;
-    for (const ps_engine *const *engine = ps_engines; options->engine != NULL && *engine != NULL;
-         engine++) {
-        ps_text_keep_nearest(options->engine, (*engine)->name, &nearest);
-    }
-    if (nearest != NULL && strcmp(options->engine, nearest) != 0) {
-        return ps_fail(
-            error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no engine \"%s\"%s", options->engine,
-            ps_text_suggest(options->engine, nearest, ps_text_distance(options->engine, nearest),
-                            "; the nearest is ", "")
-                .text);
-    }
-    return PSPEC_OK;
-}
-
 /* Engines that sum over pairs have no other cases. */
-static bool may_try(const ps_bench_case *what, const ps_engine *engine) {
-    return (engine->domains & domain_of(what)) != 0 &&
-           (!engine->sums_pairs || what->what.kind == PS_STRESS_PAIRS);
+static bool takes(const ps_engine *engine, ps_stress_kind kind) {
+    return !engine->sums_pairs || kind == PS_STRESS_PAIRS;
 }
 
-static bool is_chosen(const ps_bench_options *options, const ps_bench_case *what) {
-    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
-        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
-            if (may_try(what, *engine) && (*engine)->has_precision[precision] &&
-                wants_engine(options, *engine, precision)) {
-                return ps_bench_wants_case(options, what);
-            }
-        }
-    }
-    return false;
-}
-
-static size_t count_cases(const ps_bench_options *options) {
-    size_t num = 0;
-    for (const ps_bench_case *what = ps_bench_cases; what->what.name != NULL; what++) {
-        num += is_chosen(options, what) ? 1 : 0;
-    }
-    return num;
-}
-
-pspec_status ps_bench_check(const ps_bench_options *options, ps_error *error) {
-    PS_TRY(check_names(options, error));
-    return count_cases(options) > 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "no case is left: none of those asked for has that engine and precision");
-}
-
-pspec_status ps_bench_go_on(const ps_bench_options *options, ps_error *error) {
-    return options->should_stop != NULL && options->should_stop(options->payload)
-               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")
-               : PSPEC_OK;
-}
-
-ps_problem ps_bench_problem(const ps_bench_case *what, const ps_stress_sample *sample,
-                            const ps_device_limits *limits) {
-    const bool is_pairs = what->what.kind == PS_STRESS_PAIRS;
-    const uint64_t times = limits->has_dedicated_local_memory ? GPU_REALIZATIONS : 1;
-    return (ps_problem){.frequencies = &sample->frequencies,
-                        .num_points = what->what.num_points,
-                        .planned_points = what->what.num_points,
-                        .num_realizations = what->num_realizations * times,
-                        .measure = is_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES};
-}
+const ps_suite ps_bench_suite = {ps_bench_cases, takes, ""};
 
 /* ---- a case -------------------------------------------------------------------------------- */
 
@@ -127,17 +40,33 @@ typedef struct planned {
 } planned;
 
 typedef struct bench {
-    const ps_bench_options *options;
+    const ps_suite_options *options;
     ps_device *device;
+    ps_device_limits limits; /* that are planned with */
     double copied_bytes;
-    ps_peak peaks[2]; /* measured anew beside every round of a row */
-    const ps_bench_case *what;
+    ps_peak peaks[2];    /* measured anew beside every round of a row */
+    ps_figures *figures; /* that are measured: a calibration, without peaks and errors; else NULL */
+    /* of all cases so far, of seconds over predicted ones */
+    double logarithms[PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS];
+    unsigned counts[PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS];
+    const ps_stress_case *what;
     ps_stress_sample sample;
     ps_bench_sets sets;
     size_t num_rows;
     ps_bench_row rows[MOST_ROWS];
     planned planned[MOST_ROWS];
 } bench;
+
+/* What a user would ask: all realizations of the case. The tolerance is the caller's. */
+static ps_problem problem_of(const bench *self) {
+    const bool is_pairs = self->what->kind == PS_STRESS_PAIRS;
+    const uint64_t times = self->limits.has_dedicated_local_memory ? GPU_REALIZATIONS : 1;
+    return (ps_problem){.frequencies = &self->sample.frequencies,
+                        .num_points = self->what->num_points,
+                        .planned_points = self->what->num_points,
+                        .num_realizations = self->what->num_realizations * times,
+                        .measure = is_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES};
+}
 
 /* Points read and powers written, once each. */
 static double least_bytes(const ps_problem *problem, ps_precision precision) {
@@ -152,10 +81,10 @@ static pspec_status measure_round(bench *self, planned *row, ps_error *error) {
     const ps_candidate *candidate = &row->candidate;
     const size_t before = row->time.num;
     double peak = 0;
-    PS_TRY(ps_bench_go_on(self->options, error));
+    PS_TRY(ps_suite_go_on(self->options, error));
     PS_TRY(ps_bench_measure_round(&self->sets, &row->problem, candidate, self->device,
                                   self->options, &row->time, error));
-    if (candidate->engine->needs_device) {
+    if (candidate->engine->needs_device && self->figures == NULL) {
         PS_TRY(ps_peak_run(&self->peaks[candidate->precision], &peak, error));
         const double seconds = ps_bench_median(row->time.seconds + before, row->time.num - before);
         row->shares[row->num_shares++] = row->time.flops / seconds / peak;
@@ -166,23 +95,26 @@ static pspec_status measure_round(bench *self, planned *row, ps_error *error) {
 static pspec_status finish_row(bench *self, planned *plan, ps_bench_row *row, ps_error *error) {
     const ps_problem *problem = &plan->problem;
     const ps_candidate *candidate = &plan->candidate;
-    const bool on_device = candidate->engine->needs_device;
     double bound = 0;
-    *row = (ps_bench_row){
-        .what = self->what,
-        .engine = candidate->engine,
-        .precision = candidate->precision,
-        .tolerance = problem->tolerance,
-        .seconds = ps_bench_median(plan->time.seconds, plan->time.num),
-        .predicted_seconds = candidate->seconds / (double)problem->num_realizations,
-        .predicted_error = candidate->error,
-        .fraction_of_peak =
-            on_device ? ps_bench_median(plan->shares, plan->num_shares) : (double)NAN};
-    row->fraction_of_bandwidth =
-        on_device ? least_bytes(problem, row->precision) / row->seconds / self->copied_bytes
-                  : (double)NAN;
-    return ps_stress_measure(&self->sample, problem, row->engine, row->precision, self->device,
-                             &row->error, &bound, error);
+    *row =
+        (ps_bench_row){.what = self->what,
+                       .engine = candidate->engine,
+                       .precision = candidate->precision,
+                       .tolerance = problem->tolerance,
+                       .seconds = ps_bench_median(plan->time.seconds, plan->time.num),
+                       .predicted_seconds = candidate->seconds / (double)problem->num_realizations,
+                       .predicted_error = candidate->error,
+                       .fraction_of_peak = NAN,
+                       .fraction_of_bandwidth = NAN};
+    if (plan->num_shares > 0) {
+        row->fraction_of_peak = ps_bench_median(plan->shares, plan->num_shares);
+        row->fraction_of_bandwidth =
+            least_bytes(problem, row->precision) / row->seconds / self->copied_bytes;
+    }
+    return self->figures != NULL
+               ? PSPEC_OK
+               : ps_stress_measure(&self->sample, problem, row->engine, row->precision,
+                                   self->device, &row->error, &bound, error);
 }
 
 /* A tighter tolerance has led to the same. */
@@ -197,16 +129,16 @@ static bool is_planned(const bench *self, const ps_candidate *candidate) {
     return false;
 }
 
-static pspec_status plan_tolerance(bench *self, double tolerance, ps_error *error) {
-    const ps_device_limits *limits = ps_device_get_limits(self->device);
-    const ps_plan_constraints anything = {.precision = -1};
-    ps_problem problem = ps_bench_problem(self->what, &self->sample, limits);
+static pspec_status plan_tolerance(bench *self, double tolerance, int precision, ps_error *error) {
+    const ps_plan_constraints constraints = {.precision = precision};
+    ps_problem problem = problem_of(self);
     ps_plan plan;
     problem.tolerance = tolerance;
-    PS_TRY(ps_plan_make(&plan, &problem, limits, &anything, error));
+    PS_TRY(ps_plan_make(&plan, &problem, &self->limits, &constraints, error));
     for (size_t i = 0; i < plan.num_candidates; i++) {
         const ps_candidate *candidate = &plan.candidates[i];
-        if (candidate->is_feasible && ps_bench_wants(self->options, candidate) &&
+        if (candidate->is_feasible &&
+            ps_suite_wants(self->options, candidate->engine->name, (int)candidate->precision) &&
             !is_planned(self, candidate) &&
             ps_bench_is_affordable(self->options, candidate, &problem)) {
             self->planned[self->num_rows++] =
@@ -216,29 +148,68 @@ static pspec_status plan_tolerance(bench *self, double tolerance, ps_error *erro
     return PSPEC_OK;
 }
 
+static pspec_status plan_rows(bench *self, ps_error *error) {
+    const bool calibrates = self->figures != NULL;
+    const int num = calibrates ? PS_FIGURES_PRECISIONS : NUM_TOLERANCES;
+    self->num_rows = 0;
+    for (int i = 0; i < num; i++) {
+        PS_TRY(plan_tolerance(self, calibrates ? usual_tolerances[i] : tolerances[i],
+                              calibrates ? i : -1, error));
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status measure_rows(bench *self, ps_error *error) {
-    const ps_bench_options *options = self->options;
+    const ps_suite_options *options = self->options;
     for (size_t round = 0; round < ps_bench_num_rounds(options); round++) {
         for (size_t i = 0; i < self->num_rows; i++) {
             PS_TRY(measure_round(self, &self->planned[i], error));
         }
     }
-    PS_TRY(ps_stress_sample_judge(&self->sample, options->should_stop, options->payload, error));
+    if (self->figures == NULL) {
+        PS_TRY(
+            ps_stress_sample_judge(&self->sample, options->should_stop, options->payload, error));
+    }
     for (size_t i = 0; i < self->num_rows; i++) {
         PS_TRY(finish_row(self, &self->planned[i], &self->rows[i], error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status run_case(bench *self, ps_error *error) {
-    const ps_device_limits *limits = ps_device_get_limits(self->device);
-    self->num_rows = 0;
-    PS_TRY(ps_stress_sample_create(&self->sample, &self->what->what, error));
-    pspec_status status = ps_bench_sets_create(
-        &self->sets, self->what,
-        ps_bench_problem(self->what, &self->sample, limits).num_realizations, error);
-    for (size_t i = 0; i < NUM_TOLERANCES && status == PSPEC_OK; i++) {
-        status = plan_tolerance(self, tolerances[i], error);
+static pspec_status add_ratios(bench *self, ps_error *error) {
+    for (size_t i = 0; i < self->num_rows; i++) {
+        const ps_bench_row *const row = &self->rows[i];
+        const ps_engine_figure *const figure = ps_figures_row(self->figures, row->engine->name);
+        if (figure == NULL) {
+            return ps_fail(error, PSPEC_ERROR_DEVICE, "there are more than %d engines",
+                           (int)PS_FIGURES_ENGINES);
+        }
+        const size_t at = (size_t)(figure - self->figures->engines);
+        self->logarithms[at][row->precision] += log(row->seconds / row->predicted_seconds);
+        self->counts[at][row->precision]++;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status tell_rows(bench *self, ps_error *error) {
+    if (self->figures != NULL) {
+        return add_ratios(self, error);
+    }
+    ps_bench_mark_pareto(self->rows, self->num_rows);
+    return self->options->report_rows != NULL
+               ? self->options->report_rows(self->options->payload, self->rows, self->num_rows,
+                                            error)
+               : PSPEC_OK;
+}
+
+static pspec_status run_case(void *payload, const ps_stress_case *what, ps_error *error) {
+    bench *const self = payload;
+    self->what = what;
+    PS_TRY(ps_stress_sample_create(&self->sample, what, error));
+    pspec_status status =
+        ps_bench_sets_create(&self->sets, what, problem_of(self).num_realizations, error);
+    if (status == PSPEC_OK) {
+        status = plan_rows(self, error);
     }
     if (status == PSPEC_OK) {
         status = measure_rows(self, error);
@@ -246,10 +217,7 @@ static pspec_status run_case(bench *self, ps_error *error) {
     ps_bench_sets_free(&self->sets);
     ps_stress_sample_free(&self->sample);
     PS_TRY(status);
-    ps_bench_mark_pareto(self->rows, self->num_rows);
-    return self->options->report != NULL
-               ? self->options->report(self->options->payload, self->rows, self->num_rows, error)
-               : PSPEC_OK;
+    return tell_rows(self, error);
 }
 
 /* ---- all of them --------------------------------------------------------------------------- */
@@ -268,37 +236,59 @@ void ps_bench_mark_pareto(ps_bench_row *rows, size_t num) {
     }
 }
 
-static pspec_status run_cases(bench *self, ps_error *error) {
-    const ps_bench_options *options = self->options;
-    const size_t total = count_cases(options);
-    size_t done = 0;
-    for (self->what = ps_bench_cases; self->what->what.name != NULL; self->what++) {
-        if (!is_chosen(options, self->what)) {
-            continue;
-        }
-        if (options->advance != NULL) {
-            options->advance(options->payload, done, total);
-        }
-        PS_TRY(run_case(self, error));
-        done++;
-    }
-    return PSPEC_OK;
-}
-
-pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, double copied_bytes,
+pspec_status ps_bench_run(const ps_suite_options *options, ps_device *device, double copied_bytes,
                           ps_error *error) {
     bench *self = NULL;
     PS_TRY(PS_NEW(&self, 1, "a benchmark", error));
-    *self = (bench){.options = options, .device = device, .copied_bytes = copied_bytes};
+    *self = (bench){.options = options,
+                    .device = device,
+                    .limits = *ps_device_get_limits(device),
+                    .copied_bytes = copied_bytes};
     pspec_status status = ps_peak_create(&self->peaks[PS_SINGLE], device, PS_SINGLE, error);
-    if (status == PSPEC_OK && ps_device_get_limits(device)->has_fp64) {
+    if (status == PSPEC_OK && self->limits.has_fp64) {
         status = ps_peak_create(&self->peaks[PS_DOUBLE], device, PS_DOUBLE, error);
     }
     if (status == PSPEC_OK) {
-        status = run_cases(self, error);
+        status = ps_suite_run(&ps_bench_suite, options, run_case, self, error);
     }
     ps_peak_destroy(&self->peaks[PS_SINGLE]);
     ps_peak_destroy(&self->peaks[PS_DOUBLE]);
+    free(self);
+    return status;
+}
+
+/* ---- calibration --------------------------------------------------------------------------- */
+
+static void take_means(bench *self) {
+    for (size_t i = 0; i < self->figures->num_engines; i++) {
+        for (size_t p = 0; p < PS_FIGURES_PRECISIONS; p++) {
+            const double mean = exp(self->logarithms[i][p] / self->counts[i][p]);
+            self->figures->engines[i].scales[p] =
+                self->counts[i][p] > 0 ? fmin(fmax(mean, least_scale), most_scale) : 0;
+        }
+    }
+}
+
+pspec_status ps_bench_calibrate(const ps_suite_options *options, ps_device *device,
+                                ps_figures *figures, ps_error *error) {
+    ps_device_peaks peaks;
+    bench *self = NULL;
+    PS_TRY(ps_device_peaks_measure(device, &peaks, error));
+    *figures = (ps_figures){.is_measured = true,
+                            .flops = {peaks.flops[PS_SINGLE], peaks.flops[PS_DOUBLE]},
+                            .copied_bytes = peaks.copied_bytes,
+                            .sent_bytes = peaks.sent_bytes,
+                            .launches = peaks.launches};
+    PS_TRY(PS_NEW(&self, 1, "a calibration", error));
+    *self = (bench){.options = options,
+                    .device = device,
+                    .limits = *ps_device_get_limits(device),
+                    .figures = figures};
+    self->limits.figures = figures; /* launches, and no engine yet: the built-in model */
+    const pspec_status status = ps_suite_run(&ps_bench_suite, options, run_case, self, error);
+    if (status == PSPEC_OK) {
+        take_means(self);
+    }
     free(self);
     return status;
 }

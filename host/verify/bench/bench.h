@@ -14,16 +14,12 @@
 #include "verify/bench/device_peaks.h"
 #include "verify/stress.h"
 
-typedef struct ps_bench_case {
-    ps_stress_case what;       /* points, frequencies, and how many of them are checked */
-    uint64_t num_realizations; /* of the job that is planned; times GPU_REALIZATIONS on a GPU */
-} ps_bench_case;
-
-/* Ended by a row without a name. what.is_quick: one of those of --quick. */
-extern const ps_bench_case ps_bench_cases[];
+/* num_checked of a case are the frequencies that its errors are of; on a GPU its realizations are
+ * GPU_REALIZATIONS times as many. */
+extern const ps_suite ps_bench_suite;
 
 typedef struct ps_bench_row {
-    const ps_bench_case *what;
+    const ps_stress_case *what;
     const ps_engine *engine;
     ps_precision precision;
     double tolerance; /* the tightest of those tried that leads to this computation */
@@ -36,38 +32,22 @@ typedef struct ps_bench_row {
     bool is_pareto; /* no other row of the case is as fast and as exact */
 } ps_bench_row;
 
-typedef struct ps_bench_options {
-    const char *case_name, *engine; /* NULL: all */
-    int precision;                  /* a ps_precision, or -1: all */
-    bool quick; /* the quick cases only, unless one is named, and shorter runs */
-    bool (*should_stop)(void *payload);
-    /* Told of the rows of a case when it is done, tightest tolerance first; and of cases done and
-     * to be done. */
-    pspec_status (*report)(void *payload, const ps_bench_row *rows, size_t num, ps_error *error);
-    void (*advance)(void *payload, size_t done, size_t total);
-    void *payload;
-} ps_bench_options;
-
-/* Names a case and an engine that tries one of those left, or PSPEC_ERROR_INVALID_ARGUMENT with the
- * nearest. */
-pspec_status ps_bench_check(const ps_bench_options *options, ps_error *error) PS_MUST_CHECK;
-
 /* copied_bytes per second is what fractions of bandwidth are of. */
-pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, double copied_bytes,
+pspec_status ps_bench_run(const ps_suite_options *options, ps_device *device, double copied_bytes,
                           ps_error *error) PS_MUST_CHECK;
 
 /* Marks the rows that no other one of the same case is at once no slower and no less exact than,
  * and better in one of both. */
 void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);
 
-/* Peaks of the device, and how long every engine takes against the built-in cost model: the best
- * run of each case, as nothing but disturbance makes runs slower, and the geometric mean over the
- * cases; options.engine and .precision are not looked at. figures->date is left to the caller. */
-pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
+/* Peaks of the device, and how long every engine takes against the built-in cost model: the middle
+ * of the runs of each case, and the geometric mean over the cases. figures->date is left to the
+ * caller. */
+pspec_status ps_bench_calibrate(const ps_suite_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 
 /* The same of samplers against their rows; 1 where the fewest points take too long. */
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, ps_figures *figures,
+pspec_status ps_bench_calibrate_host(const ps_suite_options *options, ps_figures *figures,
                                      ps_error *error) PS_MUST_CHECK;
 
 /* Rows of pointspec bench, kept for a picture of run time against error: a panel for every case. */

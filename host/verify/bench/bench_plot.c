@@ -105,7 +105,7 @@ static pspec_status make_panel(ps_panel *plot, ps_pool *memory, const ps_bench_r
     qsort(sorted, num, sizeof *sorted, compare_seconds);
     out->series[0] = (ps_series){.label = "Pareto front", .is_front = true};
     fill_series(out, sorted, num);
-    *plot = (ps_panel){rows[0].what->what.name, pack_series(out), out->series};
+    *plot = (ps_panel){rows[0].what->name, pack_series(out), out->series};
     return PSPEC_OK;
 }
 

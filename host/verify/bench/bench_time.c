@@ -17,7 +17,7 @@ static const double most_device_seconds = 2, most_host_seconds = 0.5, quick_most
 
 /* ---- realizations -------------------------------------------------------------------------- */
 
-pspec_status ps_bench_sets_create(ps_bench_sets *out, const ps_bench_case *what, uint64_t num,
+pspec_status ps_bench_sets_create(ps_bench_sets *out, const ps_stress_case *what, uint64_t num,
                                   ps_error *error) {
     *out = (ps_bench_sets){.what = what, .capacity = (size_t)num};
     PS_TRY(PS_NEW(&out->patterns, out->capacity, "realizations", error));
@@ -39,8 +39,7 @@ void ps_bench_sets_free(ps_bench_sets *sets) {
 
 static pspec_status make_sets(ps_bench_sets *sets, size_t num, ps_error *error) {
     while (sets->num < num) {
-        PS_TRY(
-            ps_stress_points_make(&sets->what->what, sets->num, &sets->patterns[sets->num], error));
+        PS_TRY(ps_stress_points_make(sets->what, sets->num, &sets->patterns[sets->num], error));
         sets->scales[sets->num] = 1 / (double)sets->patterns[sets->num].num_points;
         sets->num++;
     }
@@ -111,7 +110,7 @@ static double predicted(const ps_candidate *candidate, const ps_problem *problem
     return candidate->seconds / (double)problem->num_realizations;
 }
 
-bool ps_bench_is_affordable(const ps_bench_options *options, const ps_candidate *candidate,
+bool ps_bench_is_affordable(const ps_suite_options *options, const ps_candidate *candidate,
                             const ps_problem *problem) {
     const double most = candidate->engine->needs_device ? most_device_seconds
                         : options->quick                ? quick_most_host_seconds
@@ -120,7 +119,7 @@ bool ps_bench_is_affordable(const ps_bench_options *options, const ps_candidate 
 }
 
 /* As many as make a run long enough; where batches share work, as many as want to. */
-static size_t choose_num(const ps_bench_options *options, const ps_candidate *candidate,
+static size_t choose_num(const ps_suite_options *options, const ps_candidate *candidate,
                          const ps_problem *problem) {
     const double wanted = options->quick ? quick_run_seconds : run_seconds;
     const double num = ceil(wanted / predicted(candidate, problem));
@@ -133,7 +132,7 @@ static size_t choose_num(const ps_bench_options *options, const ps_candidate *ca
 
 pspec_status ps_bench_measure_round(ps_bench_sets *sets, const ps_problem *problem,
                                     const ps_candidate *candidate, ps_device *device,
-                                    const ps_bench_options *options, ps_bench_time *out,
+                                    const ps_suite_options *options, ps_bench_time *out,
                                     ps_error *error) {
     const ps_problem own = ps_engine_problem(candidate->engine, problem);
     timing self = {.sets = sets,

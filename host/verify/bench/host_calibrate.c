@@ -54,21 +54,21 @@ static pspec_status measure(const ps_sampler *sampler, double *room, double *sca
     return PSPEC_OK;
 }
 
-static pspec_status measure_all(const ps_bench_options *options, double *room,
+static pspec_status measure_all(const ps_suite_options *options, double *room,
                                 double scales[PS_FIGURES_HOST][ROUNDS], ps_error *error) {
     for (size_t round = 0; round < ROUNDS; round++) {
         if (options->advance != NULL) {
             options->advance(options->payload, round, ROUNDS);
         }
         for (size_t i = 0; ps_samplers[i] != NULL && i < PS_FIGURES_HOST; i++) {
-            PS_TRY(ps_bench_go_on(options, error));
+            PS_TRY(ps_suite_go_on(options, error));
             PS_TRY(measure(ps_samplers[i], room, &scales[i][round], error));
         }
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, ps_figures *figures,
+pspec_status ps_bench_calibrate_host(const ps_suite_options *options, ps_figures *figures,
                                      ps_error *error) {
     double scales[PS_FIGURES_HOST][ROUNDS];
     double *room = NULL;

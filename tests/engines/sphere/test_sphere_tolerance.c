@@ -31,16 +31,15 @@ static const double most = 1e-2;
 enum { DECADES = 10, SHAPES = TEST_SPHERE_SHAPES + 1 };
 
 /* A lattice on one circle of latitude, as many points as the set has. */
-static void circle(size_t point, size_t num_points, uint64_t *state, double u[3]) {
-    (void)state;
+static void circle(const ps_stress_spot *at, double u[3]) {
     const double theta = 0.8;
-    const double phi = PS_TWO_PI * (double)point / (double)num_points;
+    const double phi = PS_TWO_PI * (double)at->point / (double)at->num_points;
     u[0] = sin(theta) * cos(phi);
     u[1] = sin(theta) * sin(phi);
     u[2] = cos(theta);
 }
 
-static const test_sphere_shape one_circle = {"circle", circle, NULL};
+static const test_sphere_shape one_circle = {"circle", .place = circle};
 
 /* A set with the truth. */
 typedef struct sample {

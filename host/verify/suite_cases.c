@@ -1,5 +1,6 @@
-/* The cases of the stability suite, by the headings of docs/mathematics/numerics.md. Those of a
- * second or so are quick. */
+/* The cases of the stability suite, by the headings of docs/mathematics/numerics.md, those of a
+ * second or so quick; and of the benchmark, with frequencies that the program takes where nothing
+ * is said, or that make the case. */
 #include "verify/stress_probes.h"
 
 #define TORUS .kind = PS_STRESS_TORUS
@@ -12,6 +13,7 @@
 #define POINTS(name, num) .shape = (name), .num_points = (num)
 #define GROUPS .group_size = 64 /* as on GPUs; PoCL 3.1 computes wrongly in some smaller ones */
 #define CHECKED(num) .num_checked = (num)
+#define REALIZATIONS(num) .num_realizations = (num)
 
 /* clang-format off */
 const ps_stress_case ps_stress_cases[] = {
@@ -129,6 +131,32 @@ const ps_stress_case ps_stress_cases[] = {
      PROBE(wide_lobe)},
     {"optimal-weights", "optimal-weights", "weights of least error for points in near pairs",
      QUICK, PROBE(optimal_weights)},
+    {0},
+};
+
+const ps_stress_case ps_bench_cases[] = {
+    {"plane-many", "", "256 points in the plane to K = 32, 1024 realizations",
+     TORUS, QUICK, POINTS("white", 256), BOX(2, 32), CHECKED(1000), REALIZATIONS(1024)},
+    {"plane", "", "1024 points in the plane to K = 160, 64 realizations",
+     TORUS, POINTS("white", 1024), BOX(2, 160), CHECKED(500), REALIZATIONS(64)},
+    {"plane-large", "", "65536 points in the plane to K = 256, 16 realizations",
+     TORUS, POINTS("white", 65536), BOX(2, 256), CHECKED(16), REALIZATIONS(16)},
+    {"line", "", "16384 points on a line to K = 8192, 32 realizations",
+     TORUS, POINTS("white", 16384), BOX(1, 8192), CHECKED(64), REALIZATIONS(32)},
+    {"space", "", "4096 points in space to K = 16, 64 realizations",
+     TORUS, POINTS("white", 4096), BOX(3, 16), CHECKED(250), REALIZATIONS(64)},
+    {"list", "", "4096 points in space at 1000 frequencies up to 100000, 64 realizations",
+     TORUS, POINTS("white", 4096), LIST(3, 1000, 100000), CHECKED(250), REALIZATIONS(64)},
+    {"sphere", "", "1024 points on the sphere to L = 128, 64 realizations",
+     SPHERE, QUICK, POINTS("white", 1024), .reach = 128, CHECKED(32), REALIZATIONS(64)},
+    {"sphere-large", "", "16384 points on the sphere to L = 256, 8 realizations",
+     SPHERE, POINTS("white", 16384), .reach = 256, CHECKED(6), REALIZATIONS(8)},
+    {"hemisphere", "", "1024 points on the hemisphere to L = 128, 64 realizations",
+     SPHERE, POINTS("white", 1024), .reach = 128, .is_hemisphere = true, CHECKED(32), REALIZATIONS(64)},
+    {"pairs", "", "pair sums of 1024 points on the sphere to L = 128, 64 realizations",
+     PAIRS, QUICK, POINTS("white", 1024), .reach = 128, CHECKED(32), REALIZATIONS(64)},
+    {"pairs-large", "", "pair sums of 4096 points on the sphere to L = 256, 8 realizations",
+     PAIRS, POINTS("white", 4096), .reach = 256, CHECKED(8), REALIZATIONS(8)},
     {0},
 };
 /* clang-format on */
