@@ -46,6 +46,9 @@ typedef struct ps_point_format {
     pspec_status (*open)(ps_point_reader *reader, ps_error *error);
     pspec_status (*read)(ps_point_reader *reader, ps_rows_read *out, ps_error *error);
     void (*close)(ps_point_reader *reader);
+    /* Of frames (text/points_frames.h): reads the header at the cursor, which it leaves at the
+     * first row. */
+    pspec_status (*read_header)(ps_point_reader *reader, ps_error *error);
     /* Writing (all NULL: it is only read); errors of the stream show when the caller checks it.
      * begin writes the header with the counts known so far, always of the same length, and is
      * called again at the end when they were not. begin_set is called for every set (NULL:
@@ -103,7 +106,6 @@ struct ps_point_writer {
 
 /* "FILE, line 3", or "FILE, set 2, row 3" */
 enum { PS_PLACE_BYTES = 512 };
-const char *ps_place_show(char place[PS_PLACE_BYTES], const ps_point_reader *reader, size_t row);
 
 extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, ps_format_psa_text,
     ps_format_gbn, ps_format_eps, ps_format_utk_binary, ps_format_rps, ps_format_npy,

@@ -35,7 +35,8 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
     return PSPEC_OK;
 }
 
-const char *ps_place_show(char place[PS_PLACE_BYTES], const ps_point_reader *reader, size_t row) {
+static const char *show_place(char place[PS_PLACE_BYTES], const ps_point_reader *reader,
+                              size_t row) {
     if (reader->first_line > 0) {
         snprintf(place, PS_PLACE_BYTES, "%.440s, line %zu", reader->input.name,
                  reader->first_line + row);
@@ -74,7 +75,7 @@ static pspec_status read_staged(ps_point_reader *reader, size_t max_points, ps_r
 static pspec_status resolve_layout(ps_point_reader *reader, const double *first, ps_error *error) {
     char place[PS_PLACE_BYTES];
     const ps_columns_question question = {
-        .where = ps_place_show(place, reader, 0),
+        .where = show_place(place, reader, 0),
         .columns = reader->columns,
         .own = reader->own_columns,
         .first = first,
@@ -90,7 +91,7 @@ static pspec_status resolve_layout(ps_point_reader *reader, const double *first,
 static pspec_status refuse(const ps_point_reader *reader, const double *rows, size_t row,
                            ps_error *error) {
     char place[PS_PLACE_BYTES];
-    return ps_columns_refuse(&reader->layout, &reader->options, ps_place_show(place, reader, row),
+    return ps_columns_refuse(&reader->layout, &reader->options, show_place(place, reader, row),
                              rows + row * reader->columns, error);
 }
 

@@ -74,14 +74,13 @@ static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
     if (num < SEVERAL || is_vector) {
         return PSPEC_OK;
     }
-    return ps_fail(
-        error, PSPEC_ERROR_INPUT,
-        "%s, line %zu: %zu numbers and no other line: one point, or one after the other? "
-        "%s",
-        reader->input.name, ((ps_text_state *)reader->state)->lines.line_number, num,
-        options->domain == PS_DOMAIN_SPHERE
-            ? "--columns, as in xyz, says what a point is"
-            : "-d says how many dimensions a point has, as in -d 2");
+    return ps_text_fail(reader, error,
+                        "%zu numbers and no other line: one point, or one after the other? "
+                        "%s",
+                        num,
+                        options->domain == PS_DOMAIN_SPHERE
+                            ? "--columns, as in xyz, says what a point is"
+                            : "-d says how many dimensions a point has, as in -d 2");
 }
 
 /* Formats of text whose rows have blanks, by their first lines. */

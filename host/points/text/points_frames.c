@@ -2,14 +2,10 @@
 
 #include "points/text/text_fields.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { AXES = 3 };
-
-static void show_place(char place[PS_PLACE_BYTES], const ps_point_reader *reader) {
-    snprintf(place, PS_PLACE_BYTES, "%.440s, line %zu", reader->input.name,
-             ((const ps_text_state *)reader->state)->lines.line_number);
-}
 
 pspec_status ps_frame_line(ps_point_reader *reader, const char **line, ps_error *error) {
     ps_text_state *const state = reader->state;
@@ -20,6 +16,21 @@ pspec_status ps_frame_line(ps_point_reader *reader, const char **line, ps_error 
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: it ends inside set %llu",
                          reader->input.name, (unsigned long long)reader->num_sets + 1);
+}
+
+pspec_status ps_frame_count(ps_point_reader *reader, const char *otherwise, uint64_t *count,
+                            ps_error *error) {
+    const double most = 1e15; /* counts in doubles are exact */
+    const char *line = NULL;
+    double row[PS_MAX_COLUMNS];
+    PS_TRY(ps_frame_line(reader, &line, error));
+    if (ps_text_parse_line(line, row) != 1 || !(row[0] >= 1 && row[0] <= most) ||
+        row[0] != floor(row[0])) {
+        return ps_text_fail(reader, error, "%s", otherwise);
+    }
+    *count = (uint64_t)row[0];
+    ps_lines_skip(&((ps_text_state *)reader->state)->lines);
+    return PSPEC_OK;
 }
 
 /* ---- which columns ----------------------------------------------------------------------- */
@@ -71,7 +82,7 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     const char *wanted = options->column_names;
     char chosen[32];
     char where[PS_PLACE_BYTES];
-    show_place(where, reader);
+    ps_text_place(where, reader);
     if (frame->has_box && options->box.num_axes > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: --box, and the file states the box itself", where);
@@ -101,9 +112,9 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
                          state->header.num_chosen, reader->columns);
 }
 
-pspec_status ps_frame_open(ps_point_reader *reader, ps_frame_header *header, ps_error *error) {
+pspec_status ps_frame_open(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ' ', error));
-    PS_TRY(header(reader, error));
+    PS_TRY(reader->format->read_header(reader, error));
     ps_text_state *const state = reader->state;
     ps_text_set_columns(reader, state->header.num_chosen);
     reader->has_own_box = state->num_corners > 0;
@@ -137,7 +148,7 @@ static pspec_status read_row(ps_point_reader *reader, ps_rows_read *out, ps_erro
     char where[PS_PLACE_BYTES];
     PS_TRY(ps_frame_line(reader, &line, error));
     if (ps_text_header_row(&state->header, line, ' ', row) == NULL) {
-        show_place(where, reader);
+        ps_text_place(where, reader);
         return ps_text_header_refuse(&state->header, line, ' ', where, error);
     }
     if (ps_row_filter_takes(&state->filter, line, ' ')) {
@@ -166,11 +177,10 @@ static pspec_status end_frame(ps_point_reader *reader, ps_rows_read *out, ps_err
     return PSPEC_OK;
 }
 
-pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out, ps_frame_header *header,
-                           ps_error *error) {
+pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     if (state->rows_left == 0 && state->num_kept == 0) {
-        PS_TRY(header(reader, error));
+        PS_TRY(reader->format->read_header(reader, error));
     }
     reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
     while (state->rows_left > 0 && out->num < out->capacity) {

@@ -17,18 +17,18 @@ typedef struct ps_frame {
     uint64_t num_rows;
 } ps_frame;
 
-/* Reads the header of a frame at the cursor, which it leaves at the first row. */
-typedef pspec_status ps_frame_header(ps_point_reader *reader, ps_error *error);
-
 /* The line at the cursor, which must be there. */
 pspec_status ps_frame_line(ps_point_reader *reader, const char **line,
                            ps_error *error) PS_MUST_CHECK;
+/* The line at the cursor as a number of rows, which is passed over; else that sentence. */
+pspec_status ps_frame_count(ps_point_reader *reader, const char *otherwise, uint64_t *count,
+                            ps_error *error) PS_MUST_CHECK;
 /* Takes over what a header says; rows come next. */
 pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame,
                             ps_error *error) PS_MUST_CHECK;
-pspec_status ps_frame_open(ps_point_reader *reader, ps_frame_header *header,
-                           ps_error *error) PS_MUST_CHECK;
-pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out, ps_frame_header *header,
+/* Open and read of formats that have a read_header. */
+pspec_status ps_frame_open(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out,
                            ps_error *error) PS_MUST_CHECK;
 
 #endif

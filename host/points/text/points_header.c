@@ -50,11 +50,11 @@ static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_erro
     } else if (!*is_there && is_numbered) {
         PS_TRY(are_decimals(state, &are_labels, error));
     }
-    return !are_labels ? PSPEC_OK
-                       : ps_fail(error, PSPEC_ERROR_INPUT,
-                                 "%s, line %zu: labels of columns, or a point? Its numbers have no "
-                                 "decimal points, and those after it have; --header yes or no",
-                                 reader->input.name, state->lines.line_number);
+    return !are_labels
+               ? PSPEC_OK
+               : ps_text_fail(reader, error,
+                              "labels of columns, or a point? Its numbers have no "
+                              "decimal points, and those after it have; --header yes or no");
 }
 
 /* Names like "x,y,r" do not tell that all are coordinates. */
@@ -100,7 +100,7 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
     if (numbers == NULL && !has_quotes(row)) {
         return PSPEC_OK;
     }
-    snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, state->lines.line_number);
+    ps_text_place(where, reader);
     PS_TRY(ps_text_header_choose(&state->header, row, state->separator, numbers, where, error));
     reader->own_columns = ps_columns_meaning(numbers);
     reader->chosen = numbers != NULL ? state->header.used : NULL;
@@ -201,7 +201,7 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     if (!is_there) {
         return choose_columns(reader, error);
     }
-    snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
+    ps_text_place(where, reader);
     PS_TRY(ps_row_filter_find(&state->filter, select, lines->cursor, state->separator, NULL, where,
                               error));
     PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, select,

@@ -1,6 +1,7 @@
 /* Dumps of LAMMPS: items "ITEM: NAME", of which BOX BOUNDS are the box and ATOMS the names of the
  * columns, before the atoms of every time step. */
 #include "points/text/points_frames.h"
+#include "points/text/text_fields.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,34 +13,7 @@ static bool begins(const char *line, const char *text) {
 }
 
 static bool has_word(const char *line, const char *word) {
-    const size_t length = strlen(word);
-    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
-        const size_t token = ps_token_length(line);
-        if (token == length && strncmp(line, word, length) == 0) {
-            return true;
-        }
-        line += token > 0 ? token : 1;
-    }
-    return false;
-}
-
-static pspec_status fail_line(const ps_point_reader *reader, const char *what, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %s", reader->input.name,
-                   ((const ps_text_state *)reader->state)->lines.line_number, what);
-}
-
-static pspec_status read_count(ps_point_reader *reader, uint64_t *count, ps_error *error) {
-    const double most = 1e15; /* counts in doubles are exact */
-    const char *line = NULL;
-    double row[PS_MAX_COLUMNS];
-    PS_TRY(ps_frame_line(reader, &line, error));
-    if (ps_text_parse_line(line, row) != 1 || !(row[0] >= 1 && row[0] <= most) ||
-        row[0] != floor(row[0])) {
-        return fail_line(reader, "this is no number of atoms", error);
-    }
-    *count = (uint64_t)row[0];
-    ps_lines_skip(&((ps_text_state *)reader->state)->lines);
-    return PSPEC_OK;
+    return ps_field_find(line, ' ', word, strlen(word)) >= 0;
 }
 
 static pspec_status read_bounds(ps_point_reader *reader, ps_error *error) {
@@ -51,8 +25,8 @@ static pspec_status read_bounds(ps_point_reader *reader, ps_error *error) {
         PS_TRY(ps_frame_line(reader, &line, error));
         if (ps_text_parse_line(line, row) != 2 || !(row[1] > row[0]) ||
             !isfinite(row[1] - row[0])) {
-            return fail_line(reader, "two bounds of the box should be here, the lower one first",
-                             error);
+            return ps_text_fail(reader, error,
+                                "two bounds of the box should be here, the lower one first");
         }
         state->lower[axis] = row[0];
         state->upper[axis] = row[1];
@@ -67,7 +41,7 @@ static pspec_status begin_atoms(ps_point_reader *reader, ps_frame *frame, ps_err
     ps_text_state *const state = reader->state;
     PS_TRY(ps_lines_peek(&state->lines, 1, &frame->row, error));
     if (frame->row == NULL) {
-        return fail_line(reader, "the file ends before the atoms", error);
+        return ps_text_fail(reader, error, "the file ends before the atoms");
     }
     frame->names = ps_skip_blanks(state->lines.cursor + sizeof "ITEM: ATOMS" - 1);
     for (size_t i = 0; i < sizeof choices / sizeof choices[0] && frame->chosen == NULL; i++) {
@@ -76,7 +50,7 @@ static pspec_status begin_atoms(ps_point_reader *reader, ps_frame *frame, ps_err
         frame->chosen = has_word(frame->names, first) ? choices[i] : NULL;
     }
     if (frame->chosen == NULL && reader->options.column_names == NULL) {
-        return fail_line(reader, "no columns x y z, xs ys zs, xu yu zu or xsu ysu zsu", error);
+        return ps_text_fail(reader, error, "no columns x y z, xs ys zs, xu yu zu or xsu ysu zsu");
     }
     frame->absolute = "x,y,z,xu,yu,zu";
     frame->relative = "xs,ys,zs,xsu,ysu,zsu";
@@ -97,18 +71,19 @@ static pspec_status read_item(ps_point_reader *reader, ps_frame *frame, bool *is
         *is_complete = true;
         return frame->num_rows > 0 && frame->has_box
                    ? begin_atoms(reader, frame, error)
-                   : fail_line(reader, "atoms before their number and the bounds of the box",
-                               error);
+                   : ps_text_fail(reader, error,
+                                  "atoms before their number and the bounds of the box");
     }
     if (is_bounds && (has_word(name, "xy") || has_word(name, "origin"))) {
-        return fail_line(reader,
-                         "a box that is no cuboid (xy xz yz), which is not read; write the atoms "
-                         "of a cuboid box",
-                         error);
+        return ps_text_fail(
+            reader, error,
+            "a box that is no cuboid (xy xz yz), which is not read; write the atoms "
+            "of a cuboid box");
     }
     if (!is_bounds && !is_count &&
         (name == line || !(begins(name, "TIME") || begins(name, "UNITS")))) {
-        return fail_line(reader, "an item of a LAMMPS dump should be here (ITEM: TIMESTEP)", error);
+        return ps_text_fail(reader, error,
+                            "an item of a LAMMPS dump should be here (ITEM: TIMESTEP)");
     }
     ps_lines_skip(&state->lines);
     if (is_bounds) {
@@ -116,7 +91,7 @@ static pspec_status read_item(ps_point_reader *reader, ps_frame *frame, bool *is
         return read_bounds(reader, error);
     }
     if (is_count) {
-        return read_count(reader, &frame->num_rows, error);
+        return ps_frame_count(reader, "this is no number of atoms", &frame->num_rows, error);
     }
     PS_TRY(ps_frame_line(reader, &line, error)); /* a time step, or a word */
     ps_lines_skip(&state->lines);
@@ -132,16 +107,9 @@ static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status open_lammps(ps_point_reader *reader, ps_error *error) {
-    return ps_frame_open(reader, read_header, error);
-}
-
-static pspec_status read_lammps(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
-    return ps_frame_read(reader, out, read_header, error);
-}
-
 const ps_point_format ps_format_lammps = {.name = "lammps",
                                           .magic = "ITEM: ",
-                                          .open = open_lammps,
-                                          .read = read_lammps,
-                                          .close = ps_text_close};
+                                          .open = ps_frame_open,
+                                          .read = ps_frame_read,
+                                          .close = ps_text_close,
+                                          .read_header = read_header};

@@ -55,10 +55,9 @@ static pspec_status read_obj(ps_point_reader *reader, ps_rows_read *out, ps_erro
             return PSPEC_OK;
         }
         if (!parse_vertex(state->lines.cursor, out->rows + out->num * AXES)) {
-            return out->num > 0 ? PSPEC_OK
-                                : ps_fail(error, PSPEC_ERROR_INPUT,
-                                          "%s, line %zu: a vertex of OBJ is v and three numbers",
-                                          reader->input.name, state->lines.line_number);
+            return out->num > 0
+                       ? PSPEC_OK
+                       : ps_text_fail(reader, error, "a vertex of OBJ is v and three numbers");
         }
         out->num++;
         ps_lines_skip(&state->lines);

@@ -22,11 +22,6 @@ typedef struct ply_state {
     unsigned char block[BLOCK_BYTES];
 } ply_state;
 
-static pspec_status fail_line(const ps_point_reader *reader, const char *what, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %s", reader->input.name,
-                   ((const ps_text_state *)reader->state)->lines.line_number, what);
-}
-
 /* ---- header ------------------------------------------------------------------------------ */
 
 /* A line with its '\n', byte by byte, since binary numbers may follow it. */
@@ -38,14 +33,14 @@ static pspec_status read_line(ps_point_reader *reader, char line[LINE_BYTES], ps
     while (length < LINE_BYTES - 1 && (length == 0 || line[length - 1] != '\n')) {
         PS_TRY(ps_input_read(&reader->input, line + length, 1, &count, error));
         if (count == 0) {
-            return fail_line(reader, "the file ends inside the header of PLY", error);
+            return ps_text_fail(reader, error, "the file ends inside the header of PLY");
         }
         length++;
     }
     line[length] = '\0';
     return line[length - 1] == '\n' && state->lines.line_number < MOST_LINES
                ? PSPEC_OK
-               : fail_line(reader, "too long for a header of PLY", error);
+               : ps_text_fail(reader, error, "too long for a header of PLY");
 }
 
 static bool is_word(ps_field field, const char *word) {
@@ -83,7 +78,7 @@ static pspec_status take_property(ps_point_reader *reader, const ps_field *words
     if (num != WORDS || index == PS_MOST_FILE_COLUMNS ||
         used + words[2].length + 2 > sizeof state->names || words[2].is_quoted ||
         !ps_field_is_printable(words[2]) || !find_type(words[1], &state->types[index])) {
-        return fail_line(reader, "a property of vertices that is no number, or too many", error);
+        return ps_text_fail(reader, error, "a property of vertices that is no number, or too many");
     }
     snprintf(state->names + used, sizeof state->names - used, "%.*s ", (int)words[2].length,
              words[2].text);
@@ -99,11 +94,11 @@ static pspec_status take_element(ps_point_reader *reader, const ps_field *words,
     ply_state *const state = reader->state;
     state->is_in_vertices = num == WORDS && is_word(words[1], "vertex");
     if (!state->is_in_vertices && !state->has_vertices) {
-        return fail_line(reader, "vertices must be the first element of PLY", error);
+        return ps_text_fail(reader, error, "vertices must be the first element of PLY");
     }
     if (state->is_in_vertices &&
         (state->has_vertices || !ps_field_is_whole(words[2], num_vertices) || *num_vertices == 0)) {
-        return fail_line(reader, "this is no number of vertices", error);
+        return ps_text_fail(reader, error, "this is no number of vertices");
     }
     state->has_vertices = true;
     return PSPEC_OK;
@@ -115,7 +110,7 @@ static pspec_status take_format(ps_point_reader *reader, ps_field name, ps_error
     state->is_binary = state->is_big_endian || is_word(name, "binary_little_endian");
     return state->is_binary || is_word(name, "ascii")
                ? PSPEC_OK
-               : fail_line(reader, "a format of PLY that is not known", error);
+               : ps_text_fail(reader, error, "a format of PLY that is not known");
 }
 
 static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices, ps_error *error) {
@@ -133,7 +128,7 @@ static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices,
             num++;
         }
         if (is_first && (num != 1 || !is_word(words[0], "ply"))) {
-            return fail_line(reader, "a file of PLY begins with a line \"ply\"", error);
+            return ps_text_fail(reader, error, "a file of PLY begins with a line \"ply\"");
         }
         if (num > 1 && is_word(words[0], "format")) {
             PS_TRY(take_format(reader, words[1], error));
@@ -145,7 +140,7 @@ static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices,
     }
     return state->has_vertices && state->num_properties > 0
                ? PSPEC_OK
-               : fail_line(reader, "a header of PLY without vertices", error);
+               : ps_text_fail(reader, error, "a header of PLY without vertices");
 }
 
 /* ---- vertices ---------------------------------------------------------------------------- */
@@ -245,7 +240,7 @@ static pspec_status read_ply(ps_point_reader *reader, ps_rows_read *out, ps_erro
     if (((const ply_state *)reader->state)->is_binary) {
         return read_binary(reader, out, error);
     }
-    PS_TRY(ps_frame_read(reader, out, NULL, error));
+    PS_TRY(ps_frame_read(reader, out, error));
     out->end = out->end == PS_END_OF_SET ? PS_END_OF_INPUT : out->end;
     return PSPEC_OK;
 }

@@ -36,11 +36,6 @@ static unsigned parse_numbers(const char *text, double *out, unsigned most) {
     return num;
 }
 
-static pspec_status fail_line(const ps_point_reader *reader, const char *what, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %s", reader->input.name,
-                   ((const ps_text_state *)reader->state)->lines.line_number, what);
-}
-
 static pspec_status read_lattice(ps_point_reader *reader, const char *comment, bool *has_box,
                                  ps_error *error) {
     enum { NUMBERS = AXES * AXES };
@@ -62,10 +57,9 @@ static pspec_status read_lattice(ps_point_reader *reader, const char *comment, b
         state->lower[axis] = origin[axis];
         state->upper[axis] = origin[axis] + cell[axis * (AXES + 1)];
     }
-    return is_good
-               ? PSPEC_OK
-               : fail_line(reader, "a lattice that is no cuboid along the axes, which is not read",
-                           error);
+    return is_good ? PSPEC_OK
+                   : ps_text_fail(reader, error,
+                                  "a lattice that is no cuboid along the axes, which is not read");
 }
 
 static void append(char names[NAMES_BYTES], const char *name, size_t length, unsigned number) {
@@ -118,44 +112,29 @@ static void name_plainly(char names[NAMES_BYTES], const char *row) {
 }
 
 static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
-    const double most = 1e15; /* counts in doubles are exact */
     ps_text_state *const state = reader->state;
     ps_frame frame = {.chosen = "x,y,z", .absolute = "x,y,z", .relative = "", .filter = "species"};
     const char *line = NULL;
     char names[NAMES_BYTES + 1] = "";
-    double count[PS_MAX_COLUMNS] = {0};
-    PS_TRY(ps_frame_line(reader, &line, error));
-    if (ps_text_parse_line(line, count) != 1 || !(count[0] >= 1 && count[0] <= most) ||
-        count[0] != floor(count[0])) {
-        return fail_line(reader, "the number of atoms should be here, as XYZ has it", error);
-    }
-    frame.num_rows = (uint64_t)count[0];
-    ps_lines_skip(&state->lines);
+    PS_TRY(ps_frame_count(reader, "the number of atoms should be here, as XYZ has it",
+                          &frame.num_rows, error));
     PS_TRY(ps_frame_line(reader, &line, error));
     PS_TRY(ps_lines_peek(&state->lines, 1, &frame.row, error));
     if (frame.row == NULL) {
-        return fail_line(reader, "the file ends before the atoms", error);
+        return ps_text_fail(reader, error, "the file ends before the atoms");
     }
     PS_TRY(read_lattice(reader, state->lines.cursor, &frame.has_box, error));
     const char *const properties = find_value(state->lines.cursor, "Properties");
     if (properties == NULL) {
         name_plainly(names, frame.row);
     } else if (!name_properties(names, properties)) {
-        return fail_line(reader, "Properties are no NAME:TYPE:COUNT, as in pos:R:3", error);
+        return ps_text_fail(reader, error, "Properties are no NAME:TYPE:COUNT, as in pos:R:3");
     }
     names[strlen(names)] = '\n';
     frame.names = names;
     PS_TRY(ps_frame_begin(reader, &frame, error));
     ps_lines_skip(&state->lines);
     return PSPEC_OK;
-}
-
-static pspec_status open_xyz(ps_point_reader *reader, ps_error *error) {
-    return ps_frame_open(reader, read_header, error);
-}
-
-static pspec_status read_xyz(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
-    return ps_frame_read(reader, out, read_header, error);
 }
 
 /* An element and three numbers. */
@@ -188,5 +167,8 @@ pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
-const ps_point_format ps_format_xyz = {
-    .name = "xyz", .open = open_xyz, .read = read_xyz, .close = ps_text_close};
+const ps_point_format ps_format_xyz = {.name = "xyz",
+                                       .open = ps_frame_open,
+                                       .read = ps_frame_read,
+                                       .close = ps_text_close,
+                                       .read_header = read_header};
