@@ -60,15 +60,13 @@ void ps_brdf_destroy(ps_brdf *brdf) {
     if (brdf != NULL) {
         free(brdf->nodes);
         free(brdf->values);
+        free(brdf->path);
+        free(brdf->densities);
         free(brdf);
     }
 }
 
 /* ---- what lobes tell ----------------------------------------------------------------------- */
-
-const ps_brdf_kind *ps_brdf_get_kind(const ps_brdf *brdf) {
-    return brdf->kind;
-}
 
 double ps_brdf_norm(const ps_brdf *brdf) {
     return brdf->kind->norm(brdf);

@@ -45,8 +45,6 @@ extern const ps_brdf_kind *const ps_brdf_kinds[];
 pspec_status ps_brdf_parse(ps_brdf **out, const char *text, ps_error *error) PS_MUST_CHECK;
 void ps_brdf_destroy(ps_brdf *brdf); /* NULL is allowed */
 
-const ps_brdf_kind *ps_brdf_get_kind(const ps_brdf *brdf);
-
 /* r_s, and int phat^2 dS = sum b_l^2 = sum b~_l^2. */
 double ps_brdf_norm(const ps_brdf *brdf);
 double ps_brdf_energy(const ps_brdf *brdf);

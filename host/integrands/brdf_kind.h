@@ -35,6 +35,8 @@ struct ps_brdf {
     bool is_whole_sphere; /* glossy: not cut at the horizon */
     size_t num_nodes;     /* of a table: p is linear in z between them, 0 outside */
     double *nodes, *values;
+    char *path;        /* of the file, of an integrand alone, */
+    double *densities; /* and heights and densities as kernels/integrands/zonal.h takes them */
 };
 
 extern const ps_brdf_kind ps_brdf_diffuse, ps_brdf_glossy, ps_brdf_phong, ps_brdf_zonal;

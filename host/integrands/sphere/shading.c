@@ -11,27 +11,15 @@
 #include "integrands/files/coefficient_file.h"
 #include "integrands/integrand_kind.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* What self->own points to. */
-typedef struct shading {
-    ps_brdf *brdf;
-    char *path;    /* of a table; NULL: none */
-    double *table; /* as kernels/integrands/zonal.h takes it */
-} shading;
-
-static const ps_brdf *lobe_of(const ps_integrand *self) {
-    return ((const shading *)self->own)->brdf;
-}
-
+/* self->own is the lobe. */
 static pspec_status make(ps_integrand *self, const ps_brdf_kind *kind, const char *const *values,
                          ps_error *error) {
-    shading *own = NULL;
-    PS_TRY(PS_NEW(&own, 1, "a lobe", error));
-    self->own = own;
-    PS_TRY(ps_brdf_make(&own->brdf, kind, values, error));
-    if (ps_integrand_is_on_hemisphere(self) && ps_brdf_is_below_horizon(own->brdf)) {
+    ps_brdf *brdf = NULL;
+    PS_TRY(ps_brdf_make(&brdf, kind, values, error));
+    self->own = brdf;
+    if (ps_integrand_is_on_hemisphere(self) && ps_brdf_is_below_horizon(brdf)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "integrand %s: the lobe goes below the horizon, and the points are on the "
                        "hemisphere",
@@ -41,13 +29,7 @@ static pspec_status make(ps_integrand *self, const ps_brdf_kind *kind, const cha
 }
 
 static void destroy(ps_integrand *self) {
-    shading *const own = self->own;
-    if (own != NULL) {
-        ps_brdf_destroy(own->brdf);
-        free(own->path);
-        free(own->table);
-    }
-    free(own);
+    ps_brdf_destroy(self->own);
 }
 
 static double integral(const ps_integrand *self) {
@@ -56,26 +38,31 @@ static double integral(const ps_integrand *self) {
 }
 
 static double energy(const ps_integrand *self) {
-    const double squares = ps_brdf_energy(lobe_of(self));
+    const double squares = ps_brdf_energy(self->own);
     return ps_integrand_is_on_hemisphere(self) ? 2 * squares - 1 / PS_PI : squares - 1 / PS_FOUR_PI;
 }
 
 static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
                             ps_error *error) {
-    PS_TRY(ps_brdf_spherical(lobe_of(self), max_degree, out, error));
+    PS_TRY(ps_brdf_spherical(self->own, max_degree, out, error));
     ps_integrand_zonal_powers(self, max_degree, out);
     return PSPEC_OK;
 }
 
 static const char *note(const ps_integrand *self) {
     /* What it says of the other cut is no choice on the hemisphere. */
-    return ps_integrand_is_on_hemisphere(self) ? NULL : ps_brdf_note(lobe_of(self));
+    return ps_integrand_is_on_hemisphere(self) ? NULL : ps_brdf_note(self->own);
 }
 
 /* 1/(2 pi r_s) */
 static double scale_of(const ps_integrand *self) {
-    return 1 / (PS_TWO_PI * ps_brdf_norm(lobe_of(self)));
+    return 1 / (PS_TWO_PI * ps_brdf_norm(self->own));
 }
+
+/* What all lobes do alike. */
+#define LOBE                                                                                       \
+    .domains = PS_INTEGRAND_ROUND, .destroy = destroy, .integral = integral, .energy = energy,     \
+    .degrees = degrees, .note = note
 
 /* ---- diffuse ------------------------------------------------------------------------------- */
 
@@ -98,17 +85,12 @@ PS_INTEGRAND_VALUES_AS(give_diffuse, diffuse_value)
 
 const ps_integrand_kind ps_integrand_diffuse = {
     .name = "diffuse",
+    LOBE,
     .summary = PS_DIFFUSE_SUMMARY "; divided by its integral",
     .kernel = "diffuse",
-    .domains = PS_INTEGRAND_ROUND,
     .create = create_diffuse,
-    .destroy = destroy,
-    .integral = integral,
-    .energy = energy,
-    .degrees = degrees,
     .values = give_diffuse,
     .correlation = correlate_diffuse,
-    .note = note,
 };
 
 /* ---- glossy -------------------------------------------------------------------------------- */
@@ -117,7 +99,7 @@ static pspec_status create_glossy(ps_integrand *self, const char *const *values,
     const double nowhere = -2; /* below every z */
     double *const numbers = self->numbers;
     PS_TRY(make(self, &ps_brdf_glossy, values, error));
-    const ps_brdf *const brdf = lobe_of(self);
+    const ps_brdf *const brdf = self->own;
     numbers[LOBE_AXIS + 2] = 1;
     numbers[LOBE_RATE] = brdf->exponent / 2;
     numbers[GLOSSY_SCALE] = scale_of(self);
@@ -126,7 +108,7 @@ static pspec_status create_glossy(ps_integrand *self, const char *const *values,
 }
 
 static double correlate_glossy(const ps_integrand *self, const double *x) {
-    const ps_brdf *const brdf = lobe_of(self);
+    const ps_brdf *const brdf = self->own;
     const double scale = scale_of(self);
     return brdf->is_whole_sphere
                ? scale * scale * ps_integrand_lobe_correlation(brdf->exponent, x[0])
@@ -134,7 +116,7 @@ static double correlate_glossy(const ps_integrand *self, const double *x) {
 }
 
 static double reach_of_glossy(const ps_integrand *self) {
-    const ps_brdf *const brdf = lobe_of(self);
+    const ps_brdf *const brdf = self->own;
     const bool is_whole = brdf->is_whole_sphere || brdf->exponent >= PS_UNCUT_LOBE;
     return is_whole ? ps_integrand_lobe_reach(brdf->exponent) : INFINITY;
 }
@@ -143,26 +125,21 @@ PS_INTEGRAND_VALUES_AS(give_glossy, glossy_value)
 
 const ps_integrand_kind ps_integrand_glossy = {
     .name = "glossy",
+    LOBE,
     .summary = PS_GLOSSY_SUMMARY "; divided by its integral",
     .kernel = "glossy",
-    .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_EXPONENT_PARAMETER, PS_CUT_PARAMETER},
     .create = create_glossy,
-    .destroy = destroy,
-    .integral = integral,
-    .energy = energy,
-    .degrees = degrees,
     .values = give_glossy,
     .correlation = correlate_glossy,
     .reach = reach_of_glossy,
-    .note = note,
 };
 
 /* ---- Phong --------------------------------------------------------------------------------- */
 
 static pspec_status create_phong(ps_integrand *self, const char *const *values, ps_error *error) {
     PS_TRY(make(self, &ps_brdf_phong, values, error));
-    self->numbers[PHONG_EXPONENT] = lobe_of(self)->exponent;
+    self->numbers[PHONG_EXPONENT] = ((const ps_brdf *)self->own)->exponent;
     self->numbers[PHONG_SCALE] = scale_of(self);
     return PSPEC_OK;
 }
@@ -178,68 +155,53 @@ PS_INTEGRAND_VALUES_AS(give_phong, phong_value)
 
 const ps_integrand_kind ps_integrand_phong = {
     .name = "phong",
+    LOBE,
     .summary = PS_PHONG_SUMMARY "; divided by its integral",
     .kernel = "phong",
-    .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_EXPONENT_PARAMETER},
     .create = create_phong,
-    .destroy = destroy,
-    .integral = integral,
-    .energy = energy,
-    .degrees = degrees,
     .values = give_phong,
     .reach = reach_of_phong,
-    .note = note,
 };
 
 /* ---- tables -------------------------------------------------------------------------------- */
 
 /* The densities, so that nothing is left to divide by. */
-static pspec_status give_table(ps_integrand *self, shading *own, ps_error *error) {
-    const size_t num = own->brdf->num_nodes;
-    PS_TRY(PS_NEW(&own->table, 2 * num, "a lobe", error));
+static pspec_status create_zonal(ps_integrand *self, const char *const *values, ps_error *error) {
+    PS_TRY(make(self, &ps_brdf_zonal, values, error));
+    ps_brdf *const brdf = self->own;
+    const size_t num = brdf->num_nodes;
+    PS_TRY(PS_NEW(&brdf->densities, 2 * num, "a lobe", error));
     for (size_t i = 0; i < num; i++) {
-        own->table[i] = own->brdf->nodes[i];
-        own->table[num + i] = ps_brdf_density(own->brdf, own->brdf->nodes[i]);
+        brdf->densities[i] = brdf->nodes[i];
+        brdf->densities[num + i] = ps_brdf_density(brdf, brdf->nodes[i]);
     }
-    self->table = own->table;
+    self->table = brdf->densities;
     self->num_table = 2 * num;
     self->numbers[ZONAL_NODES] = (double)num;
-    self->needs_doubles = !ps_fit_single(own->table, 2 * num);
+    self->needs_doubles = !ps_fit_single(brdf->densities, 2 * num);
+    PS_TRY(PS_NEW(&brdf->path, strlen(values[0]) + 1, "a path", error));
+    memcpy(brdf->path, values[0], strlen(values[0]));
     return PSPEC_OK;
-}
-
-static pspec_status create_zonal(ps_integrand *self, const char *const *values, ps_error *error) {
-    const size_t num_bytes = strlen(values[0]) + 1;
-    PS_TRY(make(self, &ps_brdf_zonal, values, error));
-    shading *const own = self->own;
-    PS_TRY(PS_NEW(&own->path, num_bytes, "a path", error));
-    memcpy(own->path, values[0], num_bytes);
-    return give_table(self, own, error);
 }
 
 static void give_zonal(const ps_integrand *self, const double *points, size_t num, double *out) {
     for (size_t i = 0; i < num; i++) {
-        out[i] = ps_brdf_density(lobe_of(self), points[3 * i + 2]);
+        out[i] = ps_brdf_density(self->own, points[3 * i + 2]);
     }
 }
 
 static const char *file(const ps_integrand *self) {
-    return ((const shading *)self->own)->path;
+    return ((const ps_brdf *)self->own)->path;
 }
 
 const ps_integrand_kind ps_integrand_zonal = {
     .name = "zonal",
+    LOBE,
     .kernel = "zonal",
     .summary = PS_ZONAL_SUMMARY "; divided by its integral",
-    .domains = PS_INTEGRAND_ROUND,
     .parameters = {PS_FILE_PARAMETER, PS_UNIT_PARAMETER},
     .create = create_zonal,
-    .destroy = destroy,
-    .integral = integral,
-    .energy = energy,
-    .degrees = degrees,
     .values = give_zonal,
-    .note = note,
     .file = file,
 };
