@@ -44,10 +44,7 @@ static pspec_status add_header(const answer *shown, ps_error *error) {
     const ps_request *const arguments = shown->arguments;
     const ps_device_limits *const limits =
         shown->device != NULL ? ps_device_get_limits(shown->device) : NULL;
-    const struct {
-        const char *key;
-        ps_cell value;
-    } entries[] = {
+    const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
         {"command", PS_TEXT(arguments->command_line)},
@@ -57,10 +54,7 @@ static pspec_status add_header(const answer *shown, ps_error *error) {
         {"error_units", PS_TEXT("of S and c_lm: white noise; of pair sums and distances: (sum "
                                 "|w|)^2; of the host: as its bound")},
     };
-    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
-        PS_TRY(ps_table_add_meta(shown->table, entries[i].key, entries[i].value, error));
-    }
-    return PSPEC_OK;
+    return ps_table_add_metas(shown->table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 static const ps_field_row own_fields[] = {

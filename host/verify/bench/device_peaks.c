@@ -60,6 +60,8 @@ typedef struct copy {
     ps_buffer from, to;
     size_t bytes;
     ps_range range;
+    void *block; /* memory as the host has it, of the size of a batch */
+    size_t block_bytes;
 } copy;
 
 static const float mark = 0.75F;
@@ -88,15 +90,6 @@ static pspec_status prepare_copy(copy *self, ps_error *error) {
                            error);
 }
 
-static pspec_status run_copy(const copy *self, double *seconds, ps_error *error) {
-    const double begin = ps_clock_seconds();
-    PS_TRY(PS_LAUNCH(self->device, self->kernel, &self->range, error, PS_BUFFER(self->from),
-                     PS_BUFFER(self->to)));
-    PS_TRY(ps_device_finish(self->device, error));
-    *seconds = ps_clock_seconds() - begin;
-    return PSPEC_OK;
-}
-
 static pspec_status check_copy(const copy *self, ps_error *error) {
     float found = 0;
     PS_TRY(ps_buffer_read(self->device, &self->to, self->bytes - sizeof found, &found, sizeof found,
@@ -107,61 +100,60 @@ static pspec_status check_copy(const copy *self, ps_error *error) {
                                    self->bytes);
 }
 
-static pspec_status measure_copy(const copy *self, ps_device_peaks *peaks, ps_error *error) {
-    double best = HUGE_VAL;
-    for (int i = 0; i <= 2 * REPEATS; i++) { /* the first touches memory */
-        double seconds = 0;
-        PS_TRY(run_copy(self, &seconds, error));
-        best = fmin(best, seconds);
-    }
-    peaks->copied_bytes = 2 * (double)self->bytes / best;
-    return check_copy(self, error);
-}
+/* What is timed, once. */
+typedef pspec_status task(const copy *self, ps_error *error);
 
-/* One after the other, with something to do for one work-group of each. */
-static pspec_status measure_launches(const copy *self, ps_device_peaks *peaks, ps_error *error) {
-    enum { IN_A_ROW = 256 };
-    const ps_range one = ps_range_light(self->device, 1, 1, 1, 0, 0);
-    double best = HUGE_VAL;
-    for (int i = 0; i < REPEATS; i++) {
+/* The least seconds of so many runs; the first touches memory. */
+static pspec_status find_best(const copy *self, task *run, int repeats, double *best,
+                              ps_error *error) {
+    *best = HUGE_VAL;
+    for (int i = 0; i <= repeats; i++) {
         const double begin = ps_clock_seconds();
-        for (int j = 0; j < IN_A_ROW; j++) {
-            PS_TRY(PS_LAUNCH(self->device, self->kernel, &one, error, PS_BUFFER(self->from),
-                             PS_BUFFER(self->to)));
-        }
+        PS_TRY(run(self, error));
         PS_TRY(ps_device_finish(self->device, error));
-        best = fmin(best, ps_clock_seconds() - begin);
+        *best = fmin(*best, ps_clock_seconds() - begin);
     }
-    peaks->launches = IN_A_ROW / best;
     return PSPEC_OK;
 }
 
-/* From memory as the host has it, in blocks of the size of a batch. */
-static pspec_status measure_sent(const copy *self, ps_device_peaks *peaks, ps_error *error) {
-    const size_t most = 32 << 20;
-    const size_t bytes = self->bytes < most ? self->bytes : most;
-    void *block = NULL;
-    double best = HUGE_VAL;
-    PS_TRY(ps_allocate(&block, bytes, 1, "a block to send", error));
-    pspec_status status = PSPEC_OK;
-    for (int i = 0; i <= REPEATS && status == PSPEC_OK; i++) { /* the first touches memory */
-        const double begin = ps_clock_seconds();
-        status = ps_buffer_write(self->device, &self->from, 0, block, bytes, error);
-        best = fmin(best, ps_clock_seconds() - begin);
+static pspec_status run_copy(const copy *self, ps_error *error) {
+    return PS_LAUNCH(self->device, self->kernel, &self->range, error, PS_BUFFER(self->from),
+                     PS_BUFFER(self->to));
+}
+
+enum { IN_A_ROW = 256 };
+
+/* One after the other, with something to do for one work-group of each. */
+static pspec_status launch_small(const copy *self, ps_error *error) {
+    const ps_range one = ps_range_light(self->device, 1, 1, 1, 0, 0);
+    for (int i = 0; i < IN_A_ROW; i++) {
+        PS_TRY(PS_LAUNCH(self->device, self->kernel, &one, error, PS_BUFFER(self->from),
+                         PS_BUFFER(self->to)));
     }
-    free(block);
-    peaks->sent_bytes = (double)bytes / best;
-    return status;
+    return PSPEC_OK;
+}
+
+static pspec_status send(const copy *self, ps_error *error) {
+    return ps_buffer_write(self->device, &self->from, 0, self->block, self->block_bytes, error);
 }
 
 static pspec_status measure_memory(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
+    const size_t most = 32 << 20;
     copy self = {.device = device};
+    double best = 0;
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, prepare_copy(&self, error));
-    PS_TRY_OUT(status, measure_copy(&self, peaks, error));
-    PS_TRY_OUT(status, measure_launches(&self, peaks, error));
-    PS_TRY_OUT(status, measure_sent(&self, peaks, error));
+    self.block_bytes = self.bytes < most ? self.bytes : most;
+    PS_TRY_OUT(status, ps_allocate(&self.block, self.block_bytes, 1, "a block to send", error));
+    PS_TRY_OUT(status, find_best(&self, run_copy, 2 * REPEATS, &best, error));
+    PS_TRY_OUT(status, check_copy(&self, error));
+    peaks->copied_bytes = 2 * (double)self.bytes / best;
+    PS_TRY_OUT(status, find_best(&self, launch_small, REPEATS, &best, error));
+    peaks->launches = IN_A_ROW / best;
+    PS_TRY_OUT(status, find_best(&self, send, REPEATS, &best, error));
+    peaks->sent_bytes = (double)self.block_bytes / best;
 out:
+    free(self.block);
     ps_buffer_release(&self.from);
     ps_buffer_release(&self.to);
     return status;
