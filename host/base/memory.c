@@ -18,12 +18,6 @@ bool ps_size_multiply(size_t a, size_t b, size_t *product) {
     return true;
 }
 
-uint64_t ps_memory_installed(void) {
-    const long pages = sysconf(_SC_PHYS_PAGES);
-    const long page_bytes = sysconf(_SC_PAGESIZE);
-    return pages > 0 && page_bytes > 0 ? (uint64_t)pages * (uint64_t)page_bytes : 0;
-}
-
 static pspec_status fail_memory(size_t count, size_t element_bytes, const char *what,
                                 ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for %s: %zu elements of %zu bytes",

@@ -13,9 +13,6 @@
 /* True when a * b fits; the product is stored in *product. */
 bool ps_size_multiply(size_t a, size_t b, size_t *product);
 
-/* Physical memory of the machine in bytes; 0 when the system does not tell. */
-uint64_t ps_memory_installed(void);
-
 /* Zeroed array of count elements, never of zero bytes. The caller frees it with free().
  * what names the array in the message, for example "points". */
 pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,

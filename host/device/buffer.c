@@ -24,8 +24,9 @@ pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out, ps_
     return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clCreateCommandQueue", error);
 }
 
-pspec_status ps_memory_create(ps_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
-                              const char *what, ps_error *error) {
+/* The memory of a buffer. */
+static pspec_status create_memory(ps_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
+                                  const char *what, ps_error *error) {
     cl_int code = CL_SUCCESS;
     *out = NULL;
     if (bytes > device->limits.max_allocation_bytes) {
@@ -49,7 +50,7 @@ pspec_status ps_pinned_create(ps_device *device, ps_pinned *out, size_t bytes, c
                               ps_error *error) {
     cl_int code = CL_SUCCESS;
     *out = (ps_pinned){0};
-    PS_TRY(ps_memory_create(device, &out->memory, CL_MEM_ALLOC_HOST_PTR, bytes, what, error));
+    PS_TRY(create_memory(device, &out->memory, CL_MEM_ALLOC_HOST_PTR, bytes, what, error));
     out->data = clEnqueueMapBuffer(device->queue, out->memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE,
                                    0, bytes > 0 ? bytes : 1, 0, NULL, NULL, &code);
     if (code != CL_SUCCESS) {
@@ -60,7 +61,8 @@ pspec_status ps_pinned_create(ps_device *device, ps_pinned *out, size_t bytes, c
     return PSPEC_OK;
 }
 
-void ps_pinned_release(ps_device *device, ps_pinned *pinned) {
+/* Once the device is done with it, which is not waited for. */
+static void release_pinned(ps_device *device, ps_pinned *pinned) {
     if (pinned->memory != NULL) {
         clEnqueueUnmapMemObject(device->queue, pinned->memory, pinned->data, 0, NULL, NULL);
         clReleaseMemObject(pinned->memory);
@@ -95,8 +97,9 @@ static pspec_status write_piece(ps_device *device, const ps_buffer *buffer, size
     return PSPEC_OK;
 }
 
-pspec_status ps_staged_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
-                             const void *data, size_t bytes, ps_error *error) {
+/* A write through pinned memory. */
+static pspec_status write_staged(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
+                                 const void *data, size_t bytes, ps_error *error) {
     size_t num = 0;
     for (size_t done = 0; done < bytes; done += num) {
         const size_t at = device->staged_at % PS_STAGED_PIECE;
@@ -116,7 +119,7 @@ void ps_staged_release(ps_device *device) {
             clReleaseEvent(device->staged_until[i]);
         }
     }
-    ps_pinned_release(device, &device->staged);
+    release_pinned(device, &device->staged);
 }
 
 /* ---- reads that are waited for later ------------------------------------------------------ */
@@ -165,7 +168,7 @@ void ps_readings_forget(ps_readings *readings) {
 void ps_readings_release(ps_readings *readings) {
     ps_readings_forget(readings);
     for (size_t i = 0; i < PS_READINGS; i++) {
-        ps_pinned_release(readings->device, &readings->memory[i]);
+        release_pinned(readings->device, &readings->memory[i]);
     }
     *readings = (ps_readings){0};
 }
@@ -240,7 +243,7 @@ void ps_mapping_abandon(ps_device *device, ps_mapping *mapping) {
 pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
                               ps_error *error) {
     *out = (ps_buffer){0};
-    PS_TRY(ps_memory_create(device, &out->memory, 0, bytes, what, error));
+    PS_TRY(create_memory(device, &out->memory, 0, bytes, what, error));
     out->bytes = bytes;
     out->device = device;
     device->buffer_bytes += bytes;
@@ -255,7 +258,7 @@ void ps_buffer_release(ps_buffer *buffer) {
         if (buffer->device->uploads != NULL) {
             clFinish(buffer->device->uploads); /* it may still be copied */
         }
-        ps_pinned_release(buffer->device, &buffer->twin);
+        release_pinned(buffer->device, &buffer->twin);
     }
     if (buffer->memory != NULL) {
         clReleaseMemObject(buffer->memory);
@@ -270,7 +273,7 @@ pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t 
         return PSPEC_OK;
     }
     if (!device->limits.has_unified_memory) {
-        return ps_staged_write(device, buffer, offset_bytes, data, bytes, error);
+        return write_staged(device, buffer, offset_bytes, data, bytes, error);
     }
     device->num_waits++;
     PS_TRY_CL(clEnqueueWriteBuffer(device->queue, buffer->memory, CL_TRUE, offset_bytes, bytes,

@@ -42,7 +42,7 @@ static const struct {
     {PS_CL_PLATFORM_NOT_FOUND, "CL_PLATFORM_NOT_FOUND_KHR"},
 };
 
-const char *ps_cl_error_name(cl_int code) {
+static const char *name_of(cl_int code) {
     for (size_t i = 0; i < sizeof error_names / sizeof error_names[0]; i++) {
         if (error_names[i].code == code) {
             return error_names[i].name;
@@ -57,5 +57,5 @@ pspec_status ps_device_fail(cl_int code, const char *call, ps_error *error) {
                            code == CL_INVALID_BUFFER_SIZE;
     const int name_length = (int)strcspn(call, "(");
     return ps_fail(error, is_memory ? PSPEC_ERROR_MEMORY : PSPEC_ERROR_DEVICE,
-                   "%.*s failed: %s (%d)", name_length, call, ps_cl_error_name(code), (int)code);
+                   "%.*s failed: %s (%d)", name_length, call, name_of(code), (int)code);
 }

@@ -79,7 +79,6 @@ pspec_status ps_device_finish(ps_device *device, ps_error *error) PS_MUST_CHECK;
 /* Turns an OpenCL code into a status: no memory -> PSPEC_ERROR_MEMORY (smaller batches may help),
  * everything else -> PSPEC_ERROR_DEVICE. */
 pspec_status ps_device_fail(cl_int code, const char *call, ps_error *error);
-const char *ps_cl_error_name(cl_int code);
 
 /* ---- buffers --------------------------------------------------------------------------------- */
 

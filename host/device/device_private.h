@@ -99,18 +99,8 @@ cl_int ps_builders_wait(ps_device *device, ps_program *program);
 pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out,
                              ps_error *error) PS_MUST_CHECK;
 
-/* The memory of a buffer. */
-pspec_status ps_memory_create(ps_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
-                              const char *what, ps_error *error) PS_MUST_CHECK;
-
 pspec_status ps_pinned_create(ps_device *device, ps_pinned *out, size_t bytes, const char *what,
                               ps_error *error) PS_MUST_CHECK;
-/* Once the device is done with it, which is not waited for. */
-void ps_pinned_release(ps_device *device, ps_pinned *pinned);
-
-/* A write through pinned memory. */
-pspec_status ps_staged_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
-                             const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
 void ps_staged_release(ps_device *device);
 
 /* What double precision costs on a device of NVIDIA with this compute capability, by their table of

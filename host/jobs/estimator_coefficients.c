@@ -1,10 +1,28 @@
 /* Coefficients of one pattern. */
 #include "base/memory.h"
 #include "jobs/estimator_private.h"
-#include "math/hemisphere/hemisphere.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+/* (x, y, z), z >= 0, of any length -> the unit vector of the same azimuth with height 2 z / |u| -
+ * 1. Hemispherical harmonics are those of the sphere there, times sqrt(2): they are orthonormal on
+ * the hemisphere (docs/mathematics/quadrature.md#hemispherical-harmonics). False below the
+ * horizon. */
+static bool stretch_vector(const double *u, double *out) {
+    const double rho = hypot(u[0], u[1]);
+    const double length = hypot(rho, u[2]);
+    /* 1 - z without cancellation near the pole; it doubles. */
+    const double t = 2 * (rho / length) * (rho / (length + u[2]));
+    const double stretched = sqrt(t * fmax(2 - t, 0));
+    if (!(u[2] >= 0)) {
+        return false;
+    }
+    out[0] = rho > 0 ? u[0] / rho * stretched : 0;
+    out[1] = rho > 0 ? u[1] / rho * stretched : 0;
+    out[2] = 1 - t;
+    return true;
+}
 
 /* vectors: [num_points][3], freed by the caller. */
 static pspec_status stretch(const pspec_pattern *pattern, double **vectors, ps_error *error) {
@@ -12,7 +30,7 @@ static pspec_status stretch(const pspec_pattern *pattern, double **vectors, ps_e
                            "the stretched hemisphere", error));
     for (size_t j = 0; j < pattern->num_points; j++) {
         const size_t at = j * PS_SPHERE_DIMENSION;
-        if (!ps_hemisphere_stretch(pattern->points + at, *vectors + at)) {
+        if (!stretch_vector(pattern->points + at, *vectors + at)) {
             return ps_fail(error, PSPEC_ERROR_INPUT,
                            "point %zu, z = %.17g, is below the horizon: hemispherical harmonics "
                            "are for z >= 0",

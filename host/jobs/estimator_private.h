@@ -38,9 +38,6 @@ void ps_estimator_halve_batch(ps_estimator *self);
 pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points,
                                     ps_error *error) PS_MUST_CHECK;
 
-/* The error of the engine for sets of that mean power (ps_survey.error), in the units of the
- * problem's tolerance. */
-double ps_estimator_error_at(const ps_estimator *self, double mean_power);
 /* The same for one pattern. */
 double ps_estimator_error_of(const ps_estimator *self, double mean_power,
                              const ps_pattern_sums *sums);

@@ -27,7 +27,9 @@ static double error_for_share(const ps_estimator *self, double mean_power, doubl
     return ps_engine_error_in(self->options.engine, &problem, own_error(self, mean_power, share));
 }
 
-double ps_estimator_error_at(const ps_estimator *self, double mean_power) {
+/* The error of the engine for sets of that mean power (ps_survey.error), in the units of the
+ * problem's tolerance. */
+static double error_at(const ps_estimator *self, double mean_power) {
     return error_for_share(self, mean_power, self->accuracy.largest_share);
 }
 
@@ -125,7 +127,7 @@ pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) {
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
     ps_accuracy accuracy = estimator->accuracy;
     accuracy.largest_mean_power = ps_accumulator_largest(estimator->accumulator);
-    accuracy.error = ps_estimator_error_at(estimator, accuracy.largest_mean_power);
+    accuracy.error = error_at(estimator, accuracy.largest_mean_power);
     accuracy.largest_points = estimator->totals.largest_points;
     return accuracy;
 }

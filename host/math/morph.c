@@ -29,7 +29,8 @@ double ps_morph_polar(const ps_morph *morph, double height, double polar) {
     return polar;
 }
 
-double ps_morph_height(const ps_morph *morph, double height, double polar) {
+/* The height z itself, where it is small: t alone would lose its digits. */
+static double height_of(const ps_morph *morph, double height, double polar) {
     switch (morph->kind) {
     case PS_MORPH_NONE:
         return height;
@@ -54,7 +55,7 @@ void ps_morph_points(const ps_morph *morph, size_t num, double *points) {
         const double polar = sine * sine / (1 + point[2]);
         const double t = ps_morph_polar(morph, point[2], polar);
         const double stretch = sine > 0 ? sqrt(t * (2 - t)) / sine : 0;
-        point[2] = ps_morph_height(morph, point[2], polar) + 0.0;
+        point[2] = height_of(morph, point[2], polar) + 0.0;
         point[0] = point[0] * stretch + 0.0;
         point[1] = point[1] * stretch + 0.0;
     }

@@ -168,9 +168,10 @@ pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_w
 
 /* ---- kernel form --------------------------------------------------------------------------- */
 
-ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer,
-                                          const ps_weight_sums *weights, double distance,
-                                          double kappa) {
+/* E^2 from a sum of distances that something else made, a device, say. */
+static ps_kernel_error error_from_sums(const ps_representer *representer,
+                                       const ps_weight_sums *weights, double distance,
+                                       double kappa) {
     enum {
         ROUNDINGS = 8
     }; /* measured: 2.4e-15 of c (sum|w|)^2 against tests/reference, with room */
@@ -211,7 +212,7 @@ pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule
         kappa = own;
     }
     const ps_weight_sums weights = ps_rule_weight_sums(rule);
-    *out = ps_kernel_error_from_sums(representer, &weights, distance, sum_kappa(rule, kappa));
+    *out = error_from_sums(representer, &weights, distance, sum_kappa(rule, kappa));
     free(own);
     return PSPEC_OK;
 }

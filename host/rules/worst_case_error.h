@@ -43,11 +43,6 @@ pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule
                                 const double *kappa, const ps_watch *watch, ps_kernel_error *out,
                                 ps_error *error) PS_MUST_CHECK;
 
-/* E^2 from a sum of distances that something else made, a device, say. */
-ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer,
-                                          const ps_weight_sums *weights, double distance,
-                                          double kappa);
-
 /* One degree of the spectral form. */
 typedef struct ps_degree_error {
     double b, d2, c2, a, e2;

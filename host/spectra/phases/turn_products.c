@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "math/gauss_legendre.h"
 #include "math/gsl/fourier.h"
-#include "math/gsl/legendre.h"
+#include "math/gsl/special.h"
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -22,7 +22,9 @@ static bool find_radices(uint32_t length, unsigned num, size_t first, uint32_t *
     return false;
 }
 
-bool ps_nufft_pass_radices(uint32_t length, uint32_t radices[PS_NUFFT_PASS_RADICES]) {
+/* Radices whose product is the length, as few as possible and the largest first; false: more
+ * than there may be. */
+static bool choose_radices(uint32_t length, uint32_t radices[PS_NUFFT_PASS_RADICES]) {
     for (unsigned num = 1; num <= PS_NUFFT_PASS_RADICES; num++) {
         for (unsigned i = num; i < PS_NUFFT_PASS_RADICES; i++) {
             radices[i] = 1;
@@ -49,7 +51,7 @@ static bool fits(uint32_t length, const ps_device_limits *limits, size_t real_by
     const uint64_t most = 2 * (uint64_t)LEAST_HELD * limits->max_work_group_size;
     uint32_t radices[PS_NUFFT_PASS_RADICES];
     return length <= most && ps_nufft_line_reals(length) * real_bytes <= limits->local_bytes &&
-           ps_nufft_pass_radices(length, radices);
+           choose_radices(length, radices);
 }
 
 /* The length of the first half of lines, the largest that is not beyond the second; 1: they are
@@ -91,7 +93,7 @@ static uint64_t kept_of(const ps_nufft_choice *choice, unsigned axis) {
 /* Adds one pass; outer lines of an axis in front of it, inner numbers behind. */
 static void add_pass(ps_nufft_pass *pass, const ps_device_limits *limits, size_t real_bytes,
                      uint64_t outer) {
-    ps_nufft_pass_radices(pass->length, pass->radices);
+    choose_radices(pass->length, pass->radices);
     pass->lines = outer * pass->inner;
     pass->from = pass->lines * pass->length;
     fill_group(pass, limits, real_bytes);

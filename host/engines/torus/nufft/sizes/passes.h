@@ -28,8 +28,4 @@ unsigned ps_nufft_passes_measure(ps_nufft_pass passes[PS_NUFFT_MOST_PASSES],
 /* Numbers of local memory that a line takes (kernels/nufft/grid/stockham.h). */
 size_t ps_nufft_line_reals(uint32_t length);
 
-/* Radices whose product is the length, as few as possible and the largest first; false: more
- * than there may be. */
-bool ps_nufft_pass_radices(uint32_t length, uint32_t radices[PS_NUFFT_PASS_RADICES]);
-
 #endif

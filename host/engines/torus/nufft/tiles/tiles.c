@@ -7,18 +7,144 @@
 #include "device/reals.h"
 #include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
-#include "engines/torus/nufft/tiles/lines.h"
 #include "engines/torus/nufft/variant.h"
 #include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+/* ---- frequency 0 of axis 0 ----------------------------------------------------------------- */
+
+/* Of realizations in tiles: its rows are real numbers (kernels/nufft/line.h), whose transforms
+ * become powers, several realizations at a time (kernels/nufft/lines.cl). */
+typedef struct lines {
+    const ps_nufft_layout *layout;
+    const ps_nufft_plan *plans; /* of the axes */
+    ps_device *device;
+    ps_kernel *powers;         /* where one axis has a transform, */
+    ps_kernel *rows, *columns; /* where two have */
+    ps_buffer lines; /* [realization][row][n], which kernels/nufft/tile.cl and rows.cl fill */
+    ps_buffer grid;  /* between the two transforms */
+} lines;
+
+static pspec_status create_line_kernels(lines *self, ps_error *error) {
+    static const char file[] = "nufft/lines.cl";
+    const ps_defines defines = ps_defines_of(self->layout->real_bytes, self->layout->lanes);
+    if (self->layout->choice.num_axes == 1) {
+        return ps_kernel_get(self->device, &self->powers, file, "nufft_line_powers", defines.text,
+                             error);
+    }
+    PS_TRY(ps_kernel_get(self->device, &self->rows, file, "nufft_line_rows", defines.text, error));
+    return ps_kernel_get(self->device, &self->columns, file, "nufft_line_columns", defines.text,
+                         error);
+}
+
+/* Room for the lines of a batch; kernels that fill them have an argument for them in any case. */
+static pspec_status create_lines(lines *out, const ps_nufft_layout *layout, size_t batch,
+                                 const ps_nufft_plan *plans, ps_device *device, ps_error *error) {
+    *out = (lines){.layout = layout, .plans = plans, .device = device};
+    const bool has_line = layout->choice.has_line;
+    const size_t rows = has_line ? batch * layout->line.cells : 1;
+    PS_TRY(ps_buffer_create(device, &out->lines, rows * layout->real_bytes, "rows of frequency 0",
+                            error));
+    if (!has_line) {
+        return PSPEC_OK;
+    }
+    PS_TRY(create_line_kernels(out, error));
+    const size_t groups = ps_divide_up(batch, layout->lanes);
+    const size_t grid = layout->choice.num_axes == 1 ? 1 : groups * layout->line.grid_reals;
+    return ps_buffer_create(device, &out->grid, grid * layout->real_bytes,
+                            "transformed rows of frequency 0", error);
+}
+
+static void free_lines(lines *self) {
+    ps_buffer_release(&self->lines);
+    ps_buffer_release(&self->grid);
+    *self = (lines){0};
+}
+
+/* A work-group for each transform. */
+static ps_range range_of(const lines *self, size_t num_groups, const ps_nufft_axis *axis) {
+    const double transforms = (double)num_groups * self->layout->lanes;
+    return ps_nufft_group_range(self->device, num_groups, 1, transforms * ps_fft_flops(axis->n));
+}
+
+static line_numbers numbers_of(const lines *self, const ps_nufft_plan *plan,
+                               size_t num_realizations, const ps_nufft_target *target) {
+    return (line_numbers){.stride = self->layout->stride,
+                          .first_power = self->layout->first_line_power,
+                          .transform = ps_nufft_transform_numbers(plan),
+                          .first_row = (uint32_t)target->realization,
+                          .num_realizations = (uint32_t)num_realizations};
+}
+
+/* Local memory of a transform. */
+static size_t transform_bytes(const lines *self, const ps_nufft_axis *axis) {
+    return (size_t)axis->n * 2 * self->layout->lanes * self->layout->real_bytes;
+}
+
+/* The transform of an axis, as kernels/nufft/lines.cl has it. */
+#define LINE_TRANSFORM(plan)                                                                       \
+    PS_BUFFER((plan)->fft.radices), PS_BUFFER((plan)->fft.twiddles), PS_BUFFER((plan)->fft.position)
+
+static pspec_status make_line_powers(lines *self, size_t num_realizations,
+                                     const ps_nufft_target *target, ps_error *error) {
+    const ps_nufft_plan *plan = &self->plans[0];
+    const size_t groups = ps_divide_up(num_realizations, self->layout->lanes);
+    const ps_range range = range_of(self, groups, &plan->axis);
+    const line_numbers numbers = numbers_of(self, plan, num_realizations, target);
+    return PS_LAUNCH(self->device, self->powers, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->lines), LINE_TRANSFORM(plan), PS_BUFFER(plan->gains),
+                     PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+                     PS_LOCAL(transform_bytes(self, &plan->axis)));
+}
+
+static pspec_status make_line_rows(lines *self, size_t num_realizations,
+                                   const ps_nufft_target *target, ps_error *error) {
+    const ps_nufft_plan *along = &self->plans[1];
+    const uint32_t num_rows = self->plans[0].axis.n;
+    const size_t groups = ps_divide_up(num_realizations, self->layout->lanes);
+    const ps_range range = range_of(self, groups * num_rows, &along->axis);
+    const line_numbers numbers = numbers_of(self, along, num_realizations, target);
+    return PS_LAUNCH(self->device, self->rows, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->lines), LINE_TRANSFORM(along), PS_BUFFER(self->grid),
+                     PS_U32(num_rows), PS_LOCAL(transform_bytes(self, &along->axis)));
+}
+
+static pspec_status make_line_columns(lines *self, size_t num_realizations,
+                                      const ps_nufft_target *target, ps_error *error) {
+    const ps_nufft_plan *across = &self->plans[0];
+    const ps_nufft_plan *along = &self->plans[1];
+    const uint32_t last_K = (uint32_t)along->axis.max_frequency;
+    const size_t groups = ps_divide_up(num_realizations, self->layout->lanes);
+    const ps_range range = range_of(self, groups * (last_K + 1), &across->axis);
+    const line_numbers numbers = numbers_of(self, across, num_realizations, target);
+    return PS_LAUNCH(self->device, self->columns, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->grid), LINE_TRANSFORM(across), PS_BUFFER(across->gains),
+                     PS_BUFFER(along->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+                     PS_U32(last_K), PS_LOCAL(transform_bytes(self, &across->axis)));
+}
+
+/* The realizations of a batch, whose lines are all there, into rows from target->realization on. */
+static pspec_status run_lines(lines *self, size_t num_realizations, const ps_nufft_target *target,
+                              ps_error *error) {
+    if (!self->layout->choice.has_line) {
+        return PSPEC_OK;
+    }
+    if (self->layout->choice.num_axes == 1) {
+        return make_line_powers(self, num_realizations, target, error);
+    }
+    PS_TRY(make_line_rows(self, num_realizations, target, error));
+    return make_line_columns(self, num_realizations, target, error);
+}
+
+/* ---- tiles --------------------------------------------------------------------------------- */
+
 typedef struct tiles {
     ps_kernel *tile, *rows, *columns;
     ps_buffer pattern; /* how frequency 0 turns from cell to cell of the first axis */
     ps_buffer grid;    /* transformed rows, in three dimensions */
-    ps_nufft_lines lines;
+    lines lines;
 } tiles;
 
 static tiles *of(const ps_nufft_state *self) {
@@ -64,8 +190,7 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
     const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
     PS_TRY(create_kernels(self, error));
     PS_TRY(create_pattern(self, error));
-    PS_TRY(ps_nufft_lines_create(&of(self)->lines, layout, self->batch, self->plans, self->device,
-                                 error));
+    PS_TRY(create_lines(&of(self)->lines, layout, self->batch, self->plans, self->device, error));
     return ps_buffer_create(self->device, &of(self)->grid,
                             layout->parts * layout->grid_cells * vector_bytes, "transformed rows",
                             error);
@@ -73,7 +198,7 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     tiles *const self = own;
-    ps_nufft_lines_free(&self->lines);
+    free_lines(&self->lines);
     ps_buffer_release(&self->pattern);
     ps_buffer_release(&self->grid);
 }
@@ -184,7 +309,7 @@ static pspec_status run(ps_nufft_state *self, size_t num_realizations,
 /* What realizations of a batch have in common: frequency 0 of axis 0, where it is a line. */
 static pspec_status finish(ps_nufft_state *self, size_t num_realizations,
                            const ps_nufft_target *target, ps_error *error) {
-    return ps_nufft_lines_run(&of(self)->lines, num_realizations, target, error);
+    return run_lines(&of(self)->lines, num_realizations, target, error);
 }
 
 const ps_nufft_launcher ps_nufft_tiles_launcher = {.has_transforms = true,
