@@ -43,16 +43,7 @@ static void portable_of_rest(double rest, double *cosine, double *sine) {
     ps_cosine_sine(PS_TWO_PI * rest, cosine, sine);
 }
 
-static void of_turns(ps_turns angle, rest_function *of_rest, double *cosine, double *sine) {
-    unsigned quarters = angle.quarters;
-    double rest = angle.rest;
-    if (fabs(rest) > EIGHTH) { /* between 1/8 and 1/4 the difference is exact */
-        quarters += rest > 0 ? 1 : QUARTERS - 1;
-        rest -= rest > 0 ? QUARTER : -QUARTER;
-    }
-    double c = 0;
-    double s = 0;
-    of_rest(rest, &c, &s);
+void ps_turns_add_quarters(unsigned quarters, double c, double s, double *cosine, double *sine) {
     switch (quarters % QUARTERS) {
     case 0:
         *cosine = c, *sine = s;
@@ -67,6 +58,19 @@ static void of_turns(ps_turns angle, rest_function *of_rest, double *cosine, dou
         *cosine = s, *sine = -c;
         break;
     }
+}
+
+static void of_turns(ps_turns angle, rest_function *of_rest, double *cosine, double *sine) {
+    unsigned quarters = angle.quarters;
+    double rest = angle.rest;
+    if (fabs(rest) > EIGHTH) { /* between 1/8 and 1/4 the difference is exact */
+        quarters += rest > 0 ? 1 : QUARTERS - 1;
+        rest -= rest > 0 ? QUARTER : -QUARTER;
+    }
+    double c = 0;
+    double s = 0;
+    of_rest(rest, &c, &s);
+    ps_turns_add_quarters(quarters, c, s, cosine, sine);
 }
 
 void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine) {

@@ -17,6 +17,8 @@ ps_turns ps_turns_of(double turns);
 /* fraction/2^64 of a turn, rest to the last place. */
 ps_turns ps_turns_of_fraction(uint64_t fraction);
 
+/* Cosine and sine of an angle, c and s, become those of so many quarters of a turn more. */
+void ps_turns_add_quarters(unsigned quarters, double c, double s, double *cosine, double *sine);
 void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine);
 /* By + - * / alone, the same bits on every machine: right to two units in the last place of each.
  */

@@ -1,6 +1,7 @@
 #include "points/columns.h"
 
 #include "math/pi.h"
+#include "math/turns.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,22 +15,7 @@ static const double DEGREE = PS_PI / 180;
 static void turn_degrees(double degrees, double *sine, double *cosine) {
     int quarters = 0;
     const double rest = remquo(degrees, 90, &quarters) * DEGREE;
-    const double s = sin(rest);
-    const double c = cos(rest);
-    switch (quarters & 3) {
-    case 0:
-        *sine = s, *cosine = c;
-        break;
-    case 1:
-        *sine = c, *cosine = -s;
-        break;
-    case 2:
-        *sine = -s, *cosine = -c;
-        break;
-    default:
-        *sine = -c, *cosine = s;
-        break;
-    }
+    ps_turns_add_quarters((unsigned)quarters, cos(rest), sin(rest), cosine, sine);
 }
 
 static void make_vector(double sin_theta, double cos_theta, double sin_phi, double cos_phi,
