@@ -1,4 +1,4 @@
-#include "engines/sphere/sphere_cost.h"
+#include "engines/sphere/sphere_layout.h"
 
 #include "base/round.h"
 #include "device/kind.h"

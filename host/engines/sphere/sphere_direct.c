@@ -6,8 +6,6 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/late_rows.h"
-#include "engines/sphere/sphere_cost.h"
-#include "engines/sphere/sphere_error.h"
 #include "engines/sphere/sphere_layout.h"
 #include "engines/sphere/sphere_points.h"
 #include "engines/sphere/sphere_table.h"

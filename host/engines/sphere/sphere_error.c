@@ -1,4 +1,4 @@
-#include "engines/sphere/sphere_error.h"
+#include "engines/sphere/sphere_layout.h"
 
 #include <math.h>
 

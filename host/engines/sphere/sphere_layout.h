@@ -35,4 +35,12 @@ ps_sphere_layout ps_sphere_layout_make(const ps_problem *problem, const ps_devic
 /* Orders of a pass. */
 size_t ps_sphere_pass_orders(const ps_sphere_layout *layout, size_t pass);
 
+/* Degrees of points in the walks of kernels/sphere/sums.cl, which go by whole blocks of degrees and
+ * vectors of points, and all that begins and ends them in units of the same time. */
+double ps_sphere_harmonics(const ps_sphere_layout *layout, const ps_problem *problem,
+                           const ps_device_limits *limits);
+
+/* Expected error for sets of a mean power (ps_survey.error). */
+double ps_sphere_error(const ps_problem *problem, ps_precision precision, double mean_power);
+
 #endif

@@ -1,4 +1,4 @@
-#include "rules/kernel/kernel_factor.h"
+#include "rules/kernel/kernel_private.h"
 
 #include "base/memory.h"
 #include "base/pieces.h"

@@ -3,7 +3,7 @@
  */
 #include "harness.h"
 
-#include "engines/torus/nufft/sizes/boxes.h"
+#include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/variant.h"
 #include "nufft/boxes.h"
 

@@ -8,7 +8,7 @@
 
 #include "engines/nufft/grid_axis.h"
 #include "engines/nufft/kernels.h"
-#include "engines/torus/nufft/sizes/lines.h"
+#include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/variant.h"
 #include "engines/nufft/window.h"
 #include "math/pi.h"

@@ -1,4 +1,4 @@
-#include "engines/sphere/nufft/grid_stages.h"
+#include "engines/sphere/nufft/variants.h"
 
 #include "device/reals.h"
 #include "engines/nufft/fft.h"

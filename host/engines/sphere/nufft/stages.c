@@ -1,4 +1,4 @@
-#include "engines/sphere/nufft/stages.h"
+#include "engines/sphere/nufft/variants.h"
 
 #include "base/round.h"
 #include "device/reals.h"

@@ -1,4 +1,4 @@
-#include "engines/torus/nufft/places.h"
+#include "engines/torus/nufft/variant.h"
 
 #include "base/memory.h"
 #include "base/round.h"

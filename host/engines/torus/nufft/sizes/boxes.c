@@ -1,4 +1,4 @@
-#include "engines/torus/nufft/sizes/boxes.h"
+#include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
 #include "nufft/boxes.h"

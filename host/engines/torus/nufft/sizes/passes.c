@@ -1,4 +1,4 @@
-#include "engines/torus/nufft/sizes/passes.h"
+#include "engines/torus/nufft/sizes/grid.h"
 
 #include "base/round.h"
 

@@ -1,4 +1,4 @@
-#include "engines/torus/nufft/sizes/strips.h"
+#include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
 #include "device/reals.h"

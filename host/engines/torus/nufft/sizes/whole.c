@@ -1,4 +1,4 @@
-#include "engines/torus/nufft/sizes/whole.h"
+#include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
 #include "engines/nufft/kernels.h"
