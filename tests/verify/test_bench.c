@@ -2,7 +2,6 @@
 #include "harness.h"
 
 #include "verify/bench/bench.h"
-#include "verify/stress_shapes.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,25 +12,6 @@ static ps_device *device;
 static const double copied_bytes = 1e10;
 
 /* ---- the table ----------------------------------------------------------------------------- */
-
-static void cases_make_sense(void **state) {
-    (void)state;
-    size_t num_quick = 0;
-    for (const ps_stress_case *what = ps_bench_cases; what->name != NULL; what++) {
-        const bool on_torus = what->kind == PS_STRESS_TORUS;
-        num_quick += what->is_quick ? 1 : 0;
-        assert_null(strpbrk(what->name, " ,\"#"));
-        assert_true(strlen(what->summary) > 0);
-        assert_true(what->num_realizations > 0 && what->num_points > 0 && what->reach > 0);
-        assert_true(on_torus == (what->dimension > 0));
-        assert_non_null(
-            ps_stress_shape_find(on_torus ? ps_torus_shapes : ps_vector_shapes, what->shape));
-        for (const ps_stress_case *other = ps_bench_cases; other != what; other++) {
-            assert_string_not_equal(other->name, what->name);
-        }
-    }
-    assert_true(num_quick > 0);
-}
 
 static void check_refused(const ps_suite_options *options, const char *part) {
     ps_error said = {0};
@@ -234,10 +214,9 @@ static int close_device(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cases_make_sense),    cmocka_unit_test(names_that_are_wrong),
-        cmocka_unit_test(front_of_known_rows), cmocka_unit_test(rows_of_a_case),
-        cmocka_unit_test(choice_of_rows),      cmocka_unit_test(stops_when_asked),
-        cmocka_unit_test(calibration),
+        cmocka_unit_test(names_that_are_wrong), cmocka_unit_test(front_of_known_rows),
+        cmocka_unit_test(rows_of_a_case),       cmocka_unit_test(choice_of_rows),
+        cmocka_unit_test(stops_when_asked),     cmocka_unit_test(calibration),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

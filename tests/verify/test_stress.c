@@ -34,13 +34,15 @@ static void every_section_has_a_case(void **state) {
     }
 }
 
-static void rows_make_sense(void **state) {
-    (void)state;
-    for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
+static void check_rows(const ps_stress_case *cases, bool have_realizations) {
+    size_t num_quick = 0;
+    for (const ps_stress_case *what = cases; what->name != NULL; what++) {
         const bool on_torus = what->kind == PS_STRESS_TORUS;
         assert_null(strpbrk(what->name, " ,\"#"));
         assert_true(strlen(what->summary) > 0);
-        for (const ps_stress_case *other = ps_stress_cases; other != what; other++) {
+        assert_int_equal(what->num_realizations > 0, have_realizations);
+        num_quick += what->is_quick;
+        for (const ps_stress_case *other = cases; other != what; other++) {
             assert_string_not_equal(other->name, what->name);
         }
         if (what->kind == PS_STRESS_PROBE) {
@@ -52,6 +54,13 @@ static void rows_make_sense(void **state) {
         assert_non_null(
             ps_stress_shape_find(on_torus ? ps_torus_shapes : ps_vector_shapes, what->shape));
     }
+    assert_true(num_quick > 0);
+}
+
+static void rows_make_sense(void **state) {
+    (void)state;
+    check_rows(ps_stress_cases, false);
+    check_rows(ps_bench_cases, true);
 }
 
 static void every_engine_is_tried(void **state) {
