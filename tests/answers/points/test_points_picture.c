@@ -39,16 +39,14 @@ static void add(ps_points_picture *picture, const ps_drawn_set *set) {
 }
 
 static ps_figure make_figure(ps_points_picture *picture) {
-    ps_figure figure;
-    ps_error error = {0};
-    assert_int_equal(ps_points_picture_figure(picture, "title", &figure, &error), PSPEC_OK);
-    return figure;
+    return ps_points_picture_figure(picture, "title");
 }
 
 static void the_plane_is_one_square_of_all_points(void **state) {
     (void)state;
     const ps_drawn_set set = make_set("jittered", 64, 2);
-    ps_points_picture picture = {.num_sets = 1};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = 1, .memory = &memory};
     add(&picture, &set);
     const ps_figure figure = make_figure(&picture);
     const ps_series *const series = figure.panels[0].series;
@@ -62,7 +60,7 @@ static void the_plane_is_one_square_of_all_points(void **state) {
     for (size_t i = 0; i < series->num; i++) {
         assert_true(series->x[i] == set.points[2 * i] && series->y[i] == set.points[2 * i + 1]);
     }
-    ps_points_picture_free(&picture);
+    ps_pool_free(&memory);
     free_set(&set);
 }
 
@@ -70,7 +68,8 @@ static void the_plane_is_one_square_of_all_points(void **state) {
 static void the_sphere_has_two_sides(void **state) {
     (void)state;
     const ps_drawn_set set = make_set("white-sphere", 1000, 3);
-    ps_points_picture picture = {.num_sets = 1};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = 1, .memory = &memory};
     add(&picture, &set);
     const ps_figure figure = make_figure(&picture);
     size_t places[2] = {0, 0};
@@ -91,7 +90,7 @@ static void the_sphere_has_two_sides(void **state) {
         assert_int_equal(figure.frames[side].form, PS_FRAME_DISC);
         assert_int_equal(figure.frames[side].is_mirrored, side == 1);
     }
-    ps_points_picture_free(&picture);
+    ps_pool_free(&memory);
     free_set(&set);
 }
 
@@ -100,23 +99,25 @@ static void the_equator_is_above(void **state) {
     (void)state;
     const double points[] = {1, 0, 0, 0, 1, -0.0, 0, 0, 1, 0, 0, -1};
     const ps_drawn_set set = {"own", PS_SAMPLES_SPHERE, 3, 4, points};
-    ps_points_picture picture = {.num_sets = 1};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = 1, .memory = &memory};
     add(&picture, &set);
-    assert_int_equal(picture.all[0].series.num, 3);
-    assert_int_equal(picture.all[1].series.num, 1);
-    ps_points_picture_free(&picture);
+    assert_int_equal(picture.panels[0].series->num, 3);
+    assert_int_equal(picture.panels[1].series->num, 1);
+    ps_pool_free(&memory);
 }
 
 static void the_hemisphere_has_one_side(void **state) {
     (void)state;
     const ps_drawn_set set = make_set("jittered:lift=hemisphere", 100, 0);
-    ps_points_picture picture = {.num_sets = 1};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = 1, .memory = &memory};
     add(&picture, &set);
     const ps_figure figure = make_figure(&picture);
     assert_int_equal(figure.num_panels, 1);
     assert_int_equal(figure.frames[0].form, PS_FRAME_DISC);
     assert_int_equal(figure.panels[0].series->num, 100);
-    ps_points_picture_free(&picture);
+    ps_pool_free(&memory);
     free_set(&set);
 }
 
@@ -124,7 +125,8 @@ static void every_pair_of_coordinates_has_a_panel(void **state) {
     (void)state;
     for (unsigned d = 1; d <= MOST_DIMENSION; d++) {
         const ps_drawn_set set = make_set("halton", 20, d);
-        ps_points_picture picture = {.num_sets = 1};
+        ps_pool memory = {0};
+        ps_points_picture picture = {.num_sets = 1, .memory = &memory};
         size_t panel = 0;
         add(&picture, &set);
         const ps_figure figure = make_figure(&picture);
@@ -140,7 +142,7 @@ static void every_pair_of_coordinates_has_a_panel(void **state) {
         assert_int_equal(figure.frames[0].form, d == 1 ? PS_FRAME_LINE : PS_FRAME_SQUARE);
         assert_string_equal(figure.frames[0].x_label, d > 2 ? "x_1" : "x");
         assert_true(figure.num_columns <= PS_MOST_POINT_COLUMNS);
-        ps_points_picture_free(&picture);
+        ps_pool_free(&memory);
         free_set(&set);
     }
 }
@@ -150,7 +152,8 @@ static void several_sets_are_panels_with_names(void **state) {
     (void)state;
     const char *const samplers[] = {"white", "sobol", "poisson-disk", "white-sphere"};
     const unsigned dimensions[] = {2, 4, 2, 3};
-    ps_points_picture picture = {.num_sets = 4};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = 4, .memory = &memory};
     for (size_t i = 0; i < 4; i++) {
         const ps_drawn_set set = make_set(samplers[i], 100, dimensions[i]);
         add(&picture, &set);
@@ -162,7 +165,7 @@ static void several_sets_are_panels_with_names(void **state) {
     assert_string_equal(figure.panels[1].title, "sobol, N = 100");
     assert_string_equal(figure.frames[1].y_label, "x_2");
     assert_string_equal(figure.panels[4].title, "white-sphere, N = 100, z < 0, from below");
-    ps_points_picture_free(&picture);
+    ps_pool_free(&memory);
 }
 
 /* More points than can be told apart: a part of them, as large as its name says. */
@@ -180,21 +183,23 @@ static void of_too_many_points_a_part_is_shown(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const ps_drawn_set set =
             make_set(cases[i].sampler, cases[i].num_points, cases[i].dimension);
-        ps_points_picture picture = {.num_sets = 1};
+        ps_pool memory = {0};
+        ps_points_picture picture = {.num_sets = 1, .memory = &memory};
         add(&picture, &set);
-        const ps_points_panel *const panel = &picture.all[0];
-        assert_string_equal(ps_text_string(&panel->title), cases[i].title);
-        assert_true(panel->frame.last == cases[i].reach);
-        assert_true(panel->frame.form != PS_FRAME_DISC);
-        for (size_t k = 0; k < panel->series.num; k++) {
-            assert_true(fabs(panel->series.x[k]) <= cases[i].reach);
-            assert_true(fabs(panel->series.y[k]) <= cases[i].reach);
+        const ps_panel *const panel = &picture.panels[0];
+        const ps_point_frame *const frame = &picture.frames[0];
+        assert_string_equal(panel->title, cases[i].title);
+        assert_true(frame->last == cases[i].reach);
+        assert_true(frame->form != PS_FRAME_DISC);
+        for (size_t k = 0; k < panel->series->num; k++) {
+            assert_true(fabs(panel->series->x[k]) <= cases[i].reach);
+            assert_true(fabs(panel->series->y[k]) <= cases[i].reach);
         }
         if (strcmp(cases[i].sampler, "regular") == 0) {
-            assert_int_equal(panel->series.num,
+            assert_int_equal(panel->series->num,
                              cases[i].dimension == 1 ? PS_MOST_DRAWN_OF_LINE : PS_MOST_DRAWN);
         }
-        ps_points_picture_free(&picture);
+        ps_pool_free(&memory);
         free_set(&set);
     }
 }
@@ -209,11 +214,12 @@ static void a_clump_is_not_lost(void **state) {
         points[i] = 0.375;
     }
     const ps_drawn_set set = {"own", PS_SAMPLES_TORUS, 2, NUM, points};
-    ps_points_picture picture = {.num_sets = 1};
+    ps_pool memory = {0};
+    ps_points_picture picture = {.num_sets = 1, .memory = &memory};
     add(&picture, &set);
-    assert_int_equal(picture.all[0].series.num, NUM);
-    assert_true(picture.all[0].frame.last == 0.5);
-    ps_points_picture_free(&picture);
+    assert_int_equal(picture.panels[0].series->num, NUM);
+    assert_true(picture.frames[0].last == 0.5);
+    ps_pool_free(&memory);
     free(points);
 }
 
@@ -226,12 +232,13 @@ static void marks_follow_the_number_of_points(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const ps_drawn_set set = make_set("white", cases[i].num_points, 2);
-        ps_points_picture picture = {.num_sets = 1};
+        ps_pool memory = {0};
+        ps_points_picture picture = {.num_sets = 1, .memory = &memory};
         add(&picture, &set);
         const ps_figure figure = make_figure(&picture);
         const double expected = fmin(cases[i].size, 8.6);
         assert_true(fabs(ps_script_mark_size(&figure, 0) - expected) < 1e-2 * expected);
-        ps_points_picture_free(&picture);
+        ps_pool_free(&memory);
         free_set(&set);
     }
 }
