@@ -1,11 +1,11 @@
-/* What a call of pspec_plan_run costs: microseconds for each pattern of N points, beside the engine
- * alone.
+/* What patterns in memory cost: microseconds of the processor for each pattern of N points, from
+ * pspec_question_add to the answer, beside the engine alone.
  *
  *     bench_library [POINTS [MAX_FREQUENCY]]     default 1 point, K = 4
  *
  * "calls of" is the number of patterns handed over at a time; "overhead" is what the library adds
- * to the engine's own time for a full batch (which includes nothing of checking, copying or
- * averaging). The bits of all spectra of an engine are compared.
+ * to the engine's own time for a full batch (which includes nothing of planning, checking, copying
+ * or averaging). The bits of all spectra of an engine are compared.
  */
 #include "bench.h"
 
@@ -26,12 +26,11 @@ static const size_t call_sizes[] = {1, 10, 100, MOST_PATTERNS};
 
 typedef struct library_bench {
     pspec_context *context;
-    pspec_plan *plan;
-    pspec_pattern *patterns;
+    pspec_question *question;
     double *points;
     size_t num_points, num_patterns;
     int32_t max_frequency;
-    pspec_spectrum *first; /* of this engine */
+    pspec_answer *first; /* of this engine */
 } library_bench;
 
 static void try_call(const library_bench *bench, pspec_status status) {
@@ -49,13 +48,7 @@ static size_t count_patterns(const library_bench *bench) {
 
 static void make_patterns(library_bench *bench) {
     bench->num_patterns = count_patterns(bench);
-    const size_t stride = bench->num_points * DIMENSION;
-    bench->points = bench_uniform(bench->num_patterns * stride, 1);
-    bench->patterns = calloc(bench->num_patterns, sizeof *bench->patterns);
-    for (size_t r = 0; r < bench->num_patterns; r++) {
-        bench->patterns[r] =
-            (pspec_pattern){DIMENSION, bench->num_points, bench->points + r * stride, NULL};
-    }
+    bench->points = bench_uniform(bench->num_patterns * bench->num_points * DIMENSION, 1);
 }
 
 static const ps_engine *find_engine(const char *name) {
@@ -90,48 +83,47 @@ static double time_engine(const library_bench *bench, const library_case *which)
     return bench_median(seconds, REPEATS);
 }
 
-/* Seconds per pattern of all of them in calls of `size`, the spectrum at the end included. */
+/* Seconds per pattern of all of them in calls of `size`, the answer at the end included. */
 static double time_calls(library_bench *bench, size_t size) {
-    pspec_spectrum *spectrum = NULL;
-    try_call(bench, pspec_plan_reset(bench->plan));
+    pspec_answer *answer = NULL;
+    pspec_question_reset(bench->question);
     const double begin = bench_seconds();
     for (size_t r = 0; r < bench->num_patterns; r += size) {
         const size_t rest = bench->num_patterns - r;
-        try_call(bench,
-                 pspec_plan_run(bench->plan, bench->patterns + r, rest < size ? rest : size));
+        try_call(bench, pspec_question_add(
+                            bench->question, rest < size ? rest : size, bench->num_points,
+                            DIMENSION, bench->points + r * bench->num_points * DIMENSION, NULL));
     }
-    try_call(bench, pspec_spectrum_create(&spectrum, bench->plan));
+    try_call(bench, pspec_question_answer(&answer, bench->question));
     const double seconds = bench_seconds() - begin;
-    size_t num = 0;
-    pspec_spectrum_frequencies(spectrum, &num);
     if (bench->first == NULL) {
-        bench->first = spectrum;
+        bench->first = answer;
         return seconds / (double)bench->num_patterns;
     }
-    if (memcmp(pspec_spectrum_powers(bench->first), pspec_spectrum_powers(spectrum),
-               num * sizeof(double)) != 0) {
+    const pspec_field *const first = pspec_answer_find(bench->first, "power");
+    const pspec_field *const power = pspec_answer_find(answer, "power");
+    if (memcmp(first->data, power->data, first->num * sizeof(double)) != 0) {
         bench_die("the spectrum depends on the size of the calls");
     }
-    pspec_spectrum_destroy(spectrum);
+    pspec_answer_destroy(answer);
     return seconds / (double)bench->num_patterns;
 }
 
-static void make_plan(library_bench *bench, const library_case *which) {
-    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
-    request.dimension = DIMENSION;
-    request.num_points = bench->num_points;
-    request.num_realizations = bench->num_patterns;
-    request.max_frequency = bench->max_frequency;
-    request.engine = which->engine;
-    request.precision = which->precision;
-    request.no_self_check = 1;
-    try_call(bench, pspec_plan_create(&bench->plan, bench->context, &request));
+static void make_question(library_bench *bench, const library_case *which) {
+    try_call(bench, pspec_question_create(&bench->question, bench->context, "power"));
+    try_call(bench,
+             pspec_question_set_number(bench->question, "max-frequency", bench->max_frequency));
+    try_call(bench, pspec_question_set(bench->question, "engine", which->engine));
+    if (strcmp(which->precision, "extended") != 0) { /* which is that of the engine anyway */
+        try_call(bench, pspec_question_set(bench->question, "precision", which->precision));
+    }
+    try_call(bench, pspec_question_set(bench->question, "no-self-check", NULL));
 }
 
 static void measure(library_bench *bench, const library_case *which) {
     const double micro = 1e6;
     const double alone = time_engine(bench, which);
-    make_plan(bench, which);
+    make_question(bench, which);
     time_calls(bench, bench->num_patterns); /* touches the memory */
     for (size_t i = 0; i < sizeof call_sizes / sizeof call_sizes[0]; i++) {
         double seconds[REPEATS];
@@ -142,8 +134,8 @@ static void measure(library_bench *bench, const library_case *which) {
         printf("%s,%s,%zu,%.3f,%.3f,%.3f\n", which->engine, which->precision, call_sizes[i],
                micro * median, micro * alone, micro * (median - alone));
     }
-    pspec_spectrum_destroy(bench->first);
-    pspec_plan_destroy(bench->plan);
+    pspec_answer_destroy(bench->first);
+    pspec_question_destroy(bench->question);
     bench->first = NULL;
 }
 
@@ -160,7 +152,6 @@ int main(int argc, char **argv) {
         measure(&bench, &cases[i]);
     }
     pspec_context_destroy(bench.context);
-    free(bench.patterns);
     free(bench.points);
     return 0;
 }

@@ -1,5 +1,5 @@
-"""pointspec through its C library: one plan, all realizations in one call, then the spectrum. Start-up,
-which the peers' times do not have either, is outside of the clock."""
+"""pointspec through its C library: a question with all realizations, and its answer. What a first answer
+prepares for all others, and the peers' times do not have either, is outside of the clock."""
 
 import csv
 import ctypes
@@ -9,23 +9,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from loops_sphere import num_coefficients
-
 
 class Planned(NamedTuple):
     chosen: str
     seconds: dict  # of a realization, for every engine that meets the tolerance
 
 
-class Pattern(ctypes.Structure):
-    """pspec_pattern"""
+class Field(ctypes.Structure):
+    """pspec_field"""
 
     _fields_ = [
-        ("dimension", ctypes.c_uint),
-        ("num_points", ctypes.c_size_t),
-        ("points", ctypes.c_void_p),
-        ("weights", ctypes.c_void_p),
+        ("struct_size", ctypes.c_size_t),
+        ("name", ctypes.c_char_p),
+        ("unit", ctypes.c_char_p),
+        ("group", ctypes.c_int),
+        ("type", ctypes.c_int),
+        ("rank", ctypes.c_uint),
+        ("shape", ctypes.POINTER(ctypes.c_size_t)),
+        ("num", ctypes.c_size_t),
+        ("data", ctypes.c_void_p),
     ]
+
+
+TYPES = (ctypes.c_double, ctypes.c_int64, ctypes.c_double, ctypes.c_char_p)  # pspec_type
+C128 = 2
 
 
 class Pointspec:
@@ -38,9 +45,7 @@ class Pointspec:
         library.pspec_version.restype = ctypes.c_char_p
         library.pspec_context_create.restype = ctypes.c_void_p
         library.pspec_context_message.restype = ctypes.c_char_p
-        library.pspec_plan_text.restype = ctypes.c_char_p
-        library.pspec_spectrum_error.restype = ctypes.c_double
-        library.pspec_spectrum_powers.restype = ctypes.POINTER(ctypes.c_double)
+        library.pspec_answer_find.restype = ctypes.POINTER(Field)
         self.context = ctypes.c_void_p(library.pspec_context_create())
         self.version = library.pspec_version().decode()
 
@@ -76,54 +81,59 @@ class Pointspec:
 class PointspecRunner:
     def __init__(self, peer, points, tolerance, engine):
         self.peer, self.points, self.library = peer, points, peer.library
-        case = points.case
-        create, self.request = peer.question.request(
-            case, tolerance, engine.encode() if engine else None)
-        self.plan = ctypes.c_void_p()
-        peer.check(getattr(self.library, create)(
-            ctypes.byref(self.plan), peer.context, ctypes.byref(self.request)))
-        self.text = self.library.pspec_plan_text(self.plan).decode().strip("()")
-        stride = 8 * case.points * case.dimension
-        start = points.rows.ctypes.data
-        self.patterns = (Pattern * points.count)(
-            *(Pattern(case.dimension, case.points, start + r * stride) for r in range(points.count)))
+        self.words = dict(peer.question.options(points.case), tol=tolerance)
+        if engine:
+            self.words["engine"] = engine
+        self.text = self.ask(0, 1, {}, lambda answer: self.field(answer, "engine")[0]).decode()
 
-    def average(self, first, count, use):
-        spectrum = ctypes.c_void_p()
-        patterns = ctypes.byref(self.patterns, first * ctypes.sizeof(Pattern))
-        self.peer.check(self.library.pspec_plan_reset(self.plan))
-        self.peer.check(self.library.pspec_plan_run(self.plan, patterns, ctypes.c_size_t(count)))
-        self.peer.check(self.library.pspec_spectrum_create(ctypes.byref(spectrum), self.plan))
-        result = use(spectrum)
-        self.library.pspec_spectrum_destroy(spectrum)
-        return result
+    def ask(self, first, count, more, use):
+        """What use makes of the answer for these realizations; more: options, None asks for an array."""
+        library, question, answer = self.library, ctypes.c_void_p(), ctypes.c_void_p()
+        case = self.points.case
+        self.peer.check(library.pspec_question_create(
+            ctypes.byref(question), self.peer.context, self.peer.question.kind))
+        try:
+            for option, value in {**self.words, "no-self-check": None, **more}.items():
+                self.peer.check(library.pspec_question_set(
+                    question, option.encode(), None if value is None else str(value).encode()))
+            start = self.points.rows.ctypes.data + 8 * first * case.points * case.dimension
+            self.peer.check(library.pspec_question_add(
+                question, ctypes.c_size_t(count), ctypes.c_size_t(case.points), case.dimension,
+                ctypes.c_void_p(start), None))
+            self.peer.check(library.pspec_question_answer(ctypes.byref(answer), question))
+            return use(answer)
+        finally:
+            library.pspec_answer_destroy(answer)
+            library.pspec_question_destroy(question)
+
+    def field(self, answer, name):
+        field = self.library.pspec_answer_find(answer, name.encode()).contents
+        count = field.num * (2 if field.type == C128 else 1)
+        values = ctypes.cast(field.data, ctypes.POINTER(TYPES[field.type]))
+        return [values[0]] if count == 1 else np.ctypeslib.as_array(values, (count,)).copy()
 
     def run(self, count):
         begin = time.perf_counter()
-        self.average(0, count, lambda spectrum: None)
+        self.ask(0, count, {}, lambda answer: None)
         return time.perf_counter() - begin, float("nan")
 
     def magnitudes(self, realization):
         """(|S| or sqrt(Q(l)) of all frequencies or degrees, the error that pointspec claims)."""
-        case = self.points.case
+        case, question = self.points.case, self.peer.question
 
-        def use(spectrum):
-            num = ctypes.c_size_t()
-            self.library.pspec_spectrum_frequencies.restype = ctypes.c_void_p
-            self.library.pspec_spectrum_frequencies(spectrum, ctypes.byref(num))
-            powers = self.library.pspec_spectrum_powers(spectrum)
-            powers = np.ctypeslib.as_array(powers, (num.value,))
-            return np.sqrt(powers * case.points), self.library.pspec_spectrum_error(spectrum)
+        def use(answer):
+            powers = np.asarray(self.field(answer, question.powers))
+            if question.powers == "full":  # the half lattice after DC
+                powers = powers[powers.size // 2 + 1:]
+            return np.sqrt(powers * case.points), self.field(answer, "predicted_error")[0]
 
-        return self.average(realization, 1, use)
+        more = {"full": None} if question.powers == "full" else {}
+        return self.ask(realization, 1, more, use)
 
     def modes(self, realization):
         """The conjugate c_lm, as those of the peers."""
-        found = np.empty(num_coefficients(self.points.case.degree), np.complex128)
-        pattern = ctypes.byref(self.patterns, realization * ctypes.sizeof(Pattern))
-        self.peer.check(self.library.pspec_plan_coefficients(
-            self.plan, pattern, 0, ctypes.c_void_p(found.ctypes.data)))
-        return np.conj(found)
+        return np.conj(self.ask(realization, 1, {"coefficients": None},
+                                lambda answer: self.field(answer, "coefficients").view(np.complex128)))
 
     def close(self):
-        self.library.pspec_plan_destroy(self.plan)
+        pass

@@ -1,5 +1,4 @@
-/* Weights of one's own, single frequencies, saving, loading and merging: importance-weighted
- * points, in two halves as two machines would compute them.
+/* Weights of one's own, single frequencies: importance-weighted points.
  *
  *     cc own_weights.c $(pkg-config --cflags --libs pointspec) -lm && ./a.out
  */
@@ -21,67 +20,44 @@ static void draw(double *points, double *weights) {
     }
 }
 
-static pspec_status estimate_half(pspec_context *context, const char *path) {
-    static const int32_t frequencies[NUM_FREQUENCIES][2] = {{1, 0}, {0, 1}, {12, -5}};
-    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
-    request.num_points = NUM_POINTS;
-    request.frequencies = &frequencies[0][0];
-    request.num_frequencies = NUM_FREQUENCIES;
-    request.normalization = PSPEC_NORMALIZATION_EFFECTIVE;
-    pspec_plan *plan = NULL;
-    pspec_spectrum *spectrum = NULL;
-    pspec_status status = pspec_plan_create(&plan, context, &request);
-    for (int r = 0; status == PSPEC_OK && r < REALIZATIONS / 2; r++) {
-        double points[2 * NUM_POINTS];
-        double weights[NUM_POINTS];
+static pspec_status estimate(pspec_question *question, pspec_answer **answer) {
+    static const int64_t frequencies[NUM_FREQUENCIES][2] = {{1, 0}, {0, 1}, {12, -5}};
+    static const size_t shape[] = {NUM_FREQUENCIES, 2};
+    const pspec_field list = {.struct_size = sizeof list,
+                              .type = PSPEC_I64,
+                              .rank = 2,
+                              .shape = shape,
+                              .num = 2 * NUM_FREQUENCIES,
+                              .data = frequencies};
+    pspec_status status = pspec_question_set(question, "normalize", "effective");
+    if (status == PSPEC_OK) {
+        status = pspec_question_set_array(question, "frequencies", &list);
+    }
+    for (int r = 0; status == PSPEC_OK && r < REALIZATIONS; r++) {
+        double points[2 * NUM_POINTS], weights[NUM_POINTS];
         draw(points, weights);
-        const pspec_pattern pattern = {2, NUM_POINTS, points, weights};
-        status = pspec_plan_run(plan, &pattern, 1); /* takes copies */
+        status = pspec_question_add(question, 1, NUM_POINTS, 2, points, weights); /* copies */
     }
-    if (status == PSPEC_OK) {
-        status = pspec_spectrum_create(&spectrum, plan);
-    }
-    if (status == PSPEC_OK) {
-        status = pspec_spectrum_save(spectrum, context, path);
-    }
-    pspec_spectrum_destroy(spectrum);
-    pspec_plan_destroy(plan);
-    return status;
-}
-
-static void print(const pspec_spectrum *spectrum) {
-    size_t num = 0;
-    const int32_t *k = pspec_spectrum_frequencies(spectrum, &num);
-    for (size_t i = 0; i < num; i++) {
-        printf("%d %d %g %g\n", (int)k[2 * i], (int)k[2 * i + 1],
-               pspec_spectrum_powers(spectrum)[i], pspec_spectrum_standard_errors(spectrum)[i]);
-    }
+    return status == PSPEC_OK ? pspec_question_answer(answer, question) : status;
 }
 
 int main(void) {
-    static const char *const paths[] = {"half1.spectrum", "half2.spectrum"};
     pspec_context *context = pspec_context_create();
-    pspec_spectrum *halves[2] = {NULL, NULL};
-    pspec_spectrum *whole = NULL;
-    pspec_status status = PSPEC_OK;
-    for (int i = 0; i < 2 && status == PSPEC_OK; i++) {
-        status = estimate_half(context, paths[i]);
-    }
-    for (int i = 0; i < 2 && status == PSPEC_OK; i++) {
-        status = pspec_spectrum_load(&halves[i], context, paths[i]);
-    }
-    if (status == PSPEC_OK) {
-        const pspec_spectrum *const both[] = {halves[0], halves[1]};
-        status = pspec_spectrum_merge(&whole, context, both, 2);
-    }
-    if (status == PSPEC_OK) {
-        print(whole);
-    } else {
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    if (pspec_question_create(&question, context, "power") || estimate(question, &answer)) {
         fprintf(stderr, "%s\n", pspec_context_message(context));
+        return 1;
     }
-    pspec_spectrum_destroy(whole);
-    pspec_spectrum_destroy(halves[0]);
-    pspec_spectrum_destroy(halves[1]);
+    const int64_t *const k1 = pspec_answer_find(answer, "k1")->data;
+    const int64_t *const k2 = pspec_answer_find(answer, "k2")->data;
+    const double *const power = pspec_answer_find(answer, "power")->data;
+    const double *const error = pspec_answer_find(answer, "standard_error")->data;
+    for (size_t i = 0; i < NUM_FREQUENCIES; i++) {
+        printf("%d %d %g %g\n", (int)k1[i], (int)k2[i], power[i], error[i]);
+    }
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
     pspec_context_destroy(context);
-    return status == PSPEC_OK ? 0 : 1;
+    return 0;
 }

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { NUM_POINTS = 100, REALIZATIONS = 20, MAX_DEGREE = 12 };
+enum { NUM_POINTS = 100, REALIZATIONS = 20 };
 
 static double random_number(void) {
     return rand() / (RAND_MAX + 1.0);
@@ -32,47 +32,34 @@ static void draw(double *points, double *weights) {
     }
 }
 
-static pspec_status estimate(pspec_context *context, pspec_plan **plan, pspec_spectrum **sums,
-                             pspec_mean *c2) {
-    pspec_angular_request request = PSPEC_ANGULAR_REQUEST_INIT;
-    request.num_points = NUM_POINTS;
-    request.num_realizations = REALIZATIONS;
-    request.max_degree = MAX_DEGREE;
-    request.normalization = PSPEC_NORMALIZATION_PAIRS;
-    request.want_c2 = 1;
-    request.tolerance = 1e-9; /* in units of (sum |w|)^2 */
-    pspec_status status = pspec_plan_create_angular(plan, context, &request);
-    for (int r = 0; status == PSPEC_OK && r < REALIZATIONS; r++) {
-        double points[3 * NUM_POINTS], weights[NUM_POINTS];
-        draw(points, weights);
-        const pspec_pattern pattern = {3, NUM_POINTS, points, weights};
-        status = pspec_plan_run(*plan, &pattern, 1);
-    }
-    if (status == PSPEC_OK) {
-        status = pspec_spectrum_create(sums, *plan);
-    }
-    return status == PSPEC_OK ? pspec_plan_c2(*plan, c2) : status;
-}
-
 int main(void) {
+    static double points[REALIZATIONS][3 * NUM_POINTS], weights[REALIZATIONS][NUM_POINTS];
     pspec_context *context = pspec_context_create();
-    pspec_plan *plan = NULL;
-    pspec_spectrum *sums = NULL;
-    pspec_mean c2[MAX_DEGREE];
-    if (context == NULL || estimate(context, &plan, &sums, c2) != PSPEC_OK) {
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    for (int r = 0; r < REALIZATIONS; r++) {
+        draw(points[r], weights[r]);
+    }
+    if (pspec_question_create(&question, context, "pairs") ||
+        pspec_question_set(question, "max-degree", "12") ||
+        pspec_question_set(question, "tol", "1e-9") || /* in units of (sum |w|)^2 */
+        pspec_question_add(question, REALIZATIONS, NUM_POINTS, 3, points[0], weights[0]) ||
+        pspec_question_answer(&answer, question)) {
         fprintf(stderr, "%s\n", pspec_context_message(context));
         return 1;
     }
-    size_t num = 0;
-    const pspec_bin *bins = pspec_spectrum_bins(sums, &num);
-    printf("# %s\n# degree, Q, its standard error, C^2, its standard error\n",
-           pspec_plan_text(plan));
-    for (size_t b = 0; b < num; b++) {
-        printf("%d %.4f %.4f %.4f %.4f\n", (int)bins[b].bin, bins[b].power, bins[b].standard_error,
-               c2[b].mean, c2[b].standard_error);
+    printf("# degree, Q, its standard error, C^2, its standard error\n");
+    const pspec_field *const degree = pspec_answer_find(answer, "degree");
+    const char *const names[] = {"legendre_sum", "legendre_sum_error", "c2", "c2_error"};
+    for (size_t l = 0; l < degree->num; l++) {
+        printf("%d", (int)((const int64_t *)degree->data)[l]);
+        for (int i = 0; i < 4; i++) {
+            printf(" %.4f", ((const double *)pspec_answer_find(answer, names[i])->data)[l]);
+        }
+        printf("\n");
     }
-    pspec_spectrum_destroy(sums);
-    pspec_plan_destroy(plan);
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
     pspec_context_destroy(context);
     return 0;
 }

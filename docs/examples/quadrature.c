@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { NUM_POINTS = 256, MAX_DEGREE = 16 };
+enum { NUM_POINTS = 256 };
 
 /* Points of equal areas at heights z', moved to z = sqrt(z'): their density is z / pi. */
 static void make_directions(double *points) {
@@ -25,38 +25,50 @@ static void make_directions(double *points) {
     }
 }
 
-static pspec_status print_rule(pspec_context *context, const double *points, int optimal) {
-    const pspec_pattern pattern = {3, NUM_POINTS, points, NULL}; /* weights: 1/N */
-    pspec_quadrature_request request = PSPEC_QUADRATURE_REQUEST_INIT;
-    request.brdf = "diffuse";
-    request.max_degree = MAX_DEGREE;
-    request.optimal_weights = optimal;
-    pspec_quadrature *rule = NULL;
-    const pspec_status status = pspec_quadrature_create(&rule, context, &request, &pattern, 1);
-    if (status != PSPEC_OK) {
-        return status;
-    }
-    const pspec_worst_case_error *e = pspec_quadrature_error(rule);
-    printf("# %s weights: E = %.6f, weights sum to %.6f, %s\n", optimal ? "optimal" : "equal",
-           sqrt(e->squared.mean), e->weight_sum.mean, pspec_quadrature_text(rule));
-    size_t num = 0;
-    const pspec_quadrature_degree *degrees = pspec_quadrature_degrees(rule, &num);
+static void print(const pspec_answer *answer, const char *const *names, int num_names) {
+    const size_t num = pspec_answer_find(answer, "degree")->num;
     for (size_t l = 0; l < num; l++) {
-        printf("%d %.3e %.3e %.3e\n", (int)degrees[l].degree, degrees[l].d2.mean,
-               degrees[l].c2.mean, degrees[l].e2.mean);
+        printf("%zu", l);
+        for (int i = 0; i < num_names; i++) {
+            printf(" %.3e", ((const double *)pspec_answer_find(answer, names[i])->data)[l]);
+        }
+        printf("\n");
     }
-    pspec_quadrature_destroy(rule);
-    return PSPEC_OK;
+}
+
+static pspec_status print_rule(pspec_context *context, const double *points, const char *weights) {
+    static const char *const names[] = {"d2", "c2", "e2"};
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    pspec_status status = PSPEC_OK;
+    if ((status = pspec_question_create(&question, context, "quadrature")) == PSPEC_OK &&
+        (status = pspec_question_set(question, "brdf", "diffuse")) == PSPEC_OK &&
+        (status = pspec_question_set(question, "weights", weights)) == PSPEC_OK &&
+        (status = pspec_question_set(question, "max-degree", "16")) == PSPEC_OK &&
+        (status = pspec_question_add(question, 1, NUM_POINTS, 3, points, NULL)) == PSPEC_OK &&
+        (status = pspec_question_answer(&answer, question)) == PSPEC_OK) {
+        printf("# %s weights: E = %.6f\n", weights,
+               *(const double *)pspec_answer_find(answer, "worst_case_error")->data);
+        print(answer, names, 3);
+    }
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
+    return status;
 }
 
 static pspec_status print_truncation(pspec_context *context) {
-    double errors[MAX_DEGREE + 1], bounds[MAX_DEGREE + 1], points[MAX_DEGREE + 1];
-    const pspec_status status =
-        pspec_truncation(context, "diffuse", 1.5, 0, MAX_DEGREE, errors, bounds, points);
-    printf("# degree, error of truncated products, Fibonacci points that have the same\n");
-    for (int l = 0; status == PSPEC_OK && l <= MAX_DEGREE; l++) {
-        printf("%d %.6f %.0f\n", l, errors[l], points[l]);
+    static const char *const names[] = {"error", "equivalent_points"};
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    pspec_status status = PSPEC_OK;
+    if ((status = pspec_question_create(&question, context, "truncation")) == PSPEC_OK &&
+        (status = pspec_question_set(question, "brdf", "diffuse")) == PSPEC_OK &&
+        (status = pspec_question_answer(&answer, question)) == PSPEC_OK) {
+        printf("# degree, error of truncated products, Fibonacci points that have the same\n");
+        print(answer, names, 2);
     }
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
     return status;
 }
 
@@ -64,8 +76,9 @@ int main(void) {
     double points[3 * NUM_POINTS];
     pspec_context *context = pspec_context_create();
     make_directions(points);
-    if (context == NULL || print_rule(context, points, 0) != PSPEC_OK ||
-        print_rule(context, points, 1) != PSPEC_OK || print_truncation(context) != PSPEC_OK) {
+    if (context == NULL || print_rule(context, points, "equal") != PSPEC_OK ||
+        print_rule(context, points, "optimal") != PSPEC_OK ||
+        print_truncation(context) != PSPEC_OK) {
         fprintf(stderr, "%s\n", pspec_context_message(context));
         return 1;
     }

@@ -1,5 +1,4 @@
-/* Is it the same sampler? Jittered points with two random generators, and white ones: which rings
- * differ.
+/* Is it the same sampler? Jittered points with two random generators, and white ones.
  *
  *     cc same_sampler.c $(pkg-config --cflags --libs pointspec) && ./a.out
  */
@@ -9,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SIDE = 8, NUM_POINTS = SIDE * SIDE, MAX_FREQUENCY = 16 };
+enum { SIDE = 8, NUM_POINTS = SIDE * SIDE };
 
 static double by_library(void) {
     return rand() / (RAND_MAX + 1.0);
@@ -22,62 +21,58 @@ static double by_multiplication(void) {
     return (double)(state >> 11) / 9007199254740992.0; /* 53 bits over 2^53 */
 }
 
-static pspec_spectrum *estimate(pspec_context *context, pspec_plan *plan, int num_sets,
-                                double (*uniform)(void), int is_jittered) {
-    pspec_spectrum *spectrum = NULL;
-    pspec_status status = pspec_plan_reset(plan);
-    for (int r = 0; status == PSPEC_OK && r < num_sets; r++) {
-        double points[2 * NUM_POINTS];
-        for (int j = 0; j < NUM_POINTS; j++) {
-            points[2 * j] = is_jittered ? (j % SIDE + uniform()) / SIDE : uniform();
-            points[2 * j + 1] = is_jittered ? (j / SIDE + uniform()) / SIDE : uniform();
-        }
-        const pspec_pattern pattern = {2, NUM_POINTS, points, NULL};
-        status = pspec_plan_run(plan, &pattern, 1);
+static void draw(double *points, double (*uniform)(void), int is_jittered) {
+    for (int j = 0; j < NUM_POINTS; j++) {
+        points[2 * j] = is_jittered ? (j % SIDE + uniform()) / SIDE : uniform();
+        points[2 * j + 1] = is_jittered ? (j / SIDE + uniform()) / SIDE : uniform();
     }
-    if (status != PSPEC_OK || pspec_spectrum_create(&spectrum, plan) != PSPEC_OK) {
-        fprintf(stderr, "%s\n", pspec_context_message(context));
-        exit(1);
-    }
-    return spectrum;
 }
 
-static size_t compare(pspec_context *context, const char *name, const pspec_spectrum *saved,
-                      pspec_spectrum *measured) {
-    pspec_bin_comparison bins[MAX_FREQUENCY];
-    size_t num_different = 0;
-    if (pspec_spectrum_compare(saved, measured, context, 1e-3, bins, &num_different) != PSPEC_OK) {
+/* option and value are of the kind. */
+static pspec_answer *ask(pspec_context *context, const char *kind, const char *option,
+                         const char *value, int num_sets, double (*uniform)(void),
+                         int is_jittered) {
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    double points[2 * NUM_POINTS];
+    pspec_status status = pspec_question_create(&question, context, kind);
+    if (status == PSPEC_OK) {
+        status = pspec_question_set(question, option, value);
+    }
+    for (int r = 0; status == PSPEC_OK && r < num_sets; r++) {
+        draw(points, uniform, is_jittered);
+        status = pspec_question_add(question, 1, NUM_POINTS, 2, points, NULL);
+    }
+    if (status != PSPEC_OK || pspec_question_answer(&answer, question) != PSPEC_OK) {
         fprintf(stderr, "%s\n", pspec_context_message(context));
         exit(1);
     }
-    printf("%zu of %d rings differ with %s", num_different, MAX_FREQUENCY, name);
-    for (int b = 0; b < MAX_FREQUENCY; b++) {
-        if (bins[b].differs) {
-            printf("; ring %d, z = %.3g", b + 1, bins[b].z_score);
-        }
-    }
-    printf("\n");
-    pspec_spectrum_destroy(measured);
-    return num_different;
+    pspec_question_destroy(question);
+    return answer;
+}
+
+/* Is it the same? */
+static int check(pspec_context *context, const char *name, int num_sets, double (*uniform)(void),
+                 int is_jittered) {
+    pspec_answer *answer =
+        ask(context, "check", "against", "saved.npz", num_sets, uniform, is_jittered);
+    const char *const verdict = pspec_answer_verdict(answer);
+    const int is_same = verdict[0] == '\0';
+    printf("%s: %s\n", name, is_same ? "the same sampler" : verdict);
+    pspec_answer_destroy(answer);
+    return is_same;
 }
 
 int main(void) {
-    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
     pspec_context *context = pspec_context_create();
-    pspec_plan *plan = NULL;
-    request.num_points = NUM_POINTS;
-    request.max_frequency = MAX_FREQUENCY;
-    if (pspec_plan_create(&plan, context, &request) != PSPEC_OK) {
+    pspec_answer *power = ask(context, "power", "max-frequency", "16", 200, by_library, 1);
+    if (pspec_answer_write(power, context, "saved.npz", NULL) != PSPEC_OK) {
         fprintf(stderr, "%s\n", pspec_context_message(context));
         return 1;
     }
-    pspec_spectrum *saved = estimate(context, plan, 200, by_library, 1);
-    const size_t same = compare(context, "another generator", saved,
-                                estimate(context, plan, 50, by_multiplication, 1));
-    const size_t white =
-        compare(context, "white points", saved, estimate(context, plan, 5, by_library, 0));
-    pspec_spectrum_destroy(saved);
-    pspec_plan_destroy(plan);
+    const int same = check(context, "another generator", 50, by_multiplication, 1);
+    const int white = check(context, "white points", 5, by_library, 0);
+    pspec_answer_destroy(power);
     pspec_context_destroy(context);
-    return same == 0 && white > 0 ? 0 : 1;
+    return same && !white ? 0 : 1;
 }

@@ -10,41 +10,32 @@
 
 enum { DIMENSION = 6, NUM_POINTS = 64, REALIZATIONS = 10 };
 
-static pspec_status estimate(pspec_context *context, pspec_plan **plan, pspec_spectrum **spectrum) {
-    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
-    request.dimension = DIMENSION;
-    request.num_points = NUM_POINTS;
-    request.max_frequency = 20;
-    request.per_ring = 100;
-    pspec_status status = pspec_plan_create(plan, context, &request);
-    for (int r = 0; status == PSPEC_OK && r < REALIZATIONS; r++) {
-        double points[DIMENSION * NUM_POINTS];
-        for (int i = 0; i < DIMENSION * NUM_POINTS; i++) {
-            points[i] = rand() / (RAND_MAX + 1.0);
-        }
-        const pspec_pattern pattern = {DIMENSION, NUM_POINTS, points, NULL};
-        status = pspec_plan_run(*plan, &pattern, 1);
-    }
-    return status == PSPEC_OK ? pspec_spectrum_create(spectrum, *plan) : status;
-}
-
 int main(void) {
+    static double points[REALIZATIONS][DIMENSION * NUM_POINTS];
     pspec_context *context = pspec_context_create();
-    pspec_plan *plan = NULL;
-    pspec_spectrum *spectrum = NULL;
-    if (context == NULL || estimate(context, &plan, &spectrum) != PSPEC_OK) {
-        fprintf(stderr, "%s\n", context != NULL ? pspec_context_message(context) : "no memory");
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    for (int i = 0; i < REALIZATIONS * DIMENSION * NUM_POINTS; i++) {
+        (&points[0][0])[i] = rand() / (RAND_MAX + 1.0);
+    }
+    if (pspec_question_create(&question, context, "power") ||
+        pspec_question_set(question, "max-frequency", "20") ||
+        pspec_question_set(question, "per-ring", "100") ||
+        pspec_question_add(question, REALIZATIONS, NUM_POINTS, DIMENSION, points[0], NULL) ||
+        pspec_question_answer(&answer, question)) {
+        fprintf(stderr, "%s\n", pspec_context_message(context));
         return 1;
     }
-    size_t num_bins = 0;
-    const pspec_bin *bins = pspec_spectrum_bins(spectrum, &num_bins);
-    for (size_t b = 0; b < num_bins; b++) {
-        printf("%g %g %g (%llu of %llu frequencies)\n", bins[b].frequency, bins[b].power,
-               bins[b].standard_error, (unsigned long long)bins[b].num_computed,
-               (unsigned long long)bins[b].count);
+    const pspec_field *const power = pspec_answer_find(answer, "power");
+    const double *const frequency = pspec_answer_find(answer, "frequency")->data;
+    const double *const error = pspec_answer_find(answer, "standard_error")->data;
+    const int64_t *const count = pspec_answer_find(answer, "count")->data;
+    for (size_t b = 0; b < power->num; b++) {
+        printf("%g %g %g (of %lld frequencies)\n", frequency[b], ((const double *)power->data)[b],
+               error[b], (long long)count[b]);
     }
-    pspec_spectrum_destroy(spectrum);
-    pspec_plan_destroy(plan);
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
     pspec_context_destroy(context);
     return 0;
 }

@@ -28,39 +28,31 @@ static void jitter(double *points) {
     }
 }
 
-static pspec_status estimate(pspec_context *context, pspec_plan **plan, pspec_spectrum **spectrum) {
-    pspec_angular_request request = PSPEC_ANGULAR_REQUEST_INIT;
-    request.num_points = NUM_POINTS;
-    request.num_realizations = REALIZATIONS;
-    request.max_degree = 48;
-    pspec_status status = pspec_plan_create_angular(plan, context, &request);
+int main(void) {
+    pspec_context *context = pspec_context_create();
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    pspec_status status = pspec_question_create(&question, context, "angular");
+    if (status == PSPEC_OK) {
+        status = pspec_question_set(question, "max-degree", "48");
+    }
     for (int r = 0; status == PSPEC_OK && r < REALIZATIONS; r++) {
         double points[3 * NUM_POINTS];
         jitter(points);
-        const pspec_pattern pattern = {3, NUM_POINTS, points, NULL};
-        status = pspec_plan_run(*plan, &pattern, 1);
+        status = pspec_question_add(question, 1, NUM_POINTS, 3, points, NULL);
     }
-    return status == PSPEC_OK ? pspec_spectrum_create(spectrum, *plan) : status;
-}
-
-int main(void) {
-    pspec_context *context = pspec_context_create();
-    pspec_plan *plan = NULL;
-    pspec_spectrum *spectrum = NULL;
-    if (context == NULL || estimate(context, &plan, &spectrum) != PSPEC_OK) {
-        fprintf(stderr, "%s\n", context != NULL ? pspec_context_message(context) : "no memory");
+    if (status != PSPEC_OK || pspec_question_answer(&answer, question) != PSPEC_OK) {
+        fprintf(stderr, "%s\n", pspec_context_message(context));
         return 1;
     }
-    size_t num_bins = 0;
-    const pspec_bin *bins = pspec_spectrum_bins(spectrum, &num_bins);
-    printf("# %s, %llu realizations, numerical error %.1e\n", pspec_plan_text(plan),
-           (unsigned long long)pspec_spectrum_num_realizations(spectrum),
-           pspec_spectrum_error(spectrum));
-    for (size_t b = 0; b < num_bins; b++) {
-        printf("%d %g %g\n", (int)bins[b].bin, bins[b].power, bins[b].standard_error);
+    const pspec_field *const power = pspec_answer_find(answer, "power");
+    const double *const error = pspec_answer_find(answer, "standard_error")->data;
+    printf("# %s\n", *(const char *const *)pspec_answer_find(answer, "engine")->data);
+    for (size_t b = 0; b < power->num; b++) {
+        printf("%zu %g %g\n", b + 1, ((const double *)power->data)[b], error[b]);
     }
-    pspec_spectrum_destroy(spectrum);
-    pspec_plan_destroy(plan);
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
     pspec_context_destroy(context);
     return 0;
 }

@@ -14,7 +14,6 @@ pspec_context *pspec_context_create(void) {
 void pspec_context_destroy(pspec_context *context) {
     if (context != NULL) {
         ps_device_close(context->device);
-        ps_lender_destroy(context->lender);
         free(context->selector);
         free(context);
     }
@@ -30,15 +29,13 @@ pspec_status pspec_context_set_device(pspec_context *context, const char *select
     }
     if (context->device != NULL) {
         return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "the device \"%s\" is open already: choose before the first plan",
+                       "the device \"%s\" is open already: choose before the first question",
                        ps_device_get_limits(context->device)->name);
     }
     char *copy = selector != NULL ? strdup(selector) : NULL;
     if (selector != NULL && copy == NULL) {
         return ps_fail(&context->error, PSPEC_ERROR_MEMORY, "no memory for a device's name");
     }
-    ps_lender_destroy(context->lender);
-    context->lender = NULL;
     free(context->selector);
     context->selector = copy;
     return PSPEC_OK;
@@ -66,14 +63,6 @@ void pspec_context_set_warnings(pspec_context *context, pspec_log warn, void *pa
     if (context != NULL) {
         context->warnings = (ps_log){warn, payload};
     }
-}
-
-pspec_status ps_context_lend(pspec_context *context, ps_lender **lender) {
-    if (context->lender == NULL) {
-        PS_TRY(ps_lender_create(&context->lender, context->selector, &context->error));
-    }
-    *lender = context->lender;
-    return PSPEC_OK;
 }
 
 /* With what `pointspec bench` has measured of it; without a folder for that, with the built-in

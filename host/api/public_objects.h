@@ -2,43 +2,36 @@
 #ifndef PS_API_PUBLIC_OBJECTS_H
 #define PS_API_PUBLIC_OBJECTS_H
 
+#include "answers/kind.h"
 #include "base/log.h"
-#include "base/watch.h"
-#include "device/lender.h"
-#include "spectra/spectrum_sums.h"
-#include "tables/table.h"
 
 struct pspec_context {
     ps_error error;
     char *selector;
-    ps_device *device; /* NULL until a plan needs it */
-    ps_lender *lender; /* NULL until a sampler wants it */
+    ps_device *device; /* NULL until a question needs it */
     uint64_t memory_limit;
     ps_watch watch; /* the progress callback */
     ps_log log;
     ps_log warnings;
 };
 
-/* A table with its verdict, "" where nothing is wrong; both are taken over even when it fails. */
-pspec_status ps_public_table(pspec_table **out, ps_table *table, const char *verdict,
-                             ps_error *error) PS_MUST_CHECK;
+/* An answer that was made, which is taken over even when it fails: a table, or NULL, with its
+ * verdict. fields: what its kind declares, ended by NULL, or NULL. */
+pspec_status ps_public_answer(pspec_answer **out, ps_answer *made,
+                              const ps_field_row *const *fields, ps_error *error) PS_MUST_CHECK;
 
 /* Opens the context's device unless it is open. */
 pspec_status ps_context_open_device(pspec_context *context) PS_MUST_CHECK;
 
-/* Of devices for samplers, opened when they are needed and kept as long as the context. */
-pspec_status ps_context_lend(pspec_context *context, ps_lender **lender) PS_MUST_CHECK;
+/* The option belongs to the command, and is none of how a program shows its work, nor the device,
+ * which is that of the context. */
+bool ps_public_takes(const ps_command *row, ps_option_id id);
 
-/* A spectrum of sums, which are taken over even when it fails. */
-pspec_status ps_public_spectrum(pspec_spectrum **out, ps_spectrum_sums *sums, const ps_bins *bins,
-                                ps_error *error) PS_MUST_CHECK;
-
-/* What the spectrum was made of; belongs to it. */
-const ps_spectrum_sums *ps_public_sums(const pspec_spectrum *spectrum);
-
-/* The plan's realizations, all of them in the sums; out of an engine within the tolerance. */
-pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out,
-                          const ps_bins **bins) PS_MUST_CHECK;
-pspec_context *ps_plan_context(const pspec_plan *plan);
+/* The row of that name in a table that NULL ends, or the sentence that names the nearest one; what:
+ * "kind of answer". */
+pspec_status ps_public_find(const ps_command **out, const ps_command *const *table,
+                            const char *name, const char *what, ps_error *error) PS_MUST_CHECK;
+/* All that can be asked by pspec_question_create; ended by NULL. */
+extern const ps_command *const ps_public_commands[];
 
 #endif

@@ -2,49 +2,12 @@
  * of cells, and a vector for each column. */
 #include "base/memory.h"
 #include "base/text.h"
-#include "files/decimal.h"
 #include "tables/table_rows.h"
+#include "tables/table_vector.h"
 
-#include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct column {
-    const ps_table *table;
-    const char *name;
-    size_t place;
-} column;
-
-static const ps_cell *cell_at(const column *self, size_t row) {
-    return &self->table->cells[row * self->table->num_columns + self->place];
-}
-
-static size_t count_cells(const column *self, ps_cell_kind kind) {
-    size_t num = 0;
-    for (size_t row = 0; row < self->table->num_rows; row++) {
-        num += cell_at(self, row)->kind == kind;
-    }
-    return num;
-}
-
-/* ---- texts --------------------------------------------------------------------------------- */
-
-enum { CELL_BYTES = PS_DECIMAL_BYTES > 24 ? PS_DECIMAL_BYTES : 24 }; /* a number, or an integer */
-
-static const char *show(char own[CELL_BYTES], const ps_cell *cell) {
-    own[0] = '\0';
-    if (cell->kind == PS_CELL_TEXT) {
-        return cell->text;
-    }
-    if (cell->kind == PS_CELL_NUMBER) {
-        ps_decimal_format(own, cell->number);
-    } else if (cell->kind == PS_CELL_INTEGER) {
-        snprintf(own, CELL_BYTES, "%" PRId64, cell->integer);
-    }
-    return own;
-}
 
 /* Characters, which out gets unless it is NULL; a byte that is none is U+DC80 to U+DCFF, as Python
  * has it in names of files. */
@@ -62,75 +25,47 @@ static size_t decode(uint32_t *out, const char *text) {
     return num;
 }
 
+/* ---- columns ------------------------------------------------------------------------------- */
+
 /* NumPy has no texts of no characters. */
-static size_t find_width(const column *self) {
-    char own[CELL_BYTES];
+static size_t find_width(const char *const *texts, size_t num) {
     size_t width = 1;
-    for (size_t row = 0; row < self->table->num_rows; row++) {
-        const size_t length = decode(NULL, show(own, cell_at(self, row)));
+    for (size_t row = 0; row < num; row++) {
+        const size_t length = decode(NULL, texts[row]);
         width = length > width ? length : width;
     }
     return width;
 }
 
-static pspec_status add_texts(const column *self, ps_npz *npz, ps_error *error) {
-    char own[CELL_BYTES];
-    const size_t num = self->table->num_rows;
-    const size_t width = find_width(self);
-    uint32_t *texts = NULL;
-    PS_TRY(ps_allocate_for(&texts, num, width * sizeof *texts, "a column of text", error));
+static pspec_status add_texts(const char *name, const char *const *texts, size_t num, ps_npz *npz,
+                              ps_error *error) {
+    const size_t width = find_width(texts, num);
+    uint32_t *codes = NULL;
+    PS_TRY(ps_allocate_for(&codes, num, width * sizeof *codes, "a column of text", error));
     for (size_t row = 0; row < num; row++) {
-        decode(texts + row * width, show(own, cell_at(self, row)));
+        decode(codes + row * width, texts[row]);
     }
-    const ps_npz_array array = {self->name, 'U', width * sizeof *texts, 1, &num, texts};
+    const ps_npz_array array = {name, 'U', width * sizeof *codes, 1, &num, codes};
     const pspec_status status = ps_npz_add(npz, &array, error);
-    free(texts);
+    free(codes);
     return status;
 }
 
-/* ---- numbers ------------------------------------------------------------------------------- */
-
-static pspec_status add_numbers(const column *self, bool are_integers, ps_npz *npz,
-                                ps_error *error) {
-    const size_t num = self->table->num_rows;
-    union {
-        int64_t integer;
-        double number;
-    } *values = NULL;
-    PS_TRY(PS_NEW(&values, num, "a column", error));
-    for (size_t row = 0; row < num; row++) {
-        const ps_cell *const cell = cell_at(self, row);
-        if (are_integers) {
-            values[row].integer = cell->integer;
-        } else {
-            values[row].number = ps_cell_number(*cell);
-        }
-    }
-    const ps_npz_array array = {self->name, are_integers ? 'i' : 'f', sizeof *values, 1, &num,
-                                values};
-    const pspec_status status = ps_npz_add(npz, &array, error);
-    free(values);
+static pspec_status add_column(const ps_table *table, size_t column, ps_npz *npz, ps_error *error) {
+    const char *const name = table->columns[column];
+    ps_table_vector vector;
+    PS_TRY(ps_table_vector_make(&vector, table, column, error));
+    const ps_npz_array array = {name,
+                                vector.kind == PS_CELL_INTEGER ? 'i' : 'f',
+                                sizeof *vector.numbers,
+                                1,
+                                &table->num_rows,
+                                vector.values};
+    const pspec_status status = vector.kind == PS_CELL_TEXT
+                                    ? add_texts(name, vector.texts, table->num_rows, npz, error)
+                                    : ps_npz_add(npz, &array, error);
+    free(vector.values);
     return status;
-}
-
-/* Integers beside numbers that are none, or missing, must be exact as doubles. */
-static bool is_exact(const column *self) {
-    const int64_t most = (int64_t)1 << 53;
-    bool all = true;
-    for (size_t row = 0; row < self->table->num_rows; row++) {
-        const ps_cell *const cell = cell_at(self, row);
-        all = all &&
-              (cell->kind != PS_CELL_INTEGER || (cell->integer >= -most && cell->integer <= most));
-    }
-    return all;
-}
-
-static pspec_status add_column(const column *self, ps_npz *npz, ps_error *error) {
-    const size_t num = self->table->num_rows;
-    const bool are_integers = num > 0 && count_cells(self, PS_CELL_INTEGER) == num;
-    return count_cells(self, PS_CELL_TEXT) > 0 || (!are_integers && !is_exact(self))
-               ? add_texts(self, npz, error)
-               : add_numbers(self, are_integers, npz, error);
 }
 
 /* ---- fields -------------------------------------------------------------------------------- */
@@ -140,7 +75,7 @@ static void put_text(ps_text *out, const char *text) {
 }
 
 static void put_fields(ps_text *out, const ps_table *table) {
-    char own[CELL_BYTES];
+    char own[PS_TABLE_CELL_BYTES];
     put_text(out, PS_TABLE_FIELDS_VERSION);
     put_text(out, table->command);
     for (size_t i = 0; i < table->num_columns; i++) {
@@ -153,7 +88,7 @@ static void put_fields(ps_text *out, const ps_table *table) {
                        (entry->is_repeated ? PS_TABLE_REPEATED : PS_TABLE_SINGLE) +
                            (char)entry->value.kind);
         put_text(out, entry->key);
-        put_text(out, show(own, &entry->value));
+        put_text(out, ps_table_show(own, &entry->value));
     }
     for (size_t i = 0; i < table->num_arrays; i++) {
         ps_text_append(out, "%c", table->arrays[i].is_state ? PS_TABLE_STATE : PS_TABLE_ARRAY);
@@ -224,7 +159,7 @@ pspec_status ps_table_add_to_npz(const ps_table *table, ps_npz *npz, ps_error *e
     PS_TRY(add_fields(table, npz, error));
     PS_TRY(add_kinds(table, npz, error));
     for (size_t i = 0; i < table->num_columns; i++) {
-        PS_TRY(add_column(&(column){table, table->columns[i], i}, npz, error));
+        PS_TRY(add_column(table, i, npz, error));
     }
     for (size_t i = 0; i < table->num_arrays; i++) {
         const ps_npy_array *const values = &table->arrays[i].values;

@@ -10,27 +10,37 @@ enum { TEXT = 4096 };
 
 /* ---- the program ------------------------------------------------------------------------- */
 
-/* "--points 64 ... a.txt": as the library says the command line, files behind the rest. */
-static void append_words(char *line, size_t size, const pspec_option *options, size_t num) {
+/* "power points=64 files=a.txt" as "power --points 64 a.txt", files behind the rest, as the library
+ * says the command line. */
+static void append_words(char *command, size_t size, const char *line) {
     for (int want_files = 0; want_files < 2; want_files++) {
-        for (size_t i = 0; i < num; i++) {
-            const size_t length = strlen(line);
-            const bool is_file = strcmp(options[i].name, "files") == 0;
-            const char *const value = options[i].value != NULL ? options[i].value : "";
+        char words[TEXT];
+        char *rest = NULL;
+        snprintf(words, sizeof words, "%s", line);
+        char *word = strtok_r(words, " ", &rest);
+        while ((word = strtok_r(NULL, " ", &rest)) != NULL) {
+            static const char files[] = "files=";
+            const bool is_file = strncmp(word, files, sizeof files - 1) == 0;
+            const size_t length = strlen(command);
+            char *const equals = strchr(word, '=');
             if (is_file == (want_files != 0)) {
-                snprintf(line + length, size - length, is_file ? "%.0s %s" : " --%s %s",
-                         options[i].name, value);
+                if (equals != NULL) {
+                    *equals = '\0';
+                }
+                snprintf(command + length, size - length, is_file ? "%.0s %s" : " --%s %s", word,
+                         equals != NULL ? equals + 1 : "");
             }
         }
     }
 }
 
-int test_ask_program(const char *command, const pspec_option *options, size_t num) {
-    char line[TEXT];
-    snprintf(line, sizeof line, "'%s' %s", TEST_PROGRAM, command);
-    append_words(line, sizeof line, options, num);
-    strncat(line, " >printed 2>said", sizeof line - strlen(line) - 1);
-    const int status = system(line);
+int test_ask_program(const char *before, const char *line) {
+    char command[2 * TEXT];
+    snprintf(command, sizeof command, "'%s' %s%.*s", TEST_PROGRAM, before, (int)strcspn(line, " "),
+             line);
+    append_words(command, sizeof command, line);
+    strncat(command, " >printed 2>said", sizeof command - strlen(command) - 1);
+    const int status = system(command);
     assert_true(status != -1 && WIFEXITED(status));
     return WEXITSTATUS(status);
 }

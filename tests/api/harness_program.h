@@ -4,11 +4,10 @@
 
 #include "harness_public.h"
 
-#define COUNT(options) (sizeof(options) / sizeof(options)[0])
-
-/* Runs the program in this folder; returns its exit status. What it prints is in the file
- * "printed", what it says on standard error in "said". */
-int test_ask_program(const char *command, const pspec_option *options, size_t num);
+/* Runs the program in this folder with a question as of test_public_question; before: "", or "plan ".
+ * Returns its exit status. What it prints is in the file "printed", what it says on standard error
+ * in "said". */
+int test_ask_program(const char *before, const char *line);
 
 /* The bytes of a file, with a zero behind them; freed by the caller. */
 char *test_read_whole(const char *path, size_t *num);

@@ -6,18 +6,28 @@
 
 enum { TEST_NUM_POINTS = 30 };
 
-/* A small grid, by the engine that needs no device. */
-pspec_power_request test_host_request(void);
-
 /* With the device of the tests. */
 pspec_context *test_public_context(void);
 
-/* The spectrum of patterns, by a plan of its own. */
-pspec_spectrum *test_public_spectrum(pspec_context *context, const pspec_power_request *request,
-                                     const pspec_pattern *patterns, size_t num);
+/* A question as "power max-frequency=4 hemisphere files=a.txt": a kind, and its options. */
+pspec_question *test_public_question(pspec_context *context, const char *line);
+void test_public_add(pspec_question *question, const pspec_pattern *patterns, size_t num);
+/* The answer, which is there, or the status, and a piece of the sentence. */
+pspec_answer *test_public_answer(pspec_context *context, pspec_question *question);
+void test_public_refuse(pspec_context *context, pspec_question *question, pspec_status status,
+                        const char *piece);
+/* The same of a question that is made for it, and patterns. */
+pspec_answer *test_public_ask(pspec_context *context, const char *line,
+                              const pspec_pattern *patterns, size_t num);
+void test_public_refused(pspec_context *context, pspec_status found, pspec_status expected,
+                         const char *piece);
 
-/* To the bit; powers of single frequencies only when asked for. */
-bool test_is_same_spectrum(const pspec_spectrum *a, const pspec_spectrum *b, bool with_powers);
+/* The field, which is there and has this type; the only text of one. */
+const pspec_field *test_public_field(const pspec_answer *answer, const char *name, pspec_type type);
+const double *test_public_numbers(const pspec_answer *answer, const char *name);
+const char *test_public_text(const pspec_answer *answer, const char *name);
+/* All columns, and arrays, have the same bits; entries are not looked at. */
+bool test_public_same(const pspec_answer *a, const pspec_answer *b);
 
 /* Installs an error handler of GSL's that counts. At the end of a program, as a test: it is still
  * there, after everything that the library did, and nobody called it. */

@@ -1,5 +1,6 @@
 /* The progress callback: long phases have a name, and end soon after it has asked them to. */
 #include "base/clock.h"
+#include "harness_public.h"
 #include "harness_quadrature.h"
 
 #include <stdio.h>
@@ -7,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MANY = 200000 }; /* points: minutes of pairs */
+enum { MANY = 200000, LINE = 256 }; /* points: minutes of pairs */
 
 typedef struct listener {
     const char *phase; /* a part of the name of the phase to be cancelled */
@@ -32,29 +33,32 @@ static int listen(const pspec_progress_report *report, void *payload) {
 }
 
 /* The promise is a second, of a machine with nothing else to do. */
-static void check_end(const listener *heard, const pspec_context *context) {
+static void check_end(const listener *heard) {
     const double slow = 5;
     assert_true(heard->asked > 0);
     assert_true(test_own_seconds() - heard->asked < slow);
     assert_true(heard->gap < slow);
-    assert_non_null(strstr(pspec_context_message(context), "interrupted after"));
+}
+
+static void ask(pspec_context *context, const char *line, size_t num, uint64_t memory,
+                listener *heard) {
+    double *const points = test_rule_points("fibonacci-hemisphere:morph=diffuse", num, 0);
+    pspec_question *const question = test_public_question(context, line);
+    assert_int_equal(pspec_question_add(question, 1, num, 3, points, NULL), PSPEC_OK);
+    pspec_context_set_memory_limit(context, memory);
+    pspec_context_set_progress(context, listen, heard);
+    test_public_refuse(context, question, PSPEC_ERROR_CANCELLED, "interrupted after");
+    check_end(heard);
+    pspec_question_destroy(question);
+    free(points);
 }
 
 static void analyse(size_t num, bool optimal, uint64_t memory, listener *heard) {
     pspec_context *const context = pspec_context_create();
-    pspec_quadrature_request request = PSPEC_QUADRATURE_REQUEST_INIT;
-    double *const points = test_rule_points("fibonacci-hemisphere:morph=diffuse", num, 0);
-    const pspec_pattern pattern = {3, num, points, NULL};
-    pspec_quadrature *out = NULL;
-    request.engine = "host_direct";
-    request.optimal_weights = optimal;
-    request.max_degree = 2;
-    pspec_context_set_memory_limit(context, memory);
-    pspec_context_set_progress(context, listen, heard);
-    assert_int_equal(pspec_quadrature_create(&out, context, &request, &pattern, 1),
-                     PSPEC_ERROR_CANCELLED);
-    check_end(heard, context);
-    free(points);
+    ask(context,
+        optimal ? "quadrature brdf=diffuse max-degree=2 engine=host_direct weights=optimal"
+                : "quadrature brdf=diffuse max-degree=2 engine=host_direct",
+        num, memory, heard);
     pspec_context_destroy(context);
 }
 
@@ -85,13 +89,14 @@ static void interpolation(void **state) {
     (void)state;
     listener heard = {.phase = "iterations of conjugate gradients", .least = 2};
     pspec_context *const context = pspec_context_create();
-    pspec_interpolant *out = NULL;
+    pspec_answer *answer = NULL;
     double *const points = test_rule_points("fibonacci-hemisphere", NUM, 0);
     pspec_context_set_memory_limit(context, (uint64_t)8 << 20);
     pspec_context_set_progress(context, listen, &heard);
-    assert_int_equal(pspec_interpolant_create(&out, context, NUM, points, points, 1.5),
-                     PSPEC_ERROR_CANCELLED);
-    check_end(&heard, context);
+    test_public_refused(context,
+                        pspec_interpolate(&answer, context, NUM, points, points, 1.5, 1, points, 0),
+                        PSPEC_ERROR_CANCELLED, "interrupted after");
+    check_end(&heard);
     free(points);
     pspec_context_destroy(context);
 }
@@ -105,47 +110,48 @@ typedef struct counter {
 
 static int count(const pspec_progress_report *report, void *payload) {
     counter *const self = payload;
-    assert_non_null(strstr(report->phase, "sampler: "));
+    if (strstr(report->phase, "sampler: ") == NULL) {
+        return 0; /* of realizations */
+    }
     assert_true(report->done > 0 && report->done <= report->total);
     return self->num++ == self->stop;
 }
 
-static pspec_status generate(const pspec_sampler *sampler, uint64_t stop, uint64_t *num_told,
-                             double *points) {
+static pspec_answer *generate(const char *name, const char *num_points, uint64_t stop,
+                              uint64_t *num_told) {
     counter counted = {stop, 0};
+    char line[LINE];
+    pspec_answer *answer = NULL;
     pspec_context *const context = pspec_context_create();
+    snprintf(line, sizeof line, "sample sampler=%s points=%s homogenize", name, num_points);
+    pspec_question *const question = test_public_question(context, line);
     pspec_context_set_progress(context, count, &counted);
-    const pspec_status status = pspec_sampler_generate(sampler, context, 0, points, NULL);
+    const pspec_status status = pspec_question_answer(&answer, question);
     assert_true((status == PSPEC_ERROR_CANCELLED) ==
                 (strstr(pspec_context_message(context), "interrupted after") != NULL));
     *num_told = counted.num;
+    pspec_question_destroy(question);
     pspec_context_destroy(context);
-    return status;
+    return answer;
 }
 
 /* The callback is asked in the middle of every pass over the points, and every call may stop it;
  * the points are what they are without one. */
 static void try_sampler(const char *name, const char *num_points, uint64_t expected) {
-    const pspec_option options[] = {
-        {"sampler", name}, {"points", num_points}, {"homogenize", NULL}};
-    pspec_context *const context = pspec_context_create();
-    pspec_sampler *sampler = NULL;
+    char line[LINE];
     uint64_t num_told = 0;
-    assert_int_equal(pspec_sampler_create(&sampler, context, options, 3), PSPEC_OK);
-    const pspec_sampler_shape shape = pspec_sampler_get_shape(sampler);
-    const size_t bytes = shape.num_points * shape.dimension * sizeof(double);
-    double *const points = malloc(bytes), *const plain = malloc(bytes);
     for (uint64_t stop = 0; stop < expected; stop++) {
-        assert_int_equal(generate(sampler, stop, &num_told, points), PSPEC_ERROR_CANCELLED);
+        assert_null(generate(name, num_points, stop, &num_told));
         assert_int_equal(num_told, stop + 1);
     }
-    assert_int_equal(generate(sampler, expected, &num_told, points), PSPEC_OK);
+    pspec_context *const context = pspec_context_create();
+    snprintf(line, sizeof line, "sample sampler=%s points=%s homogenize", name, num_points);
+    pspec_answer *const told = generate(name, num_points, UINT64_MAX, &num_told);
+    pspec_answer *const plain = test_public_ask(context, line, NULL, 0);
     assert_int_equal(num_told, expected);
-    assert_int_equal(pspec_sampler_generate(sampler, context, 0, plain, NULL), PSPEC_OK);
-    assert_memory_equal(points, plain, bytes);
-    free(points);
-    free(plain);
-    pspec_sampler_destroy(sampler);
+    assert_true(test_public_same(told, plain));
+    pspec_answer_destroy(told);
+    pspec_answer_destroy(plain);
     pspec_context_destroy(context);
 }
 
@@ -188,32 +194,17 @@ static void written_points(void **state) {
     listener heard = {.phase = "points written", .least = 200000};
     char folder[] = "/tmp/pointspec-cancel-XXXXXX";
     char path[sizeof folder + 8];
+    char line[LINE];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/a.npy", folder);
-    const pspec_option options[] = {{"sampler", "white"}, {"points", "500000"}, {"output", path}};
+    snprintf(line, sizeof line, "sample sampler=white points=500000 output=%s", path);
     pspec_context *const context = pspec_context_create();
+    pspec_question *const question = test_public_question(context, line);
     pspec_context_set_progress(context, listen, &heard);
-    assert_int_equal(pspec_sample(context, options, 3), PSPEC_ERROR_CANCELLED);
-    assert_string_equal(pspec_context_message(context),
-                        "interrupted after 262144 of 500000 points written");
+    test_public_refuse(context, question, PSPEC_ERROR_CANCELLED,
+                       "interrupted after 262144 of 500000 points written");
+    pspec_question_destroy(question);
     assert_int_equal(rmdir(folder), 0); /* it is empty */
-    pspec_context_destroy(context);
-}
-
-static void kernel_sums(void **state) {
-    enum { NUM = 20000 };
-    (void)state;
-    listener heard = {.phase = "slabs of pairs of points", .least = 2};
-    pspec_context *const context = pspec_context_create();
-    double *const points = test_rule_points("fibonacci-hemisphere", NUM, 0);
-    const pspec_pattern pattern = {3, NUM, points, NULL};
-    const pspec_kernel kernel = {NULL, 0, 0.5};
-    double sum = 0, bound = 0;
-    pspec_context_set_progress(context, listen, &heard);
-    assert_int_equal(pspec_kernel_sums(context, &pattern, &kernel, 1, 1e-5, &sum, &bound),
-                     PSPEC_ERROR_CANCELLED);
-    check_end(&heard, context);
-    free(points);
     pspec_context_destroy(context);
 }
 
@@ -223,7 +214,6 @@ int main(void) {
                                        cmocka_unit_test(weights_by_cholesky),
                                        cmocka_unit_test(interpolation),
                                        cmocka_unit_test(samplers),
-                                       cmocka_unit_test(kernel_sums),
                                        cmocka_unit_test(written_points)};
     return cmocka_run_group_tests_name("cancel", tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
 /* What answers have is what their kinds declare: every entry and column of the answers below is a
  * row of pspec_fields_table, and every row is of one of them. */
-#include "answers/kind.h"
 #include "harness_public.h"
 
 #include <stdio.h>
@@ -8,12 +7,12 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_OPTIONS = 24, LINE = 512, MOST_FIELDS = 512 };
+enum { LINE = 512, MOST_FIELDS = 512 };
 
 static char folder[] = "/tmp/test_fields_XXXXXX";
 
 /* A kind, then its options as name=value, a flag as its name; in their order, for some read what
- * others wrote. The engine is the one without a device; after "engine=" the program's choice. Few points: a line
+ * others wrote. The engine is the one without a device; after "engine=default" the program's choice. Few points: a line
  * takes some hundredths of a second. */
 static const char *const questions[] = {
     "power sampler=sobol sampler=white points=8,16 max-frequency=2 homogenize output=two.npz",
@@ -25,7 +24,7 @@ static const char *const questions[] = {
     "power files=unequal.txt max-frequency=2 coefficients=c.npy",
     "power files=points.txt files=unequal.txt box=0,2,0,1 max-frequency=2",
     "power files=a.xyz files=b.xyz max-frequency=2",
-    "power files=corner.txt max-frequency=8 engine=",
+    "power files=corner.txt max-frequency=8 engine=default",
     "power sampler=white dimension=6 points=4 frequencies=six.txt output=list.npz",
     "power sampler=sobol dimension=3 points=4 per-ring=2 max-frequency=2 output=rings.npz",
     "angular sampler=white-sphere points=8 max-degree=3 coefficients=lm.npy",
@@ -48,14 +47,14 @@ static const char *const questions[] = {
     "quadrature files=near.txt brdf=diffuse weights=optimal drop-below-horizon max-degree=2",
     "truncation brdf=glossy:n=4 max-degree=2",
     "check against=saved.npz sampler=white seed=1",
-    "check against=saved.npz files=saved.npz engine=",
+    "check against=saved.npz files=saved.npz engine=default",
     "check against=sphere.npz sampler=white-sphere",
     "check homogeneous sampler=white points=4 max-frequency=2 realizations=40",
     "plan power sampler=white sampler=jittered points=4,9 max-frequency=2",
     "plan angular sampler=white-sphere points=4 max-degree=2",
     "plan quadrature sampler=fibonacci-hemisphere points=8 brdf=diffuse weights=optimal",
-    "plan run files=scene.yaml engine=",
-    "devices engine=",
+    "plan run files=scene.yaml engine=default",
+    "devices engine=default",
 };
 
 /* ---- what is declared ------------------------------------------------------------------------ */
@@ -70,9 +69,12 @@ static field fields[MOST_FIELDS];
 static size_t num_fields;
 static size_t num_wrong; /* what is no row, or no answer has; all are shown */
 
-static const char *text(const pspec_table *table, size_t row, const char *column) {
-    const pspec_cell cell = pspec_table_cell(table, row, pspec_table_find_column(table, column));
-    return cell.text != NULL ? cell.text : "";
+static const char *text(const pspec_answer *table, size_t row, const char *column) {
+    return ((const char *const *)test_public_field(table, column, PSPEC_TEXT)->data)[row];
+}
+
+static size_t count_rows(const pspec_answer *table) {
+    return pspec_answer_field(table, 0)->num;
 }
 
 static field *find(const char *name, const char *group, const char *meaning) {
@@ -94,24 +96,24 @@ static field *find(const char *name, const char *group, const char *meaning) {
 
 static void declare(const char *kind) {
     pspec_context *const context = test_public_context();
-    pspec_table *table = NULL;
+    pspec_answer *table = NULL;
     assert_int_equal(pspec_fields_table(&table, context, kind), PSPEC_OK);
-    for (size_t row = 0; row < pspec_table_num_rows(table); row++) {
+    for (size_t row = 0; row < count_rows(table); row++) {
         field *const it =
             find(text(table, row, "field"), text(table, row, "group"), text(table, row, "meaning"));
         snprintf(it->when, sizeof it->when, "%s", text(table, row, "when"));
     }
-    pspec_table_destroy(table);
+    pspec_answer_destroy(table);
     pspec_context_destroy(context);
 }
 
 /* ---- what there is --------------------------------------------------------------------------- */
 
 /* The rows of the kind of that name and group; one at most. */
-static void see(const pspec_table *declared, const char *name, const char *group,
+static void see(const pspec_answer *declared, const char *name, const char *group,
                 const char *question) {
     size_t num = 0;
-    for (size_t row = 0; row < pspec_table_num_rows(declared); row++) {
+    for (size_t row = 0; row < count_rows(declared); row++) {
         if (strcmp(text(declared, row, "field"), name) == 0 &&
             strcmp(text(declared, row, "group"), group) == 0) {
             find(name, group, text(declared, row, "meaning"))->is_seen = true;
@@ -125,18 +127,14 @@ static void see(const pspec_table *declared, const char *name, const char *group
 }
 
 /* A key comes once for a question where it is not declared as repeated. */
-static void see_entry(const pspec_table *answer, const pspec_table *declared, size_t entry,
-                      const char *question) {
-    const char *key = NULL;
-    const char *other = NULL;
+static void see_repeated(const pspec_answer *answer, const pspec_answer *declared, const char *key,
+                         const char *question) {
     size_t num = 0;
-    pspec_table_entry(answer, entry, &key);
-    see(declared, key, "entry", question);
-    for (size_t i = 0; i < pspec_table_num_entries(answer); i++) {
-        pspec_table_entry(answer, i, &other);
-        num += strcmp(other, key) == 0;
+    for (size_t i = 0; i < pspec_answer_num_fields(answer); i++) {
+        const pspec_field *const other = pspec_answer_field(answer, i);
+        num += other->group == PSPEC_ENTRY && strcmp(other->name, key) == 0;
     }
-    for (size_t row = 0; row < pspec_table_num_rows(declared); row++) {
+    for (size_t row = 0; row < count_rows(declared); row++) {
         const bool is_it = strcmp(text(declared, row, "field"), key) == 0 &&
                            strcmp(text(declared, row, "group"), "entry") == 0;
         if (is_it && num > 1 && strcmp(text(declared, row, "repeated"), "yes") != 0) {
@@ -146,114 +144,95 @@ static void see_entry(const pspec_table *answer, const pspec_table *declared, si
     }
 }
 
-/* Arrays are files that an option names: "--full" of the row is full=FILE of the question. */
-static void see_arrays(const pspec_table *declared, const char *question) {
-    for (size_t row = 0; row < pspec_table_num_rows(declared); row++) {
-        char option[LINE];
-        snprintf(option, sizeof option, " %s=", text(declared, row, "when") + strlen("--"));
-        if (strcmp(text(declared, row, "group"), "array") == 0 &&
-            strstr(question, option) != NULL) {
-            see(declared, text(declared, row, "field"), "array", question);
+static bool is_declared(const pspec_answer *declared, const char *name, const char *group) {
+    size_t row = 0;
+    while (row < count_rows(declared) && (strcmp(text(declared, row, "field"), name) != 0 ||
+                                          strcmp(text(declared, row, "group"), group) != 0)) {
+        row++;
+    }
+    return row < count_rows(declared);
+}
+
+/* State of the second question is called NAME_2; some arrays, of pictures, are state, too. */
+static void see_state(const pspec_answer *answer, const pspec_answer *declared,
+                      const char *question) {
+    for (size_t i = 0; i < pspec_answer_num_fields(answer); i++) {
+        const pspec_field *const has = pspec_answer_field(answer, i);
+        char name[LINE];
+        snprintf(name, sizeof name, "%s", has->name);
+        const size_t length = strlen(name);
+        if (length > 2 && name[length - 2] == '_' && strchr("234", name[length - 1]) != NULL) {
+            name[length - 2] = '\0';
+        }
+        if (has->group == PSPEC_STATE) {
+            see(declared, name, is_declared(declared, name, "array") ? "array" : "state", question);
         }
     }
 }
 
-/* What an NPZ file has besides: state, of the second question "NAME_2"; and merged, it names its
- * parts. */
-static void see_state(const pspec_table *declared, const char *question) {
+/* What an NPZ file has besides; and merged, it names its parts. */
+static void see_file(pspec_context *context, const pspec_answer *declared, const char *question) {
     static const char option[] = "output=";
     char path[LINE];
-    char shown[LINE];
     const char *const output = strstr(question, option);
-    ps_error error = {0};
-    ps_table *table = NULL;
-    ps_answer merged = {0};
+    pspec_answer *part = NULL;
+    pspec_answer *merged = NULL;
     if (output == NULL || strstr(output, ".npz") == NULL) {
         return;
     }
     snprintf(path, sizeof path, "%s", output + strlen(option));
     path[strcspn(path, " ")] = '\0';
-    assert_int_equal(ps_table_read_npz(&table, path, &error), PSPEC_OK);
-    for (size_t i = 0; i < ps_table_num_arrays(table); i++) {
-        const char *name = NULL;
-        bool is_state = false;
-        ps_table_array(table, i, &name, &is_state);
-        snprintf(shown, sizeof shown, "%s", name);
-        const size_t length = strlen(shown);
-        if (length > 2 && shown[length - 2] == '_' && strchr("234", shown[length - 1]) != NULL) {
-            shown[length - 2] = '\0';
-        }
-        see(declared, shown, is_state ? "state" : "array", question);
-    }
-    const ps_table *const part = table;
-    const char *const name = path;
-    if (ps_answer_merge(&merged, &(ps_parts){&part, &name, 1, "merge"}, &error) == PSPEC_OK &&
-        ps_table_find_meta(merged.table, "merged").kind == PS_CELL_TEXT) {
+    assert_int_equal(pspec_answer_load(&part, context, path), PSPEC_OK);
+    see_state(part, declared, question);
+    const pspec_answer *const parts[] = {part};
+    if (pspec_answer_merge(&merged, context, parts, 1) == PSPEC_OK &&
+        pspec_answer_find(merged, "merged") != NULL) {
         see(declared, "merged", "entry", question);
     }
-    ps_answer_free(&merged);
-    ps_table_destroy(table);
+    pspec_answer_destroy(merged);
+    pspec_answer_destroy(part);
 }
 
-/* Cuts line into options. */
-static size_t split(pspec_option *options, char *line) {
-    size_t num = 0;
-    bool has_engine = strncmp(line, "truncation", strlen("truncation")) == 0;
-    for (char *word = strtok(strchr(line, ' '), " "); word != NULL; word = strtok(NULL, " ")) {
-        assert_true(num + 1 < MOST_OPTIONS);
-        char *const equals = strchr(word, '=');
-        options[num] = (pspec_option){word, equals != NULL ? equals + 1 : NULL};
-        if (equals != NULL) {
-            *equals = '\0';
-        }
-        has_engine = has_engine || strcmp(word, "engine") == 0;
-        num += strcmp(word, "engine") != 0 || equals[1] != '\0';
+static pspec_answer *answer_of(pspec_context *context, const char *line) {
+    static const char plan[] = "plan ";
+    if (strncmp(line, plan, sizeof plan - 1) != 0) {
+        return test_public_ask(context, line, NULL, 0);
     }
-    if (!has_engine) {
-        options[num++] = (pspec_option){"engine", "host_direct"};
+    pspec_question *const asked = test_public_question(context, line + sizeof plan - 1);
+    pspec_answer *answer = NULL;
+    if (pspec_question_plan(&answer, asked) != PSPEC_OK) {
+        fail_msg("%s: %s", line, pspec_context_message(context));
     }
-    return num;
-}
-
-/* "plan power sampler=white" is a plan of the second word. */
-static pspec_status answer_of(pspec_table **out, pspec_context *context, const char *question,
-                              const pspec_option *options, size_t num) {
-    char word[LINE];
-    const bool is_plan = strncmp(question, "plan ", strlen("plan ")) == 0;
-    const char *const begin = question + (is_plan ? strlen("plan ") : 0);
-    snprintf(word, sizeof word, "%.*s", (int)strcspn(begin, " "), begin);
-    return is_plan ? pspec_plan_table(out, context, word, options + 1, num - 1)
-           : strcmp(word, "devices") == 0 ? pspec_devices(out, context)
-                                          : pspec_answer(out, context, word, options, num);
+    pspec_question_destroy(asked);
+    return answer;
 }
 
 static void ask(const char *question) {
+    static const char *const groups[] = {"column", "array", "state", "entry"};
     char line[LINE];
-    char kind[LINE];
-    pspec_option options[MOST_OPTIONS];
+    const bool has_engine =
+        strstr(question, " engine=default") != NULL || strncmp(question, "truncation", 10) == 0;
     pspec_context *const context = test_public_context();
-    pspec_table *answer = NULL;
-    pspec_table *declared = NULL;
-    snprintf(line, sizeof line, "%s", question);
-    snprintf(kind, sizeof kind, "%.*s", (int)strcspn(question, " "), question);
-    const size_t num = split(options, line);
-    if (answer_of(&answer, context, question, options, num) != PSPEC_OK) {
-        print_error("%s: %s\n", question, pspec_context_message(context));
-        num_wrong++;
-        pspec_context_destroy(context);
-        return;
+    pspec_answer *declared = NULL;
+    const char *const any = strstr(question, " engine=default");
+    snprintf(line, sizeof line, "%.*s%s", any != NULL ? (int)(any - question) : LINE, question,
+             has_engine ? "" : " engine=host_direct");
+    pspec_answer *const answer = answer_of(context, line);
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(question, " "), question);
+    assert_int_equal(pspec_fields_table(&declared, context, line), PSPEC_OK);
+    for (size_t i = 0; i < pspec_answer_num_fields(answer); i++) {
+        const pspec_field *const has = pspec_answer_field(answer, i);
+        if (has->group != PSPEC_STATE) {
+            see(declared, has->name, groups[has->group], question);
+        }
+        if (has->group == PSPEC_ENTRY) {
+            see_repeated(answer, declared, has->name, question);
+        }
     }
-    assert_int_equal(pspec_fields_table(&declared, context, kind), PSPEC_OK);
-    for (size_t i = 0; i < pspec_table_num_columns(answer); i++) {
-        see(declared, pspec_table_column_name(answer, i), "column", question);
-    }
-    for (size_t i = 0; i < pspec_table_num_entries(answer); i++) {
-        see_entry(answer, declared, i, question);
-    }
-    see_arrays(declared, question);
-    see_state(declared, question);
-    pspec_table_destroy(declared);
-    pspec_table_destroy(answer);
+    see_state(answer, declared, question);
+    see_file(context, declared, question);
+    pspec_answer_destroy(declared);
+    pspec_answer_destroy(answer);
     pspec_context_destroy(context);
 }
 
@@ -310,7 +289,7 @@ static void fields_are_declared(void **state) {
 static void kinds_are_named(void **state) {
     (void)state;
     pspec_context *const context = test_public_context();
-    pspec_table *table = NULL;
+    pspec_answer *table = NULL;
     assert_int_equal(pspec_fields_table(&table, context, "powers"), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(pspec_context_message(context), "did you mean power?"));
     assert_null(table);

@@ -28,31 +28,25 @@ typedef struct work {
     double powers[NUM_RINGS];
 } work;
 
-static bool look(pspec_context *context) {
-    pspec_table *table = NULL;
-    const bool is_done = pspec_devices(&table, context) == PSPEC_OK;
-    pspec_table_destroy(table);
-    return is_done;
-}
-
-static bool compute(work *self, pspec_context *context) {
-    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
-    pspec_plan *plan = NULL;
-    pspec_spectrum *spectrum = NULL;
-    size_t num = 0;
-    request.max_frequency = NUM_RINGS;
-    request.num_points = self->pattern.num_points;
-    request.engine = "torus_direct";
-    bool is_done = pspec_plan_create(&plan, context, &request) == PSPEC_OK &&
-                   pspec_plan_run(plan, &self->pattern, 1) == PSPEC_OK &&
-                   pspec_spectrum_create(&spectrum, plan) == PSPEC_OK;
-    const pspec_bin *const bins = is_done ? pspec_spectrum_bins(spectrum, &num) : NULL;
-    is_done = is_done && num == NUM_RINGS;
-    for (size_t b = 0; b < NUM_RINGS && is_done; b++) {
-        self->powers[b] = bins[b].power;
+static bool ask(work *self, pspec_context *context) {
+    pspec_question *question = NULL;
+    pspec_answer *answer = NULL;
+    bool is_done = pspec_question_create(&question, context,
+                                         self->only_looks ? "devices" : "power") == PSPEC_OK;
+    if (is_done && !self->only_looks) {
+        is_done = pspec_question_set_number(question, "max-frequency", NUM_RINGS) == PSPEC_OK &&
+                  pspec_question_set(question, "engine", "torus_direct") == PSPEC_OK &&
+                  pspec_question_add(question, 1, self->pattern.num_points, 2, self->pattern.points,
+                                     NULL) == PSPEC_OK;
     }
-    pspec_spectrum_destroy(spectrum);
-    pspec_plan_destroy(plan);
+    is_done = is_done && pspec_question_answer(&answer, question) == PSPEC_OK;
+    if (is_done && !self->only_looks) {
+        const pspec_field *const power = pspec_answer_find(answer, "power");
+        is_done = power != NULL && power->num == NUM_RINGS;
+        memcpy(self->powers, is_done ? power->data : self->powers, sizeof self->powers);
+    }
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
     return is_done;
 }
 
@@ -60,7 +54,7 @@ static void *use_device(void *payload) {
     work *const self = payload;
     pthread_barrier_wait(self->barrier);
     pspec_context *const context = pspec_context_create();
-    self->is_done = context != NULL && (self->only_looks ? look(context) : compute(self, context));
+    self->is_done = context != NULL && ask(self, context);
     if (!self->is_done && context != NULL) {
         fprintf(stderr, "a thread: %s\n", pspec_context_message(context));
     }
@@ -115,10 +109,10 @@ static bool has_device(void) {
     const pid_t child = fork();
     if (child == 0) {
         pspec_context *const context = pspec_context_create();
-        pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
-        pspec_plan *plan = NULL;
-        request.engine = "torus_direct";
-        _exit(pspec_plan_create(&plan, context, &request) == PSPEC_ERROR_NO_DEVICE ? 1 : 0);
+        pspec_question *const question = test_public_question(
+            context, "power sampler=white points=4 max-frequency=1 engine=torus_direct");
+        pspec_answer *answer = NULL;
+        _exit(pspec_question_answer(&answer, question) == PSPEC_ERROR_NO_DEVICE ? 1 : 0);
     }
     return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
            WEXITSTATUS(status) == 0;

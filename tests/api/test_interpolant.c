@@ -1,6 +1,6 @@
 /* Kernel interpolation through the public library: laws of reproducing kernels, either way of
  * solving, and nonsense. */
-#include "harness.h"
+#include "harness_public.h"
 
 #include "math/pi.h"
 
@@ -29,7 +29,7 @@ static void make_points(size_t num, double *points) {
  * 4 c. */
 static void known_functions(void **state) {
     static const uint64_t limits[] = {0, 1}; /* of memory: Cholesky, conjugate gradients */
-    double points[3 * NUM], at[3 * TESTS], values[NUM], found[NUM];
+    double points[3 * NUM], at[3 * TESTS], values[NUM];
     (void)state;
     make_points(NUM, points);
     make_points(TESTS, at);
@@ -37,30 +37,27 @@ static void known_functions(void **state) {
     for (double s = 1.1; s < 2; s += 0.4) {
         for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
             pspec_context *context = pspec_context_create();
-            pspec_interpolant *interpolant = NULL;
-            double bounds[TESTS];
+            pspec_answer *answer = NULL;
             pspec_context_set_memory_limit(context, limits[i]);
             for (size_t j = 0; j < NUM; j++) {
                 values[j] = 3 * kernel(s, points + 3 * j, a) - 2 * kernel(s, points + 3 * j, b);
             }
+            memcpy(at, b, 3 * sizeof *at); /* at a point there is no error */
             assert_int_equal(
-                pspec_interpolant_create(&interpolant, context, NUM, points, values, s), PSPEC_OK);
-            pspec_interpolant_evaluate(interpolant, TESTS, at, found);
+                pspec_interpolate(&answer, context, NUM, points, values, s, TESTS, at, 1),
+                PSPEC_OK);
+            const double *const found = test_public_numbers(answer, "value");
+            const double *const bounds = test_public_numbers(answer, "bound");
+            const double c = kernel(s, a, a);
             for (size_t j = 0; j < TESTS; j++) {
                 const double f = 3 * kernel(s, at + 3 * j, a) - 2 * kernel(s, at + 3 * j, b);
                 assert_true(fabs(found[j] - f) <= 1e-11);
+                assert_true(j == 0 ? bounds[j] <= 1e-5 : bounds[j] > 1e-3 && bounds[j] < sqrt(c));
             }
-            const double c = kernel(s, a, a);
             const double norm = sqrt(13 * c - 12 * kernel(s, a, b));
-            assert_true(fabs(pspec_interpolant_norm(interpolant) - norm) <= 1e-9);
-            assert_true(pspec_interpolant_condition(interpolant) > 1);
-            assert_int_equal(pspec_interpolant_bound(interpolant, TESTS, at, bounds), PSPEC_OK);
-            for (size_t j = 0; j < TESTS; j++) {
-                assert_true(bounds[j] > 1e-3 && bounds[j] < sqrt(c));
-            }
-            assert_int_equal(pspec_interpolant_bound(interpolant, 1, b, bounds), PSPEC_OK);
-            assert_true(bounds[0] <= 1e-5);
-            pspec_interpolant_destroy(interpolant);
+            assert_true(fabs(*test_public_numbers(answer, "norm") - norm) <= 1e-9);
+            assert_true(*test_public_numbers(answer, "condition") > 1);
+            pspec_answer_destroy(answer);
             pspec_context_destroy(context);
         }
     }
@@ -69,10 +66,10 @@ static void known_functions(void **state) {
 /* Other values: met at the points, and a function of H^s, K(., v) with v not among them, is within
  * its bound. */
 static void bounds_hold(void **state) {
-    double points[3 * NUM], at[3 * TESTS], values[NUM], found[NUM], bounds[TESTS];
+    double points[3 * NUM], at[3 * TESTS], values[NUM];
     const double s = 1.5, v[3] = {0.6, 0, 0.8};
     pspec_context *context = pspec_context_create();
-    pspec_interpolant *interpolant = NULL;
+    pspec_answer *answer = NULL;
     double worst = 0;
     (void)state;
     make_points(NUM, points);
@@ -81,22 +78,25 @@ static void bounds_hold(void **state) {
     for (size_t j = 0; j < NUM; j++) {
         values[j] = kernel(s, points + 3 * j, v);
     }
-    assert_int_equal(pspec_interpolant_create(&interpolant, context, NUM, points, values, s),
+    assert_int_equal(pspec_interpolate(&answer, context, NUM, points, values, s, NUM, points, 0),
                      PSPEC_OK);
-    pspec_interpolant_evaluate(interpolant, NUM, points, found);
     for (size_t j = 0; j < NUM; j++) {
-        assert_true(fabs(found[j] - values[j]) <= 1e-12);
+        assert_true(fabs(test_public_numbers(answer, "value")[j] - values[j]) <= 1e-12);
     }
+    assert_null(pspec_answer_find(answer, "bound"));
+    pspec_answer_destroy(answer);
+    assert_int_equal(pspec_interpolate(&answer, context, NUM, points, values, s, TESTS, at, 1),
+                     PSPEC_OK);
     const double norm = sqrt(kernel(s, v, v));
-    assert_true(pspec_interpolant_norm(interpolant) < norm);
-    assert_int_equal(pspec_interpolant_bound(interpolant, TESTS, at, bounds), PSPEC_OK);
-    pspec_interpolant_evaluate(interpolant, TESTS, at, found);
+    assert_true(*test_public_numbers(answer, "norm") < norm);
     for (size_t j = 0; j < TESTS; j++) {
-        worst = fmax(worst, fabs(found[j] - kernel(s, at + 3 * j, v)) / (bounds[j] * norm));
+        const double error =
+            fabs(test_public_numbers(answer, "value")[j] - kernel(s, at + 3 * j, v));
+        worst = fmax(worst, error / (test_public_numbers(answer, "bound")[j] * norm));
     }
     print_message("errors are at most %.2g of their bounds\n", worst);
     assert_true(worst <= 1 && worst > 1e-3);
-    pspec_interpolant_destroy(interpolant);
+    pspec_answer_destroy(answer);
     pspec_context_destroy(context);
 }
 
@@ -122,20 +122,19 @@ static void nonsense(void **state) {
         {2, near, values, 2, PSPEC_ERROR_INVALID_ARGUMENT, "is not between 1 and 2"},
     };
     pspec_context *context = pspec_context_create();
-    pspec_interpolant *interpolant = NULL;
+    pspec_answer *answer = NULL;
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_int_equal(pspec_interpolant_create(&interpolant, context, cases[i].num,
-                                                  cases[i].points, cases[i].values, cases[i].s),
-                         cases[i].status);
-        assert_null(interpolant);
-        assert_non_null(strstr(pspec_context_message(context), cases[i].says));
+        test_public_refused(context,
+                            pspec_interpolate(&answer, context, cases[i].num, cases[i].points,
+                                              cases[i].values, cases[i].s, 1, near, 0),
+                            cases[i].status, cases[i].says);
+        assert_null(answer);
     }
     pspec_context_set_memory_limit(context, 1);
     pspec_context_set_progress(context, stop, NULL);
-    assert_int_equal(pspec_interpolant_create(&interpolant, context, 2, near, values, 1.1),
+    assert_int_equal(pspec_interpolate(&answer, context, 2, near, values, 1.1, 1, near, 0),
                      PSPEC_ERROR_CANCELLED);
-    pspec_interpolant_destroy(NULL);
     pspec_context_destroy(context);
 }
 

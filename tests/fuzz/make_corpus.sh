@@ -288,38 +288,7 @@ printf -- 'pwer\n--pints=5' | seed arguments typing '\xff'
 printf -- '--points=0\n' | seed arguments range '\0'
 printf -- '--tol=0\n' | seed arguments tolerance '\0'
 
-# ---- spectra: the harness adds the checksum --------------------------------------------------
-
-# spectrum FREQUENCIES MAX_FREQUENCY NUM_FREQUENCIES BINS NUM_BINS NORMALIZATION: header, totals, points, sample sizes
-# of the format VERSION
-VERSION=3
-spectrum() {
-    printf 'pointspec spectrum %s\npointspec_version: 0.1.0\ndimension: 2\nfrequencies: %s\n' $VERSION "$1"
-    printf 'max_frequency: %s\nnum_frequencies: %s\nbins: %s\nnum_bins: %s\n' "$2" "$3" "$4" "$5"
-    printf 'normalization: %s\nrealizations: 2\nsmallest_points: 4\nlargest_points: 4\n\n' "$6"
-    if ((VERSION == 2)); then f64 4 8 8 1e-7; else f64 4 8 1e-7 8 0 32 0; fi
-    f64 8 0 32 0
-}
-sums() { # NUMBER
-    local i
-    for ((i = 0; i < $1; i++)); do f64 2 0 2.5 1e-20; done
-}
-{ spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum box '\1'
-{ spectrum ball 2 10 shells 4 power; sums 14; } | seed spectrum ball '\1'
-{ spectrum ball 2 12 floor 2 power; sums 14; } | seed spectrum floor '\1'
-{ spectrum ball 2 12 'relative=1/2 4' 2 power; sums 14; } | seed spectrum relative '\1'
-{ spectrum list 7 1 rings 1 effective; u32 7 4294967293; sums 2; } | seed spectrum list '\1'
-{
-    spectrum $'sample\nper_ring: 2' 2 4 rings 2 power
-    u32 0 1 1 0 1 2 2 0
-    u32 4 0 && f64 1.25
-    u32 6 0 && f64 2.125
-    sums 6
-} | seed spectrum sample '\1'
-{ spectrum box 1 4 rings 2 integral; sums 6; } | seed spectrum integral '\1'
-{ VERSION=2; spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum old '\1'
-{ VERSION=2; spectrum box 1 4 rings 2 power | sed 's/smallest_points: 4/smallest_points: 3/'; sums 6; } | seed spectrum old-different '\1'
-{ spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
+# ---- tables as NPZ ----------------------------------------------------------------------------
 
 # array KIND EXTENTS [WIDTH]: of a table in an NPZ file, its kind (0 to 4: f, i, u, c, U) and extents, and then its data
 array() {

@@ -23,7 +23,6 @@ const fuzz_target fuzz_targets[] = {
     {"detection", fuzz_points, NULL, "binary.dict"},
     {"frequencies", fuzz_frequencies, NULL, "text.dict"},
     {"weights", fuzz_weights, NULL, "binary.dict"},
-    {"spectrum", fuzz_spectrum, NULL, "text.dict"},
     {"saved", fuzz_saved, NULL, "binary.dict"},
     {"table", fuzz_table, NULL, "binary.dict"},
     {"figures", fuzz_figures, NULL, "binary.dict"},

@@ -3,39 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The referee: no device, and every digit. */
-pspec_angular_request test_angular_request(void) {
-    pspec_angular_request request = PSPEC_ANGULAR_REQUEST_INIT;
-    request.num_points = TEST_NUM_POINTS;
-    request.max_degree = TEST_MAX_DEGREE;
-    request.engine = "host_direct";
-    return request;
-}
-
-pspec_status test_try_angular(pspec_context *context, const pspec_angular_request *request,
-                              const pspec_pattern *patterns, size_t num, pspec_spectrum **out) {
-    pspec_plan *plan = NULL;
-    *out = NULL;
-    pspec_status status = pspec_plan_create_angular(&plan, context, request);
-    if (status == PSPEC_OK) {
-        status = pspec_plan_run(plan, patterns, num);
-    }
-    if (status == PSPEC_OK) {
-        status = pspec_spectrum_create(out, plan);
-    }
-    pspec_plan_destroy(plan);
-    return status;
-}
-
-pspec_spectrum *test_estimate_angular(pspec_context *context, const pspec_angular_request *request,
-                                      const pspec_pattern *patterns, size_t num) {
-    pspec_spectrum *spectrum = NULL;
-    if (test_try_angular(context, request, patterns, num, &spectrum) != PSPEC_OK) {
-        fail_msg("%s", pspec_context_message(context));
-    }
-    return spectrum;
-}
-
 /* num random unit vectors that no sampler made: cubes' points outside the ball are drawn again. */
 double *test_make_vectors(size_t num, unsigned seed) {
     double *vectors = calloc(num, 3 * sizeof(double));

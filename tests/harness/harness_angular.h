@@ -1,19 +1,14 @@
-/* Fixtures of the tests of angular spectra through the public library. */
+/* Fixtures of the tests of angular spectra. */
 #ifndef TESTS_HARNESS_ANGULAR_H
 #define TESTS_HARNESS_ANGULAR_H
 
 #include "harness_public.h"
 
+/* A question about degrees 1 .. TEST_MAX_DEGREE by the referee, which needs no device and has every
+ * digit. */
 enum { TEST_MAX_DEGREE = 12 };
+#define TEST_ANGULAR "angular max-degree=12 engine=host_direct"
 
-/* Degrees 1 .. TEST_MAX_DEGREE by the referee, which needs no device and has every digit. */
-pspec_angular_request test_angular_request(void);
-/* A plan, its patterns and its spectrum; NULL in *out after an error. */
-pspec_status test_try_angular(pspec_context *context, const pspec_angular_request *request,
-                              const pspec_pattern *patterns, size_t num, pspec_spectrum **out);
-/* The same where nothing may fail. */
-pspec_spectrum *test_estimate_angular(pspec_context *context, const pspec_angular_request *request,
-                                      const pspec_pattern *patterns, size_t num);
 /* num random unit vectors that no sampler made; freed by the caller. */
 double *test_make_vectors(size_t num, unsigned seed);
 /* Without weights. */

@@ -22,7 +22,8 @@ typedef struct checked {
 
 static pspec_status find_both_saved(bool *are_both, const ps_request *request, ps_error *error) {
     *are_both = false;
-    return request->against != NULL && request->num_sources == 0 && request->num_files == 1
+    return request->against != NULL && request->num_sources == 0 && request->num_files == 1 &&
+                   ps_given_sets_find(&request->reading.given, request->files[0]) == NULL
                ? ps_saved_spectrum_find(are_both, request->files[0], error)
                : PSPEC_OK;
 }

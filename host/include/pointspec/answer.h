@@ -1,11 +1,10 @@
 /** @file
- * Answers of every kind of answer, from files or samplers, as the program gives them. Included by
- * pointspec.h.
+ * Answers: named fields, read without copies, and written to files. Included by pointspec.h.
  */
 #ifndef POINTSPEC_ANSWER_H
 #define POINTSPEC_ANSWER_H
 
-#include "pointspec/table.h"
+#include "pointspec/context.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,64 +12,87 @@ extern "C" {
 
 /** @name Answers
  *
- * What a command of the program prints is asked for here by the same words: options by their long
- * names, without dashes, and their values as texts. So the manual page of each command says what
- * there is; a table of the options comes from pspec_options_table(). The answer is that of the
- * program to the bit: the same engine, the same header, the same rows.
- *
- *     const pspec_option options[] = {{"sampler", "jittered"}, {"points", "1024"}, {"bins", "floor"}};
- *     pspec_answer(&table, context, "power", options, 3);
- *
- * Device, memory limit, progress and cancelling are those of the context. The folder of measured
- * figures and of the cache of results is that of the environment, as for the program. Point files
- * are values of the option "files", which may be given several times. Nothing is read from standard
- * input or written to standard output: "-" is no file here.
+ * An answer is what the program prints for the same question, to the bit: columns, the entries of
+ * its header, and arrays of any shape. The manual page of each command, and pspec_fields_table(),
+ * say which fields there are, with units and meanings. An answer needs neither its question nor the
+ * context once it exists, and any number of threads may read it.
  * @{ */
 
-/** An option and its value: both are borrowed for the call. */
-typedef struct pspec_option {
-    const char *name;  /**< "points" for --points, or "files" */
-    const char *value; /**< as a word of a command line; of flags "true", "false", or NULL: true */
-} pspec_option;
+typedef struct pspec_answer pspec_answer; /**< fields, and a verdict */
 
-/** The kinds of answers, "power", "angular", ...: i from 0 on, NULL behind the last. Static
- * storage. */
-PSPEC_EXPORT const char *pspec_answer_kind(size_t i);
+/** What a field is a part of. The numbers are never reused. */
+typedef enum pspec_group {
+    PSPEC_COLUMN = 0, /**< a value for each row */
+    PSPEC_ARRAY = 1,  /**< of a shape of its own: points, coefficients, weights, a spectrum */
+    PSPEC_STATE = 2,  /**< an array that others can be made of again, such as sums */
+    PSPEC_ENTRY = 3 /**< one value: what was asked, by which engine it was answered, how exactly */
+} pspec_group;
 
-/** The options that a command takes here, as a table with the columns option, values (missing for
- * flags), type ("flag", "integer", "integers", "number", "word" of those of values, or "text"),
- * unit (missing: none), default (as help says it; missing: none), repeated ("yes" where each of
- * several counts), file ("read" or "written" where a value names one; else missing), kinds (of
- * answers that take it, with commas) and help. command: a kind of answer, "sample", "convert" or "run".
- * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest command where there is no such one. */
-PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *context,
-                                              const char *command);
+/** What the elements of a field are. The numbers are never reused. */
+typedef enum pspec_type {
+    PSPEC_F64 = 0,  /**< double; nan where a value is missing */
+    PSPEC_I64 = 1,  /**< int64_t */
+    PSPEC_C128 = 2, /**< two doubles, the real part and the imaginary one */
+    PSPEC_TEXT = 3  /**< const char *, in UTF-8; "" where a value is missing */
+} pspec_type;
 
-/** What answers of a kind have, as a table with a row for every header entry, column and array that
- * there may be, and the columns field (its name), group ("entry", "column" or "array", which is a
- * file of its own), unit (missing: none), repeated ("yes" where the key of an entry may come
- * several times, as for several samplers, else "no"), when (the options or cases in which it is
- * there; missing: always) and meaning. kind: pspec_answer_kind() lists them;
- * or "plan", "devices".
- * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest kind where there is no such one. */
-PSPEC_EXPORT pspec_status pspec_fields_table(pspec_table **out, pspec_context *context,
-                                             const char *kind);
+/** A field: a view of what an answer, or the caller, keeps. Members may be added at its end. */
+typedef struct pspec_field {
+    size_t struct_size; /**< sizeof(pspec_field), set by who makes it */
+    const char *name;   /**< as the manual page has it */
+    const char *unit;   /**< "" for none */
+    pspec_group group;
+    pspec_type type;
+    unsigned rank;       /**< number of axes; 0 of entries, 1 of columns */
+    const size_t *shape; /**< [rank], in C order; NULL where rank is 0 */
+    size_t num;          /**< elements in all: the product of the shape */
+    const void *data;    /**< [num], of the type */
+} pspec_field;
 
-/** Answers a question of a kind of answer, as "power" or "check": pspec_answer_kind() lists them.
- * Rows and columns of *out are those of the table that the program's command of that name prints.
+/** Number of fields. */
+PSPEC_EXPORT size_t pspec_answer_num_fields(const pspec_answer *answer);
+/** Field i: the columns in their order, then arrays, then entries in theirs; NULL where there is no
+ * such field. It belongs to the answer. The key of an entry may come several times, as "sampler"
+ * where several were asked for. */
+PSPEC_EXPORT const pspec_field *pspec_answer_field(const pspec_answer *answer, size_t i);
+/** The first field of that name; NULL where there is none. */
+PSPEC_EXPORT const pspec_field *pspec_answer_find(const pspec_answer *answer, const char *name);
+
+/** "", or the sentence with which the program would end in exit status 3: a check found another
+ * spectrum than the saved one or sets that are not homogeneous, a record was not repeated, a device
+ * is not in order, a standard error was not reached. Belongs to the answer. */
+PSPEC_EXPORT const char *pspec_answer_verdict(const pspec_answer *answer);
+
+/** Writes the answer to a file that appears when it is complete, byte for byte as the program does.
+ * format: "csv", "json", "jsonl", "npy", "npz", "text", or NULL: by the ending of path, else csv.
+ * NPY is float64 [rows][columns], with a JSON file of names and header beside it; NPZ has all
+ * fields, and alone of all has arrays. The context is for the sentence of an error:
+ * #PSPEC_ERROR_INVALID_ARGUMENT where there is no such format, for "-" (the library writes no
+ * standard output), and for NPY of a table with words; #PSPEC_ERROR_IO where the file cannot be
+ * written. */
+PSPEC_EXPORT pspec_status pspec_answer_write(const pspec_answer *answer, pspec_context *context,
+                                             const char *path, const char *format);
+
+/** Reads what was written as NPZ, by this library or by the program: the same fields, to the bit,
+ * on every machine, but for the verdict, which is "". A file that is none, truncated, damaged or of
+ * another version is #PSPEC_ERROR_INPUT. */
+PSPEC_EXPORT pspec_status pspec_answer_load(pspec_answer **out, pspec_context *context,
+                                            const char *path);
+
+/** The answer of the realizations of parts[0], then those of parts[1], and so on: answers, or what
+ * was loaded of them, to one question about other realizations, as of seeds that differ.
  *
- * Files that the options name are written, too: "output" (the table, "format" as in
- * pspec_table_write()), "plot" (a picture, by gnuplot), "full" of power (float64 [2K+1]...[2K+1]),
- * "coefficients" of power and angular (complex128, as pspec_plan_coefficients()) and "weights-out"
- * of quadrature (the weights of the only rule).
- *
- * #PSPEC_ERROR_INVALID_ARGUMENT: an option that the kind does not take, a value that cannot be
- * meant, options that do not go together. #PSPEC_ERROR_INPUT: points or files that cannot be used.
- * #PSPEC_ERROR_TOLERANCE and #PSPEC_ERROR_MEMORY as pspec_plan_create(). #PSPEC_ERROR_CANCELLED:
- * the progress callback asked to stop. That a check finds another spectrum is no error: see
- * pspec_table_verdict(). */
-PSPEC_EXPORT pspec_status pspec_answer(pspec_table **out, pspec_context *context, const char *kind,
-                                       const pspec_option *options, size_t num_options);
+ * Guaranteed: what one question would have answered for all of them, but for the last digits of
+ * the sums over realizations. These have about 106 bits (48 for single frequencies in single
+ * precision), so that means over bins and their standard errors are the same doubles but for rare
+ * last bits. The error is the largest of theirs. #PSPEC_ERROR_INPUT with the difference, where
+ * kind, dimension, frequencies, bins or normalization differ, or where answers of the kind have no
+ * state. */
+PSPEC_EXPORT pspec_status pspec_answer_merge(pspec_answer **out, pspec_context *context,
+                                             const pspec_answer *const *parts, size_t num);
+
+/** NULL is allowed. */
+PSPEC_EXPORT void pspec_answer_destroy(pspec_answer *answer);
 
 /** @} */
 

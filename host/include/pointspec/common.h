@@ -37,9 +37,10 @@ typedef enum pspec_status {
 /** The version of the library, "1.2.3"; static storage. */
 PSPEC_EXPORT const char *pspec_version(void);
 
-/** A point set that the caller keeps: a view. */
+/** A point set of the caller, as a pspec_give() shows it. Made by the library, so that members may
+ * be added at its end. */
 typedef struct pspec_pattern {
-    unsigned dimension; /**< d, that of the plan; 3 on the sphere */
+    unsigned dimension; /**< d, or 3 on the sphere */
     size_t num_points;  /**< N, at least 1 */
     /** [num_points][dimension], row by row, each coordinate in [0,1), or unit vectors */
     const double *points;
@@ -52,18 +53,12 @@ typedef enum pspec_normalization {
     PSPEC_NORMALIZATION_POWER = 0,
     PSPEC_NORMALIZATION_EFFECTIVE = 1, /**< P = |S|^2 / V */
     /** on the sphere Q(l) itself, weights 1/N where there are none; the tolerance then is of Q(l),
-     * see pspec_plan_create_angular() */
+     * in units of (sum |w|)^2 */
     PSPEC_NORMALIZATION_PAIRS = 2,
     /** mean(N) mean(|S|^2 / W^2), what the variance of an integral is made of: where all sets have
      * one N the powers of #PSPEC_NORMALIZATION_POWER */
     PSPEC_NORMALIZATION_INTEGRAL = 3
 } pspec_normalization;
-
-/** A mean over realizations. */
-typedef struct pspec_mean {
-    double mean;           /**< over the realizations */
-    double standard_error; /**< of the mean; nan for one realization */
-} pspec_mean;
 
 #ifdef __cplusplus
 }

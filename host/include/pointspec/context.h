@@ -18,28 +18,29 @@ typedef struct pspec_context pspec_context; /**< device, callbacks, limits, last
 
 /** A context that has opened nothing yet, or NULL when there is no memory for it. */
 PSPEC_EXPORT pspec_context *pspec_context_create(void);
-/** Closes the device. The context's plans must be gone. NULL is allowed. */
+/** Closes the device. The context's questions must be gone. NULL is allowed. */
 PSPEC_EXPORT void pspec_context_destroy(pspec_context *context);
 
 /** The sentence of the last call that failed; "" before. Valid until the next call with this
- * context or its plans. Of NULL: that there is no context. */
+ * context or its questions. Of NULL: that there is no context. */
 PSPEC_EXPORT const char *pspec_context_message(const pspec_context *context);
 
 /** Which OpenCL device to use: an index, "cpu", "gpu", "accelerator" or a part of a name (copied);
- * NULL: the first GPU, else the first CPU. Nothing is opened until a plan needs a device; once one
- * is open the choice is made, and a call is #PSPEC_ERROR_INVALID_ARGUMENT. */
+ * NULL: the first GPU, else the first CPU. Nothing is opened until a question needs a device; once
+ * one is open the choice is made, and a call is #PSPEC_ERROR_INVALID_ARGUMENT. */
 PSPEC_EXPORT pspec_status pspec_context_set_device(pspec_context *context, const char *selector);
 
-/** The most memory in bytes that a plan may take, on host and device together, as the planner
- * counts it; 0, the default: no limit of yours. Plans made later obey it: with smaller batches,
- * then another engine, else they fail with #PSPEC_ERROR_MEMORY. What memory is free (also by
- * limits of cgroups and of the process) makes batches smaller, or a plan fails; the engine, and
- * with it the bits of results, depends on this limit alone. */
+/** The most memory in bytes that an answer may take, on host and device together, as the planner
+ * counts it, and that patterns in memory may take beside it; 0, the default: no limit of yours.
+ * Questions that are answered later obey it: with smaller batches, then another engine, else they
+ * fail with #PSPEC_ERROR_MEMORY. What memory is free (also by limits of cgroups and of the process)
+ * makes batches smaller, or an answer fails; the engine, and with it the bits of results, depends
+ * on this limit alone. */
 PSPEC_EXPORT void pspec_context_set_memory_limit(pspec_context *context, uint64_t bytes);
 
 /** What is being done, and how far it is. */
 typedef struct pspec_progress_report {
-    /** What is counted: "realizations" that are in the averages of a plan, or the name of another
+    /** What is counted: "realizations" that are in the averages, or the name of another
      * long phase, such as "weights: iterations of conjugate gradients". */
     const char *phase;
     uint64_t done;      /**< so many of them */
@@ -53,16 +54,15 @@ typedef int (*pspec_progress)(const pspec_progress_report *report, void *payload
 
 /** Calls progress after every batch, now and then inside a long one, and in every other phase that
  * takes long, in the thread that made the call; NULL: no longer. A callback must not use the
- * context or its plans. */
+ * context or its questions. */
 PSPEC_EXPORT void pspec_context_set_progress(pspec_context *context, pspec_progress progress,
                                              void *payload);
 
 /** One sentence about what is being done, without a newline; gone when the callback returns. */
 typedef void (*pspec_log)(const char *sentence, void *payload);
 
-/** Calls log for every device that is opened, plan that is chosen, engine that is made anew and
- * batch that is made smaller; NULL: no longer. Sentences are for people: they may change between
- * versions. Plans keep the callback that was set when they were made. */
+/** Calls log for every device that is opened and engine that is chosen; NULL: no longer. Sentences
+ * are for people: they may change between versions. */
 PSPEC_EXPORT void pspec_context_set_log(pspec_context *context, pspec_log log, void *payload);
 
 /** Calls warn with sentences that are no errors and that the program says on standard error: work

@@ -13,9 +13,8 @@
  * its own N.
  *
  * Weights are not all 0, and |w_j| sum to at most 1e290. Sums over pairs and quadrature, whose
- * results have the units of weights, take sets whose largest |w_j| is between 1e-60 and 1e60,
- * pspec_kernel_sums() between 2^-450 and 2^450. Others are #PSPEC_ERROR_INPUT, as is W = 0, or
- * within 2^-52 sum |w_j| of it, where W divides.
+ * results have the units of weights, take sets whose largest |w_j| is between 1e-60 and 1e60.
+ * Others are #PSPEC_ERROR_INPUT, as is W = 0, or within 2^-52 sum |w_j| of it, where W divides.
  *
  * White noise has mean power 1 at every k != 0. DC (k = 0) is never part of a radial mean. Ring b
  * holds the frequencies with b^2 - b + 1 <= |k|^2 <= b^2 + b.
@@ -30,21 +29,22 @@
  * White noise has mean power 1 at every l >= 1. On the hemisphere, which is the projective plane, a
  * point stands for its direction and the opposite one, and only even degrees are there.
  *
- * **Objects.** A context holds the device, the callbacks and the sentence of the last error; a plan
- * fixes what is asked and by which engine; patterns (realizations) go through the plan in calls of
- * any size, with the same results to the bit; a spectrum is a snapshot of the averages so far,
- * which can be saved, loaded, and merged with others.
+ * **Objects.** A context holds the device, the callbacks and the sentence of the last error. A
+ * question is one of a kind of answer, as "power" or "variance": options by the names that the
+ * program has for them, and patterns, of samplers, files or the caller. An answer is named fields.
  *
- *     pspec_context_create -> pspec_plan_create -> pspec_plan_run ... -> pspec_spectrum_create
+ *     pspec_context_create -> pspec_question_create -> _set, _add ... -> pspec_question_answer
  *
- * **Ownership.** Every create, load and merge has a destroy, which accepts NULL. Destroy plans
- * before their context; a spectrum needs neither plan nor context once it exists. What an object
- * points to belongs to the object. Arguments are only borrowed for the call.
+ * **Ownership.** Every create has a destroy, which accepts NULL, and so have answers. Destroy
+ * questions before their context; an answer needs neither once it exists. What an object points to
+ * belongs to the object. Arguments are only borrowed for the call, but for functions, which are
+ * kept with what they are called with.
  *
- * **Threads.** One context, and the plans made from it, may be used by one thread at a time;
- * different contexts are independent, the first use of a device included. A spectrum may be read by
- * any number of threads. GSL has one error handler for the process: while a call of this library is
- * inside GSL the handler is off for everybody, and afterwards it is the one that was there.
+ * **Threads.** One context, and the questions made from it, may be used by one thread at a time.
+ * Different contexts are independent, the first use of a device included: several threads, each
+ * with a context of its own, may ask at once. An answer may be read by any number of threads. GSL
+ * has one error handler for the process: while a call of this library is inside GSL the handler is
+ * off for everybody, and afterwards it is the one that was there.
  *
  * **Errors.** Whatever can fail returns a #pspec_status; the sentence that goes with it (what,
  * where, which value, which limit) is pspec_context_message(). Objects arrive through the first
@@ -55,14 +55,8 @@
 #define POINTSPEC_POINTSPEC_H
 
 #include "pointspec/answer.h"
-#include "pointspec/commands.h"
 #include "pointspec/common.h"
 #include "pointspec/context.h"
-#include "pointspec/interpolant.h"
-#include "pointspec/plan.h"
-#include "pointspec/points.h"
-#include "pointspec/quadrature.h"
-#include "pointspec/spectrum.h"
-#include "pointspec/table.h"
+#include "pointspec/question.h"
 
 #endif

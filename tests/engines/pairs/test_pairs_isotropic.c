@@ -160,54 +160,6 @@ static void zonal_kernels(void **state) {
     free(points);
 }
 
-/* The public library: weights as they are, however large, or 1/N; bounds in the units of the sums.
- */
-static void public_library(void **state) {
-    (void)state;
-    double *points = test_sphere_white_set(NUM, &seed);
-    double weights[NUM], sums[2], bounds[2];
-    const double constant[] = {2.5};
-    const pspec_kernel kernels[] = {{NULL, 0, 0.5}, {constant, 1, 0}};
-    const double tolerance = limit_of(1e-8);
-    for (size_t j = 0; j < NUM; j++) {
-        weights[j] = ldexp(1 + test_uniform(&seed), 600) / NUM;
-    }
-    const pspec_pattern plain = {3, NUM, points, NULL}, weighted = {3, NUM, points, weights};
-    pspec_context *context = pspec_context_create();
-    assert_int_equal(pspec_kernel_sums(context, &plain, kernels, 2, tolerance, sums, bounds),
-                     PSPEC_OK);
-    assert_true(fabs((double)(sums[0] - exact_chords(&plain, 0.5) / NUM / NUM)) <= bounds[0]);
-    assert_true(fabs(sums[1] - 2.5) <= bounds[1] && bounds[1] <= tolerance);
-    assert_int_equal(pspec_kernel_sums(context, &weighted, kernels, 2, tolerance, sums, bounds),
-                     PSPEC_ERROR_INPUT);
-    assert_non_null(strstr(pspec_context_message(context), "multiply all weights by a constant"));
-    for (size_t j = 0; j < NUM; j++) { /* what doubles cannot hold would be infinite */
-        weights[j] = ldexp(weights[j], -200);
-    }
-    assert_int_equal(pspec_kernel_sums(context, &weighted, kernels, 2, tolerance, sums, bounds),
-                     PSPEC_OK);
-    assert_true(fabs((double)(sums[0] - exact_chords(&weighted, 0.5))) <= bounds[0]);
-    const double size = test_weight_sizes(&weighted);
-    assert_true(fabs(sums[1] / (2.5 * size * size) - 1) <= 1e-14);
-    for (size_t j = 0; j < NUM; j++) { /* squares would be 0 */
-        weights[j] = 0x1p-1074;
-    }
-    assert_int_equal(pspec_kernel_sums(context, &weighted, kernels, 2, tolerance, sums, bounds),
-                     PSPEC_ERROR_INPUT);
-    assert_non_null(strstr(pspec_context_message(context), "multiply all weights by a constant"));
-    assert_int_equal(pspec_kernel_sums(context, &plain, NULL, 0, tolerance, sums, bounds),
-                     PSPEC_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(pspec_kernel_sums(context, &plain, kernels, 2, 0, sums, bounds),
-                     PSPEC_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(pspec_kernel_sums(context, NULL, kernels, 2, tolerance, sums, bounds),
-                     PSPEC_ERROR_INVALID_ARGUMENT);
-    points[1] = NAN;
-    assert_int_equal(pspec_kernel_sums(context, &plain, kernels, 2, tolerance, sums, bounds),
-                     PSPEC_ERROR_INPUT);
-    pspec_context_destroy(context);
-    free(points);
-}
-
 /* Says stop when a phase is so far. */
 typedef struct stopper {
     const char *phase;
@@ -277,10 +229,9 @@ static void nonsense(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(white_points),   cmocka_unit_test(hard_points),
-        cmocka_unit_test(direct_sums),    cmocka_unit_test(zonal_kernels),
-        cmocka_unit_test(public_library), cmocka_unit_test(stops),
-        cmocka_unit_test(nonsense)};
+        cmocka_unit_test(white_points), cmocka_unit_test(hard_points),
+        cmocka_unit_test(direct_sums),  cmocka_unit_test(zonal_kernels),
+        cmocka_unit_test(stops),        cmocka_unit_test(nonsense)};
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("pairs_isotropic", tests, NULL, NULL);
     ps_device_close(device);

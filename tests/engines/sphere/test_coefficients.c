@@ -25,8 +25,6 @@ static double sum_orders(const double *c, int l) {
 static void coefficients(void **state) {
     (void)state;
     pspec_context *context = pspec_context_create();
-    const pspec_angular_request request = test_angular_request();
-    pspec_plan *plan = NULL;
     double *vectors = test_make_vectors(TEST_NUM_POINTS, 5);
     double weights[TEST_NUM_POINTS];
     double c[NUM_COEFFICIENTS];
@@ -40,28 +38,26 @@ static void coefficients(void **state) {
         }
     }
     const pspec_pattern pattern = {3, TEST_NUM_POINTS, vectors, weights};
-    pspec_spectrum *spectrum = test_estimate_angular(context, &request, &pattern, 1);
-    assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
+    pspec_answer *answer = test_public_ask(context, TEST_ANGULAR " coefficients", &pattern, 1);
+    memcpy(c, test_public_field(answer, "coefficients", PSPEC_C128)->data, sizeof c);
     test_assert_near(c[0] / sum, 1 / sqrt(PS_FOUR_PI), 1e-15);
     test_assert_near(c[2] / sum, sqrt(3 / PS_FOUR_PI) * dipole[2] / sum, 1e-15);
     const double *c_11 = c + 2 * TEST_MAX_DEGREE + 2; /* -sqrt(3 / (8 pi)) (x + iy) */
     test_assert_near(c_11[0] / sum, -sqrt(1.5 / PS_FOUR_PI) * dipole[0] / sum, 1e-15);
     test_assert_near(c_11[1] / sum, -sqrt(1.5 / PS_FOUR_PI) * dipole[1] / sum, 1e-15);
-    size_t num = 0;
-    const pspec_bin *bins = pspec_spectrum_bins(spectrum, &num);
     for (int l = 1; l <= TEST_MAX_DEGREE; l++) {
         for (int i = 0; i < NUM_COEFFICIENTS && l == 1; i++) {
             c[i] /= sum; /* squares of 1e200 are none */
         }
         const double power = TEST_NUM_POINTS * PS_FOUR_PI / (2 * l + 1) * sum_orders(c, l);
-        test_assert_near(bins[l - 1].power / power, 1, 1e-13);
+        test_assert_near(test_public_numbers(answer, "power")[l - 1] / power, 1, 1e-13);
     }
-    pspec_plan_destroy(plan);
-    pspec_spectrum_destroy(spectrum);
+    pspec_answer_destroy(answer);
     free(vectors);
     pspec_context_destroy(context);
 }
+
+#define HEMISPHERICAL TEST_ANGULAR " coefficients harmonics=hemispherical"
 
 /* Of one point: the addition theorem, and the first degrees
  * (docs/mathematics/quadrature.md#hemispherical-harmonics). */
@@ -70,67 +66,23 @@ static void hemispherical_harmonics(void **state) {
     static const double points[][3] = {
         {0.6, 0, 0.8}, {0, 0, 1}, {1, 0, 0}, {0.28, 0.96, 0}, {1e-9, -1e-9, 1}};
     pspec_context *context = pspec_context_create();
-    const pspec_angular_request request = test_angular_request();
-    pspec_plan *plan = NULL;
-    double c[NUM_COEFFICIENTS];
-    assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
     for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
         const pspec_pattern pattern = test_vectors(points[i], 1);
-        assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_OK);
+        pspec_answer *answer = test_public_ask(context, HEMISPHERICAL, &pattern, 1);
+        const double *const c = test_public_field(answer, "coefficients", PSPEC_C128)->data;
         test_assert_near(c[0], 1 / sqrt(PS_TWO_PI), 1e-15);
         test_assert_near(c[2], sqrt(3 / PS_TWO_PI) * (2 * points[i][2] - 1), 1e-15);
         for (int l = 0; l <= TEST_MAX_DEGREE; l++) {
             test_assert_near(sum_orders(c, l) * PS_TWO_PI / (2 * l + 1), 1, 1e-14);
         }
+        pspec_answer_destroy(answer);
     }
     static const double below[3] = {0.6, 0, -0.8};
     const pspec_pattern pattern = test_vectors(below, 1);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_ERROR_INPUT);
-    assert_non_null(strstr(pspec_context_message(context), "below the horizon"));
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
-    assert_int_equal(pspec_plan_coefficients(plan, NULL, 0, c), PSPEC_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(pspec_plan_coefficients(NULL, &pattern, 0, c), PSPEC_ERROR_INVALID_ARGUMENT);
-    pspec_plan_destroy(plan);
-    const pspec_power_request power = test_host_request();
-    assert_int_equal(pspec_plan_create(&plan, context, &power), PSPEC_OK);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_INPUT);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_ERROR_INVALID_ARGUMENT);
-    pspec_plan_destroy(plan);
-    pspec_context_destroy(context);
-}
-
-static int cancel(const pspec_progress_report *report, void *payload) {
-    (void)report;
-    (void)payload;
-    return 1;
-}
-
-/* Neither harms the plan. */
-static void cancelled_or_too_large(void **state) {
-    (void)state;
-    pspec_context *context = pspec_context_create();
-    const pspec_angular_request request = test_angular_request();
-    pspec_plan *plan = NULL;
-    pspec_spectrum *spectrum = NULL;
-    double *vectors = test_make_vectors(TEST_NUM_POINTS, 5);
-    const pspec_pattern pattern = test_vectors(vectors, TEST_NUM_POINTS);
-    double c[NUM_COEFFICIENTS];
-    assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
-    pspec_context_set_progress(context, cancel, NULL);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_CANCELLED);
-    assert_non_null(strstr(pspec_context_message(context), "cancelled by the progress callback"));
-    pspec_context_set_progress(context, NULL, NULL);
-    pspec_context_set_memory_limit(context, sizeof c);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_MEMORY);
-    assert_non_null(
-        strstr(pspec_context_message(context), "coefficients to degree 12 take 1.46e+03 bytes"));
-    pspec_context_set_memory_limit(context, 0);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
-    assert_int_equal(pspec_plan_run(plan, &pattern, 1), PSPEC_OK);
-    assert_int_equal(pspec_spectrum_create(&spectrum, plan), PSPEC_OK);
-    pspec_spectrum_destroy(spectrum);
-    pspec_plan_destroy(plan);
-    free(vectors);
+    pspec_question *const question = test_public_question(context, HEMISPHERICAL);
+    test_public_add(question, &pattern, 1);
+    test_public_refuse(context, question, PSPEC_ERROR_INPUT, "below the horizon");
+    pspec_question_destroy(question);
     pspec_context_destroy(context);
 }
 
@@ -138,7 +90,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients),
         cmocka_unit_test(hemispherical_harmonics),
-        cmocka_unit_test(cancelled_or_too_large),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,144 @@
+/* The public library: which kinds of answers there are, what they take, and what they have. */
+#include "api/public_objects.h"
+#include "base/text.h"
+#include "commands/plan.h"
+#include "request/option_help.h"
+
+/* ---- names ------------------------------------------------------------------------------- */
+
+const char *pspec_answer_kind(size_t i) {
+    size_t num = 0;
+    while (ps_kinds[num] != NULL) {
+        num++;
+    }
+    return i < num ? ps_kinds[i]->name : NULL;
+}
+
+pspec_status ps_public_find(const ps_command **out, const ps_command *const *table,
+                            const char *name, const char *what, ps_error *error) {
+    size_t distance = 0;
+    if (name == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a %s", what);
+    }
+    *out = ps_command_nearest(table, name, &distance);
+    return distance == 0
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no %s \"%s\"%s", what, name,
+                     ps_text_suggest(name, (*out)->name, distance, "; did you mean ", "?").text);
+}
+
+bool ps_public_takes(const ps_command *row, ps_option_id id) {
+    static const ps_option_id of_program[] = {PS_OPTION_DEVICE, PS_OPTION_PROFILE, PS_OPTION_QUIET,
+                                              PS_OPTION_VERBOSE, PS_OPTION_HELP};
+    bool is_of_program = false;
+    for (size_t i = 0; i < sizeof of_program / sizeof of_program[0]; i++) {
+        is_of_program = is_of_program || of_program[i] == id;
+    }
+    return !is_of_program && ps_command_takes(row, id);
+}
+
+/* ---- tables ------------------------------------------------------------------------------ */
+
+typedef pspec_status fill_table(const ps_command *row, ps_table *table, ps_error *error);
+
+static pspec_status tell(pspec_answer **out, const char *name, const char *const *columns,
+                         size_t num_columns, fill_table *fill, const ps_command *row,
+                         ps_error *error) {
+    ps_answer made = {0};
+    pspec_status status = ps_table_create(&made.table, name, columns, num_columns, error);
+    if (status == PSPEC_OK) {
+        status = fill(row, made.table, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_answer_free(&made);
+        return status;
+    }
+    return ps_public_answer(out, &made, NULL, error);
+}
+
+static ps_cell text_or_missing(const char *text) {
+    return text != NULL && text[0] != '\0' ? PS_TEXT(text) : PS_MISSING;
+}
+
+/* Kinds of answers that take the option, with commas. */
+static void list_kinds(ps_text *out, ps_option_id id) {
+    for (size_t i = 0; ps_kinds[i] != NULL; i++) {
+        if (ps_command_takes(ps_kinds[i], id)) {
+            ps_text_append(out, "%s%s", out->length > 0 ? "," : "", ps_kinds[i]->name);
+        }
+    }
+}
+
+static pspec_status add_option(ps_table *table, const ps_command *row, ps_option_id id,
+                               ps_error *error) {
+    const char *const words = ps_command_words(row, id);
+    char help[PS_OPTION_HELP_BYTES];
+    ps_option_facts facts;
+    ps_text kinds = {0};
+    ps_option_help(help, ps_options[id].help, row->name);
+    ps_option_find_facts(&facts, id, words, help);
+    list_kinds(&kinds, id);
+    pspec_status status = ps_text_check(&kinds, error);
+    const ps_cell cells[] = {PS_TEXT(ps_options[id].name),
+                             text_or_missing(words),
+                             PS_TEXT(facts.type),
+                             text_or_missing(facts.unit),
+                             text_or_missing(facts.initial),
+                             PS_TEXT(facts.is_repeatable ? "yes" : "no"),
+                             text_or_missing(facts.file),
+                             text_or_missing(ps_text_string(&kinds)),
+                             PS_TEXT(help)};
+    if (status == PSPEC_OK) {
+        status = ps_table_add_row(table, cells, error);
+    }
+    ps_text_free(&kinds);
+    return status;
+}
+
+static pspec_status fill_options(const ps_command *row, ps_table *table, ps_error *error) {
+    for (int i = 0; i < PS_NUM_OPTIONS; i++) {
+        if (ps_public_takes(row, (ps_option_id)i)) {
+            PS_TRY(add_option(table, row, (ps_option_id)i, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+pspec_status pspec_options_table(pspec_answer **out, pspec_context *context, const char *command) {
+    static const char *const columns[] = {"option",   "values", "type",  "unit", "default",
+                                          "repeated", "file",   "kinds", "help"};
+    const ps_command *row = NULL;
+    if (out == NULL || context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    *out = NULL;
+    PS_TRY(ps_public_find(&row, ps_public_commands, command, "command", error));
+    return tell(out, "options", columns, sizeof columns / sizeof columns[0], fill_options, row,
+                error);
+}
+
+static pspec_status add_field(const ps_field_row *row, void *table, ps_error *error) {
+    const ps_cell cells[] = {PS_TEXT(row->name),         PS_TEXT(ps_field_groups[row->group]),
+                             text_or_missing(row->unit), PS_TEXT(row->is_repeated ? "yes" : "no"),
+                             text_or_missing(row->when), PS_TEXT(row->meaning)};
+    return ps_table_add_row(table, cells, error);
+}
+
+static pspec_status fill_fields(const ps_command *row, ps_table *table, ps_error *error) {
+    return ps_kind_visit_fields(row, add_field, table, error);
+}
+
+pspec_status pspec_fields_table(pspec_answer **out, pspec_context *context, const char *kind) {
+    static const char *const columns[] = {"field", "group", "unit", "repeated", "when", "meaning"};
+    const ps_command *row = NULL;
+    if (out == NULL || context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    *out = NULL;
+    PS_TRY(ps_public_find(&row, ps_with_fields, kind, "kind of answer", error));
+    return tell(out, "fields", columns, sizeof columns / sizeof columns[0], fill_fields, row,
+                error);
+}
