@@ -58,7 +58,7 @@ static int check(pspec_context *context, const char *name, int num_sets, double 
         ask(context, "check", "against", "saved.npz", num_sets, uniform, is_jittered);
     const char *const verdict = pspec_answer_verdict(answer);
     const int is_same = verdict[0] == '\0';
-    printf("%s: %s\n", name, is_same ? "the same sampler" : verdict);
+    printf("%d sets of %s: %s\n", num_sets, name, is_same ? "the same sampler" : verdict);
     pspec_answer_destroy(answer);
     return is_same;
 }

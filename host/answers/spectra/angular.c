@@ -9,7 +9,7 @@
 
 static pspec_status check_coefficients(const ps_request *request, ps_error *error) {
     if (request->coefficients == NULL) {
-        return request->harmonics == NULL
+        return request->harmonics == NULL || request->wants_coefficients
                    ? PSPEC_OK
                    : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                              "--harmonics is about --coefficients, which was not given");
