@@ -17,9 +17,6 @@ struct ps_source {
     ps_sampler_request request;
     ps_watch watch;
     uint64_t num_realizations, next_realization;
-    /* memory: patterns is NULL for others; next_realization counts them */
-    const pspec_pattern *patterns;
-    size_t num_patterns;
     /* files: paths is NULL for others */
     const char *const *paths;
     size_t num_paths, next_path;
@@ -86,51 +83,6 @@ pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t n
         (*out)->options.kept_bytes = is_less ? limit : PS_SOURCE_WHOLE_BYTES;
     }
     (*out)->kept.memory_limit = options->points.memory_limit;
-    return PSPEC_OK;
-}
-
-pspec_status ps_source_patterns(ps_source **out, const pspec_pattern *patterns, size_t num_patterns,
-                                ps_error *error) {
-    PS_TRY(create(out, error));
-    (*out)->patterns = patterns;
-    (*out)->num_patterns = num_patterns;
-    return PSPEC_OK;
-}
-
-static pspec_status check_vectors(const pspec_pattern *pattern, uint64_t realization,
-                                  ps_error *error) {
-    const unsigned long long number = (unsigned long long)realization + 1;
-    ps_pattern_count count = {.realization = realization, .on_sphere = true};
-    if (pattern->dimension != PS_SPHERE_DIMENSION) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %d", number,
-                       pattern->dimension, (int)PS_SPHERE_DIMENSION);
-    }
-    if (pattern->num_points == 0 || pattern->points == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points", number);
-    }
-    return ps_pattern_count_add(&count, pattern,
-                                error); /* what weights sum to depends on their use */
-}
-
-static pspec_status next_pattern(ps_source *source, ps_point_set *set, bool *has_set,
-                                 ps_error *error) {
-    *has_set = source->next_realization < source->num_patterns;
-    if (!*has_set) {
-        return PSPEC_OK;
-    }
-    const pspec_pattern *pattern = &source->patterns[source->next_realization];
-    const size_t num = pattern->num_points;
-    PS_TRY(check_vectors(pattern, source->next_realization++, error));
-    set->coordinates = PS_UNIT_VECTORS;
-    set->dimension = pattern->dimension;
-    set->has_weights = pattern->weights != NULL;
-    set->num_points = 0;
-    PS_TRY(ps_points_reserve(set, num, error));
-    memcpy(set->points, pattern->points, num * pattern->dimension * sizeof(double));
-    if (set->has_weights) {
-        memcpy(set->weights, pattern->weights, num * sizeof(double));
-    }
-    set->num_points = num;
     return PSPEC_OK;
 }
 
@@ -329,8 +281,7 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
                             bool *has_set, ps_error *error) {
     if (source->paths == NULL) {
         *part = (ps_source_part){.is_whole = true};
-        return source->patterns != NULL ? next_pattern(source, set, has_set, error)
-                                        : next_sample(source, set, has_set, error);
+        return next_sample(source, set, has_set, error);
     }
     return next_from_files(source, set, part, has_set, error);
 }

@@ -1,5 +1,4 @@
-/* Where realizations come from: a sampler, point files one after the other, or unit vectors in
- * memory.
+/* Where realizations come from: a sampler, or point files and given sets one after the other.
  *
  * A source yields point sets in order, and can be rewound: sets that come but once, from standard
  * input or a pipe, are kept, unless they are too many. Sets of files that are too large to be in
@@ -47,10 +46,6 @@ typedef struct ps_source_options {
 pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t num_paths,
                              const ps_source_options *options, ps_error *error) PS_MUST_CHECK;
 
-/* Unit vectors, checked when their turn comes; patterns are kept and must outlive the source. */
-pspec_status ps_source_patterns(ps_source **out, const pspec_pattern *patterns, size_t num_patterns,
-                                ps_error *error) PS_MUST_CHECK;
-
 /* How much of a set has come. */
 typedef struct ps_source_part {
     bool is_whole;
@@ -66,8 +61,7 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
 /* Appends at most max_points more of the set that came last, or *ends. */
 pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
                             ps_error *error) PS_MUST_CHECK;
-/* From now on points (x, y, z) come as (y, z, x), the x axis where the z axis was. Not for patterns
- * in memory. */
+/* From now on points (x, y, z) come as (y, z, x), the x axis where the z axis was. */
 void ps_source_turn(ps_source *source);
 /* Not once more was read of a stream than is kept. */
 bool ps_source_can_rewind(const ps_source *source);

@@ -17,8 +17,6 @@ typedef struct ps_quadrature_question {
     const ps_sampler_request
         *sampler;              /* NULL: files; resolved, morphed to the BRDF if that is wanted */
     uint64_t num_realizations; /* of the sampler */
-    const pspec_pattern *patterns; /* in memory, instead of files; NULL: none */
-    size_t num_patterns;
     const char *const *paths;
     size_t num_paths;
     ps_point_options point_options;

@@ -22,10 +22,6 @@ static pspec_status open_source(ps_rules *rules, ps_error *error) {
         return ps_source_sampler(&rules->source, question->sampler, question->num_realizations,
                                  &options, &question->watch, error);
     }
-    if (question->patterns != NULL) {
-        return ps_source_patterns(&rules->source, question->patterns, question->num_patterns,
-                                  error);
-    }
     const ps_source_options options = {.points = question->point_options,
                                        .whole_bytes = UINT64_MAX}; /* rules are whole */
     return ps_source_files(&rules->source, question->paths, question->num_paths, &options, error);
@@ -59,9 +55,6 @@ pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *erro
         shape->most_points = shape->num_points;
         /* A set alone has ways of its own in some engines, wherever it came from. */
         shape->num_sets = rules->num_waiting > 1 ? question->num_realizations : 1;
-    }
-    if (shape->num_points == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "set 1 has no points");
     }
     return question->weights.path == NULL
                ? PSPEC_OK
