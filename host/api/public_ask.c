@@ -1,7 +1,6 @@
 /* The public library: a question answered, or planned. */
 #include "api/question.h"
 #include "base/memory.h"
-#include "commands/doctor.h"
 #include "commands/plan.h"
 #include "request/option_text.h"
 #include "store/cache_trust.h"
@@ -146,22 +145,6 @@ static ps_answer_hooks hooks_of(pspec_context *context) {
                              .tell_missing = warn,
                              .tell_plan = say_plan};
 }
-
-/* ---- what can be asked ------------------------------------------------------------------- */
-
-static pspec_status examine(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
-                            ps_error *error) {
-    (void)hooks;
-    return ps_doctor_tabulate(out, request->limits.device, error);
-}
-
-/* The program's prints sentences while it looks. */
-static const ps_command doctor = {
-    .name = "doctor", .takes = PS_COMMAND_BIT(doctor), .run = examine};
-
-const ps_command *const ps_public_commands[] = {
-    PS_COMMANDS(PS_KIND_OF, PS_COMMAND_OF, PS_NO_COMMAND, PS_NO_COMMAND) & ps_command_devices,
-    &doctor, NULL};
 
 /* ---- answers ----------------------------------------------------------------------------- */
 
