@@ -74,10 +74,7 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->reference_points = options->normalization == PSPEC_NORMALIZATION_INTEGRAL
                                  ? (double)options->problem.num_points
                                  : 1;
-    pspec_status status = ps_spares_create(&self->spares, options->spare_bytes, error);
-    if (status == PSPEC_OK) {
-        status = create_arrays(self, error);
-    }
+    pspec_status status = create_arrays(self, error);
     if (status == PSPEC_OK) {
         status = create_parts(self, error);
     }
@@ -103,7 +100,6 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     free(estimator->sums);
     free(estimator->beginning);
     ps_pair_sums_free(&estimator->c2);
-    ps_spares_close(estimator->spares);
     free(estimator);
 }
 

@@ -33,7 +33,6 @@ typedef struct ps_estimator_options {
     size_t num_weighted;
     bool self_check;
     pspec_normalization normalization;
-    uint64_t spare_bytes; /* of arrays that are kept for ps_estimator_sums (spectra/spares.h) */
     /* [ps_num_coefficients_at] or NULL: where a realization that comes alone in its batch leaves
      * its coefficients, of problem.harmonics; what there is to sum twice is summed once */
     double *coefficients;

@@ -25,7 +25,6 @@ struct ps_estimator {
     bool leaves_checks;      /* of this batch's coordinates to the engine */
     ps_pattern_totals totals;
     ps_accuracy accuracy;
-    ps_spares *spares; /* of spectra */
 };
 
 /* Adds rows that are pending. */

@@ -91,8 +91,7 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, p
     PS_TRY(require_realizations(estimator, error));
     PS_TRY(ps_estimator_settle(estimator, error));
     PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num,
-                                   options->want_frequencies, options->want_c2, estimator->spares,
-                                   error));
+                                   options->want_frequencies, options->want_c2, error));
     const ps_accuracy accuracy = ps_estimator_accuracy(estimator);
     out->normalization = options->normalization;
     out->reference_points = estimator->reference_points;

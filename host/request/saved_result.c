@@ -2,7 +2,6 @@
 
 #include "base/text.h"
 #include "files/input_file.h"
-#include "spectra/file/spectrum_format.h"
 #include "tables/table.h"
 
 #include <stdio.h>
@@ -117,13 +116,6 @@ pspec_status ps_saved_result_refuse(const char *path, const char *why, const cha
     header head;
     char made_by[VALUE_BYTES];
     PS_TRY(read_header(&head, path, error));
-    if (strncmp(head.text, PS_SPECTRUM_MAGIC, sizeof PS_SPECTRUM_MAGIC - 1) == 0) {
-        return ps_fail(
-            error, PSPEC_ERROR_INPUT,
-            "\"%s\" holds no points: pspec_spectrum_save wrote it, %s; use pointspec %s on "
-            "the point files, or with --sampler",
-            path, why, command);
-    }
     if (!find_command(&head, made_by)) {
         PS_TRY(read_beside(&head, path, error));
     }

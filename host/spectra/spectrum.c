@@ -121,8 +121,7 @@ out:
 }
 
 void ps_spectrum_free(ps_spectrum *spectrum) {
-    ps_spares_give(spectrum->spares, spectrum->powers, spectrum->frequencies.num * sizeof(ps_mean));
-    ps_spares_leave(spectrum->spares);
+    free(spectrum->powers);
     ps_frequencies_free(&spectrum->frequencies);
     free(spectrum->bins);
     *spectrum = (ps_spectrum){0};

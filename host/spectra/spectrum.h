@@ -4,7 +4,6 @@
 
 #include "spectra/accumulate/accumulate.h"
 #include "spectra/bins.h"
-#include "spectra/spares.h"
 
 typedef struct ps_spectrum_bin {
     int64_t key;                  /* ring number, |k|^2 of a shell, or degree */
@@ -27,8 +26,7 @@ typedef struct ps_spectrum {
     ps_mean sample_size;
     size_t num_bins;
     ps_spectrum_bin *bins;
-    ps_mean *powers;   /* [frequencies.num], or NULL */
-    ps_spares *spares; /* where powers come from and go to, or NULL */
+    ps_mean *powers; /* [frequencies.num], or NULL */
 } ps_spectrum;
 
 /* What happened to the realizations besides their powers. */

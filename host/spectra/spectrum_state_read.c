@@ -254,8 +254,7 @@ static pspec_status read_state(reader *in, ps_frequencies *set, ps_spectrum_sums
         return fail(in, "its sums do not fit its frequencies");
     }
     PS_TRY(make_bins(in, set, of_bins->shape[0], bins));
-    PS_TRY(
-        ps_spectrum_sums_create(out, set, bins->num, !on_sphere, of_c2 != NULL, NULL, in->error));
+    PS_TRY(ps_spectrum_sums_create(out, set, bins->num, !on_sphere, of_c2 != NULL, in->error));
     take_all(out->bins, of_bins);
     if (!on_sphere) {
         take_all(out->powers, of_powers);

@@ -12,15 +12,13 @@ static pspec_status allocate(ps_spectrum_sums *out, bool has_powers, bool has_c2
     if (has_c2) {
         PS_TRY(PS_NEW(&out->c2, num, "sums of C_l^2", error));
     }
-    return has_powers ? PS_TAKE(out->spares, &out->powers, num, "sums of frequencies", error)
-                      : PSPEC_OK;
+    return has_powers ? PS_NEW(&out->powers, num, "sums of frequencies", error) : PSPEC_OK;
 }
 
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
                                      size_t num_bins, bool has_powers, bool has_c2,
-                                     ps_spares *spares, ps_error *error) {
-    *out = (ps_spectrum_sums){
-        .reference_points = 1, .num_bins = num_bins, .spares = ps_spares_share(spares)};
+                                     ps_error *error) {
+    *out = (ps_spectrum_sums){.reference_points = 1, .num_bins = num_bins};
     pspec_status status = ps_frequencies_copy(&out->frequencies, frequencies, error);
     if (status == PSPEC_OK) {
         status = allocate(out, has_powers, has_c2, error);
@@ -31,31 +29,8 @@ pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies
     return status;
 }
 
-pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
-                                   ps_error *error) {
-    PS_TRY(ps_spectrum_sums_create(out, &original->frequencies, original->num_bins,
-                                   original->powers != NULL, original->c2 != NULL, NULL, error));
-    const ps_spectrum_sums owned = *out;
-    *out = *original;
-    out->frequencies = owned.frequencies;
-    out->bins = owned.bins;
-    out->powers = owned.powers;
-    out->c2 = owned.c2;
-    out->spares = NULL;
-    memcpy(out->bins, original->bins, original->num_bins * sizeof(ps_sums));
-    const size_t bytes = original->frequencies.num * sizeof(ps_sums);
-    if (out->powers != NULL) {
-        memcpy(out->powers, original->powers, bytes);
-    }
-    if (out->c2 != NULL) {
-        memcpy(out->c2, original->c2, bytes);
-    }
-    return PSPEC_OK;
-}
-
 void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
-    ps_spares_give(sums->spares, sums->powers, sums->frequencies.num * sizeof(ps_sums));
-    ps_spares_leave(sums->spares);
+    free(sums->powers);
     ps_frequencies_free(&sums->frequencies);
     free(sums->bins);
     free(sums->c2);
@@ -251,16 +226,12 @@ pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins
     *out = (ps_spectrum){0};
     PS_TRY_OUT(status, PS_NEW(&bin_means, bins->num, "the bins", error));
     if (sums->powers != NULL) {
-        PS_TRY_OUT(status,
-                   PS_TAKE(sums->spares, &powers, sums->frequencies.num, "the powers", error));
+        PS_TRY_OUT(status, PS_NEW(&powers, sums->frequencies.num, "the powers", error));
         finish_all(sums->powers, sums->frequencies.num, num, powers);
     }
     finish_all(sums->bins, sums->num_bins, num, bin_means);
     status = ps_spectrum_from_means(out, &sums->frequencies, bins, bin_means, powers, factor,
                                     &sums->totals, error);
-    if (status == PSPEC_OK) {
-        out->spares = ps_spares_share(sums->spares);
-    }
     if (status == PSPEC_OK && sums->num_equal > 0) {
         ps_spectrum_repeat(out, sums->num_equal);
     }

@@ -20,19 +20,16 @@ typedef struct ps_spectrum_sums {
     ps_pattern_totals totals;
     /* Of a deterministic set: the only realization stands for so many; 0: every one was computed */
     uint64_t num_equal;
-    size_t num_bins;   /* all, the unreported one included */
-    ps_sums *bins;     /* [num_bins] */
-    ps_sums *powers;   /* [frequencies.num]; NULL: nobody asked for them */
-    ps_sums *c2;       /* [frequencies.num], C_l^2 of pair sums; NULL: there are none */
-    ps_spares *spares; /* where powers come from and go to, or NULL */
+    size_t num_bins; /* all, the unreported one included */
+    ps_sums *bins;   /* [num_bins] */
+    ps_sums *powers; /* [frequencies.num]; NULL: nobody asked for them */
+    ps_sums *c2;     /* [frequencies.num], C_l^2 of pair sums; NULL: there are none */
 } ps_spectrum_sums;
 
-/* Copies the frequencies; all sums are 0, or with spares anything. */
+/* Copies the frequencies; all sums are 0. */
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
                                      size_t num_bins, bool has_powers, bool has_c2,
-                                     ps_spares *spares, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
-                                   ps_error *error) PS_MUST_CHECK;
+                                     ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_sums_free(ps_spectrum_sums *sums);
 
 /* Are both answers to the same question? If not, PSPEC_ERROR_INPUT with the difference; which names

@@ -294,7 +294,7 @@ const ps_kind ps_kind_check = {
         "or degrees, with the standard errors of both sides. Exit status 0: nothing differs; 3: "
         "some do, the table and the message say which. For samplers that have not changed that "
         "happens with the probability of --false-alarm-rate at most, for all rings together. The "
-        "saved spectrum is a table of power or angular as JSON, or a file of pspec_spectrum_save. "
+        "saved spectrum is a table of power or angular as NPZ. "
         "Another one in the place of the point files is compared with it, nothing being computed. "
         "A sampler gets as many points and realizations as were saved and the seed after the saved "
         "one, unless others are given. With --homogeneous the question is whether realizations "

@@ -3,15 +3,13 @@
 #include "base/memory.h"
 #include "files/input_file.h"
 #include "spectra/compare.h"
-#include "spectra/file/spectrum_file.h"
-#include "spectra/file/spectrum_format.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* ---- files of the library ---------------------------------------------------------------- */
+/* ---- bins ---------------------------------------------------------------------------------- */
 
 pspec_status ps_saved_spectrum_copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
                                          ps_error *error) {
@@ -23,57 +21,6 @@ pspec_status ps_saved_spectrum_copy_bins(ps_saved_spectrum *out, const ps_spectr
                                       bin->frequency, bin->count, bin->num_computed};
     }
     return PSPEC_OK;
-}
-
-static pspec_status check_kind(const ps_spectrum_sums *sums, const char *path, ps_error *error) {
-    if (sums->normalization == PSPEC_NORMALIZATION_PAIRS) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "\"%s\" holds sums over pairs, and powers are compared", path);
-    }
-    if (sums->frequencies.kind == PS_FREQUENCIES_LIST) {
-        return ps_fail(
-            error, PSPEC_ERROR_INPUT,
-            "\"%s\" holds a list of frequencies or a random subset of them, which only the "
-            "library compares (pspec_spectrum_compare)",
-            path);
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status take_sums(ps_saved_spectrum *out, const ps_spectrum_sums *sums,
-                              const ps_bins *bins, const char *path, ps_error *error) {
-    const ps_frequencies *const set = &sums->frequencies;
-    ps_spectrum averages = {0};
-    PS_TRY(check_kind(sums, path, error));
-    PS_TRY(ps_spectrum_sums_finish(sums, bins, &averages, error));
-    *out = (ps_saved_spectrum){
-        .on_sphere = set->kind == PS_FREQUENCIES_DEGREES,
-        .on_hemisphere = set->kind == PS_FREQUENCIES_DEGREES && set->degree_step > 1,
-        .dimension = set->dimension,
-        .max_frequency = set->max_frequency,
-        .bin_rule = set->bins,
-        .normalization = sums->normalization,
-        .num_realizations = averages.num_realizations,
-        .smallest_points = averages.smallest_points,
-        .largest_points = averages.largest_points,
-        .mean_points = averages.mean_points,
-        .sample_size = averages.sample_size.mean,
-        .modes = ps_compared_modes(set),
-        .error = sums->error,
-    };
-    const pspec_status status = ps_saved_spectrum_copy_bins(out, &averages, error);
-    ps_spectrum_free(&averages);
-    return status;
-}
-
-static pspec_status read_sums(ps_saved_spectrum *out, const char *path, ps_error *error) {
-    ps_spectrum_sums sums = {0};
-    ps_bins bins = {0};
-    PS_TRY(ps_spectrum_read(&sums, &bins, path, error));
-    const pspec_status status = take_sums(out, &sums, &bins, path, error);
-    ps_spectrum_sums_free(&sums);
-    ps_bins_free(&bins);
-    return status;
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */
@@ -110,7 +57,7 @@ static pspec_status read_table(ps_saved_spectrum *out, const char *path, ps_erro
 /* ---- which ------------------------------------------------------------------------------- */
 
 /* TEXTS: a table as CSV or JSON, which is no saved spectrum, and no points either. */
-typedef enum file_kind { OTHER, SUMS, TABLE, TEXTS } file_kind;
+typedef enum file_kind { OTHER, TABLE, TEXTS } file_kind;
 
 static bool begins_with(const unsigned char *bytes, size_t num, const char *text, size_t length) {
     return num >= length && memcmp(bytes, text, length) == 0;
@@ -129,8 +76,7 @@ static pspec_status find_kind(file_kind *out, const char *path, ps_error *error)
     if (status == PSPEC_OK) {
         status = ps_input_peek(&input, sizeof header - 1, &bytes, &num, error);
     }
-    *out = begins_with(bytes, num, PS_SPECTRUM_MAGIC, sizeof PS_SPECTRUM_MAGIC - 1) ? SUMS
-           : begins_with(bytes, num, header, sizeof header - 1) || begins_with(bytes, num, "{", 1)
+    *out = begins_with(bytes, num, header, sizeof header - 1) || begins_with(bytes, num, "{", 1)
                ? TEXTS
                : OTHER;
     ps_input_close(&input);
@@ -162,12 +108,11 @@ pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *er
 static pspec_status read_either(ps_saved_spectrum *out, const char *path, ps_error *error) {
     file_kind kind = OTHER;
     PS_TRY(find_kind(&kind, path, error));
-    return kind == SUMS    ? read_sums(out, path, error)
-           : kind == TABLE ? read_table(out, path, error)
-                           : ps_fail(error, PSPEC_ERROR_INPUT,
-                                     "\"%s\" is no saved spectrum: pointspec power and angular "
-                                     "save one with -o FILE.npz",
-                                     path);
+    return kind == TABLE ? read_table(out, path, error)
+                         : ps_fail(error, PSPEC_ERROR_INPUT,
+                                   "\"%s\" is no saved spectrum: pointspec power and angular "
+                                   "save one with -o FILE.npz",
+                                   path);
 }
 
 pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path, ps_error *error) {

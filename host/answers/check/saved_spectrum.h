@@ -1,5 +1,5 @@
 /* Spectra that the program or the library saved, with the question that they answer: tables of
- * power and angular as NPZ, and files of pspec_spectrum_save. */
+ * power and angular as NPZ. */
 #ifndef PS_ANSWERS_CHECK_SAVED_SPECTRUM_H
 #define PS_ANSWERS_CHECK_SAVED_SPECTRUM_H
 
