@@ -327,23 +327,6 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     return ps_pairs_degrees_read(&self->degrees, &self->points, batch, rows, error);
 }
 
-size_t ps_pairs_histogram_num_bins(const void *state) {
-    return ((const pairs_histogram *)state)->layout.num_bins;
-}
-
-pspec_status ps_pairs_histogram_weights(void *state, double *weights, ps_error *error) {
-    const pairs_histogram *self = state;
-    const size_t num = self->layout.num_nodes;
-    PS_TRY(ps_buffer_read(self->device, &self->weights, 0, weights,
-                          num * ps_real_bytes(self->precision), error));
-    for (size_t i = num; self->precision == PS_SINGLE && i-- > 0;) { /* from the end, in place */
-        float single = 0;
-        memcpy(&single, (const char *)weights + i * sizeof single, sizeof single);
-        weights[i] = (double)single;
-    }
-    return PSPEC_OK;
-}
-
 static void describe(const void *state, ps_text *text) {
     const pairs_histogram *self = state;
     ps_text_append(
