@@ -1,9 +1,11 @@
 /* Is the spectrum of a sampler, or of files, the saved one? Or are realizations homogeneous? */
-#include "answers/check/check_question.h"
+#include "answers/check/saved_spectrum.h"
 #include "answers/check/check_table.h"
 #include "answers/homogeneity/homogeneity.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
+#include "request/options.h"
+#include "answers/spectra/question.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,6 +21,49 @@ typedef struct checked {
     /* Where that is asked instead, and the others are not there; else NULL. */
     ps_homogeneity *homogeneity;
 } checked;
+
+/* The question is that of the saved spectrum, but for the seed: realizations must be independent of
+ * those that were saved. */
+static ps_request request_of(const ps_request *arguments, const ps_saved_spectrum *saved) {
+    ps_request own = *arguments;
+    own.is_given[PS_OPTION_DIMENSION] = !saved->on_sphere;
+    own.dimension = saved->dimension;
+    own.frequencies.max_frequency = saved->on_sphere ? 0 : saved->max_frequency;
+    own.max_degree = saved->on_sphere ? (uint64_t)saved->max_frequency : 0;
+    own.hemisphere = saved->on_hemisphere;
+    own.frequencies.bins = saved->bin_rule;
+    own.frequencies.per_ring = saved->per_ring;
+    own.normalization = saved->normalization;
+    if (arguments->num_sources == 0) {
+        return own;
+    }
+    if (!arguments->is_given[PS_OPTION_POINTS]) {
+        own.is_given[PS_OPTION_POINTS] = true;
+        own.counts[0] = (uint64_t)llround(saved->mean_points);
+    }
+    if (!arguments->is_given[PS_OPTION_REALIZATIONS]) {
+        own.num_realizations = saved->num_realizations;
+    }
+    if (!arguments->is_given[PS_OPTION_SEED] && saved->has_seed) {
+        own.seed = saved->seed + 1;
+    }
+    return own;
+}
+
+/* Does the option say what the saved spectrum says itself? Then it does not go with one. */
+static bool is_of_spectrum(ps_option_id id) {
+    return ps_option_is_refused(id, PS_OPTION_AGAINST);
+}
+
+/* One question, of what request_of gave; it borrows from `own`. */
+static pspec_status make_question(ps_question_list *out, const ps_request *own,
+                                  const ps_saved_spectrum *saved, ps_error *error) {
+    PS_TRY(ps_questions_make(out, own, saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER,
+                             error));
+    out->questions[0].per_ring_seed = saved->seed;
+    out->questions[0].limits.constraints.offers = 0; /* the saved spectrum says which frequencies */
+    return PSPEC_OK;
+}
 
 static pspec_status find_both_saved(bool *are_both, const ps_request *request, ps_error *error) {
     *are_both = false;
@@ -102,8 +147,8 @@ static pspec_status ask(checked **out, const ps_request *request, ps_error *erro
     if (are_both_saved) {
         return read_other(check, request, error);
     }
-    check->own = ps_check_request(request, &check->saved);
-    return ps_check_question_make(&check->list, &check->own, &check->saved, error);
+    check->own = request_of(request, &check->saved);
+    return make_question(&check->list, &check->own, &check->saved, error);
 }
 
 static pspec_status plan_nothing(ps_planner *planner, ps_error *error) {
@@ -309,7 +354,7 @@ const ps_kind ps_kind_check = {
     .counted = "realizations",
     .formats = "csv|json|npz|jsonl|text", /* verdicts are no numbers */
     .has_verdict = true,
-    .leaves_default = ps_check_is_of_spectrum,
+    .leaves_default = is_of_spectrum,
     .check_arguments = check_question,
     .check_question = check_question,
     .plan = plan,
