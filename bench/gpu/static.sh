@@ -35,8 +35,7 @@ record() { # WORD...
 }
 list_lines() { # CAPABILITY WORD...; that of cards without matrix units is 0
     local lines=$here/../../scripts/same_bits.txt
-    { grep -E '^(power|angular|pairs|variance) ' "$lines" | sed 's/--precision [a-z]*//'
-        echo 'stress --case chords'; } | sed 's/.*/9 & --precision auto\n9 & --precision double/'
+    grep -E '^(power|angular|pairs|variance) ' "$lines" | sed 's/--precision [a-z]*//; s/.*/9 & --precision auto\n9 & --precision double/'
     grep -E '^(quadrature|sample) ' "$lines" | sed 's/^/9 /'
     cat <<'END'
 9 sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0

@@ -1,47 +1,14 @@
-/* Kernels of the device that belong to no engine: averages over realizations, and sums of
- * distances. */
+/* Kernels of the device that belong to no engine: averages over realizations. */
 #include "verify/stress_probes.h"
 
 #include "base/memory.h"
 #include "engines/host/host_direct.h"
-#include "engines/host/host_pairs.h"
-#include "rules/kernel/kernel_chords.h"
 #include "engines/engine.h"
 #include "jobs/estimator.h"
 #include "verify/stress_shapes.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* ---- distances ----------------------------------------------------------------------------- */
-
-/* |u-v|^0.2 with every point twice (docs/mathematics/numerics.md#kernel-diagonal). */
-static pspec_status measure_chords(ps_device *device, ps_precision precision, double *found,
-                                   double *bound, ps_error *error) {
-    enum { NUM = 400 };
-    static const double bounds[] = {3e-7,
-                                    2e-15}; /* in (sum |w|)^2: tests/engines/pairs/test_pairs.c */
-    const double power = 0.1;
-    pspec_pattern pattern;
-    long double truth = 0;
-    double sum = 0;
-    PS_TRY(ps_stress_shape_make(ps_stress_shape_find(ps_vector_shapes, "duplicates"),
-                                PS_SPHERE_DIMENSION, NUM, 1, &pattern, error));
-    const ps_batch batch = {.num_patterns = 1, .patterns = &pattern};
-    pspec_status status = ps_kernel_chord_sums(device, precision, power, &batch, &sum, error);
-    if (status == PSPEC_OK) {
-        status = ps_host_chords(&pattern, 0, power, &truth, error);
-    }
-    *found = fabs((double)(sum - truth)) / NUM / NUM;
-    *bound = bounds[precision];
-    ps_stress_pattern_free(&pattern);
-    return status;
-}
-
-const ps_stress_probe ps_probe_chords = {.engine = "kernel_chords",
-                                         .needs_device = true,
-                                         .has_precision = {true, true, false},
-                                         .measure = measure_chords};
 
 /* ---- averages ------------------------------------------------------------------------------ */
 

@@ -6,7 +6,7 @@
 #include "verify/stress.h"
 
 /* On the device. */
-extern const ps_stress_probe ps_probe_averages, ps_probe_chords;
+extern const ps_stress_probe ps_probe_averages;
 
 /* On the host. */
 extern const ps_stress_probe ps_probe_diagonal, ps_probe_eigenvalues, ps_probe_sharp_lobe,

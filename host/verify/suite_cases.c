@@ -118,9 +118,8 @@ const ps_stress_case ps_stress_cases[] = {
     {"pairs-wild-weights", "precision-reached", "weights from 1e-12 to 1e12",
      PAIRS, QUICK, POINTS("wildest weights", 200), .reach = 64},
     /* kernels of Sobolev spaces, lobes, weights */
-    {"chords", "kernel-diagonal", "sums of |u-v|^0.2 with every point twice, on the device", QUICK,
-     PROBE(chords)},
-    {"kernel-diagonal", "kernel-diagonal", "the same on the host", QUICK, PROBE(diagonal)},
+    {"kernel-diagonal", "kernel-diagonal", "sums of |u-v|^0.2 with every point twice", QUICK,
+     PROBE(diagonal)},
     {"eigenvalues", "special-functions",
      "eigenvalues of the kernel to degree 10000, where Gamma overflows",
      QUICK, PROBE(eigenvalues)},
