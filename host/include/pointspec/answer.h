@@ -38,11 +38,11 @@ typedef enum pspec_type {
 
 /** A field: a view of what an answer, or the caller, keeps. Members may be added at its end. */
 typedef struct pspec_field {
-    size_t struct_size; /**< sizeof(pspec_field), set by who makes it */
-    const char *name;   /**< as the manual page has it */
-    const char *unit;   /**< "" for none */
-    pspec_group group;
-    pspec_type type;
+    size_t struct_size;  /**< sizeof(pspec_field), set by who makes it */
+    const char *name;    /**< as the manual page has it */
+    const char *unit;    /**< "" for none */
+    pspec_group group;   /**< what it is a part of */
+    pspec_type type;     /**< of its elements */
     unsigned rank;       /**< number of axes; 0 of entries, 1 of columns */
     const size_t *shape; /**< [rank], in C order; NULL where rank is 0 */
     size_t num;          /**< elements in all: the product of the shape */
