@@ -17,7 +17,7 @@ fi
 line ok cache "$PWD/cache/results has 0 results, 0 bytes; rm -r on it empties it"
 "$program" sample --sampler bnot -n 1000 -m 2 -o bnot.txt
 "$program" doctor >out 2>err || true
-line ok cache "$PWD/cache/sets has 2 kept sets of samplers, 32K bytes; rm -r on it empties it"
+line ok cache "$PWD/cache/sets has 2 kept sets of samplers, 40K bytes; rm -r on it empties it"
 line ok drivers 'loads, listed in'
 line ok memory 'leaves the least'
 line ok threads 'may run on number'

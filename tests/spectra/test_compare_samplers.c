@@ -84,8 +84,7 @@ static void rates(void **state) {
         {"sobol:scramble=owen", "jittered", 4, 0.6, 1},
     };
     pspec_context *context = test_public_context();
-    pspec_question *question =
-        test_public_question(context, "power max-frequency=8 no-self-check");
+    pspec_question *question = test_public_question(context, "power max-frequency=8 no-self-check");
     for (size_t i = 0; i < sizeof experiments / sizeof experiments[0]; i++) {
         const experiment *const what = &experiments[i];
         const bool is_same = strcmp(what->saved, what->measured) == 0;
