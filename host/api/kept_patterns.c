@@ -22,7 +22,7 @@ pspec_status ps_kept_patterns_add(ps_kept_patterns *kept, const pspec_pattern *f
     const size_t size = ps_kept_patterns_size(first, num);
     void *patterns = kept->patterns;
     void *numbers = kept->numbers;
-    if (size > SIZE_MAX - kept->used) {
+    if (size == SIZE_MAX || size > SIZE_MAX - kept->used) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "there is no memory for so many %s", what);
     }
     PS_TRY(

@@ -23,9 +23,11 @@ pspec_status pspec_question_begin_set(pspec_question *question, const char *name
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &question->context->error;
-    return name == NULL || name[0] == '\0' || strcmp(name, "-") == 0 || strpbrk(name, special)
+    return name == NULL || name[0] == '\0' || strcmp(name, "-") == 0 || strpbrk(name, special) ||
+                   strcmp(name, PS_CALLER_POINTS) == 0 /* they are of no set */
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "\"%s\" is no name of a set: it must not be empty, -, or have one of %s",
+                         "\"%s\" is no name of a set: it must not be empty, -, " PS_CALLER_POINTS
+                         ", or have one of %s",
                          name != NULL ? name : "", special)
                : begin_set(question, name, error);
 }

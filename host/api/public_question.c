@@ -199,14 +199,15 @@ static pspec_status check_array(const pspec_field *array, const char *option, ps
                        "%s: the array is no field of numbers with struct_size, shape and data",
                        option);
     }
+    bool fits = true;
     for (unsigned axis = 0; axis < array->rank; axis++) {
-        num *= array->shape[axis];
+        fits = fits && ps_size_multiply(num, array->shape[axis], &num);
     }
-    return num == array->num && num > 0
+    return fits && num == array->num && num > 0
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: the array has %zu numbers, and its shape %zu", option, array->num,
-                         num);
+                         "%s: the array has %zu numbers, and its shape %s%zu", option, array->num,
+                         fits ? "" : "more than ", fits ? num : SIZE_MAX);
 }
 
 /* The array in a file that lives as long as the question, without a name but that of its

@@ -191,103 +191,6 @@ static void integrands_are_measured(void **state) {
     pspec_question_destroy(question);
 }
 
-/* ---- numbers of the caller ------------------------------------------------------------------- */
-
-static pspec_field field(const char *name, pspec_type type, unsigned rank, const size_t *shape,
-                         const void *data) {
-    size_t num = 1;
-    for (unsigned axis = 0; axis < rank; axis++) {
-        num *= shape[axis];
-    }
-    return (pspec_field){.struct_size = sizeof(pspec_field),
-                         .name = name,
-                         .type = type,
-                         .rank = rank,
-                         .shape = shape,
-                         .num = num,
-                         .data = data};
-}
-
-static void compare_array(const char *line, const char *option, const pspec_field *array,
-                          const char *with_file) {
-    pspec_question *const question = test_public_question(context, line);
-    test_public_refused(context, pspec_question_set_array(question, option, array), PSPEC_OK, "");
-    pspec_answer *const answer = finish(question);
-    pspec_answer *const expected = test_public_ask(context, with_file, NULL, 0);
-    assert_true(test_public_same(answer, expected));
-    pspec_answer_destroy(answer);
-    pspec_answer_destroy(expected);
-}
-
-static void arrays_are_files(void **state) {
-    (void)state;
-    const int64_t k[3][PLANE] = {{1, 0}, {0, 1}, {12, -5}};
-    const double lobe[3][2] = {{-1, 0}, {0, 0}, {1, 1.0 / 3}}; /* in increasing order */
-    const double image[2][2] = {{0.1, 1}, {2.5, -3}};
-    const size_t list[] = {3, PLANE}, table[] = {3, 2}, square[] = {2, 2}, flat[] = {N};
-    const pspec_field vectors = field("", PSPEC_I64, 2, list, k);
-    const pspec_field zonal = field("zonal", PSPEC_F64, 2, table, lobe);
-    const pspec_field pixels = field("pixels", PSPEC_F64, 2, square, image);
-    const pspec_field own = field("", PSPEC_F64, 1, flat, weights);
-#define POINTS " sampler=white points=24 engine=host_direct"
-    compare_array("power" POINTS, "frequencies", &vectors, "power" POINTS " frequencies=k.txt");
-    compare_array("power max-frequency=3 files=bare.txt engine=host_direct", "weights", &own,
-                  "power max-frequency=3 files=bare.txt weights=w.txt engine=host_direct");
-    compare_array("truncation max-degree=3", "brdf", &zonal,
-                  "truncation max-degree=3 brdf=zonal:file=zonal.txt");
-    compare_array(
-        "variance max-frequency=2 realizations=2" POINTS, "integrand", &pixels,
-        "variance max-frequency=2 realizations=2 integrand=pixels:file=pixels.npy" POINTS);
-    pspec_question *const question = test_public_question(context, "power");
-    const pspec_field none = field("", PSPEC_TEXT, 1, flat, weights);
-    test_public_refused(context, pspec_question_set_array(question, "frequencies", &none),
-                        PSPEC_ERROR_INVALID_ARGUMENT, "no field of numbers");
-    test_public_refused(context, pspec_question_set_array(question, "bins", &own),
-                        PSPEC_ERROR_INVALID_ARGUMENT, "takes no array");
-    pspec_question_destroy(question);
-}
-
-/* What is no file is in the answer; numbers keep their bits. */
-static void answers_have_arrays(void **state) {
-    (void)state;
-    pspec_question *const question = test_public_question(
-        context, "power sampler=white points=24 max-frequency=3 engine=host_direct full");
-    assert_int_equal(pspec_question_set_number(question, "tol", 1.0 / 3e6), PSPEC_OK);
-    pspec_answer *answer = finish(question);
-    pspec_answer *loaded = NULL;
-    assert_int_equal(pspec_answer_write(answer, context, "full.npz", NULL), PSPEC_OK);
-    assert_int_equal(pspec_answer_load(&loaded, context, "full.npz"), PSPEC_OK);
-    assert_true(test_public_same(answer, loaded));
-    assert_string_equal(test_public_text(loaded, "engine"), test_public_text(answer, "engine"));
-    pspec_answer_destroy(loaded);
-    test_public_refused(context, pspec_answer_load(&loaded, context, "plane.txt"),
-                        PSPEC_ERROR_INPUT, "");
-    const pspec_field *const full = test_public_field(answer, "full", PSPEC_F64);
-    assert_true(full->rank == 2 && full->shape[0] == 7 && full->shape[1] == 7 && full->num == 49);
-    assert_true(((const double *)full->data)[24] == 24); /* DC */
-    assert_true(*test_public_numbers(answer, "tolerance") == 1.0 / 3e6);
-    pspec_answer_destroy(answer);
-    answer = test_public_ask(context, "sample sampler=white points=24 realizations=2", NULL, 0);
-    const pspec_field *const points = test_public_field(answer, "coordinates", PSPEC_F64);
-    assert_true(points->rank == 3 && points->shape[0] == 2 && points->shape[1] == N);
-    assert_memory_equal(points->data, &plane[0][0][0], 2 * sizeof plane[0]);
-    pspec_answer_destroy(answer);
-    answer = test_public_ask(context,
-                             "angular sampler=fibonacci points=30 max-degree=4 coefficients "
-                             "engine=host_direct",
-                             NULL, 0);
-    assert_int_equal(test_public_field(answer, "coefficients", PSPEC_C128)->num, 15);
-    pspec_answer_destroy(answer);
-    answer = test_public_ask(context,
-                             "quadrature brdf=diffuse sampler=fibonacci-hemisphere points=24 "
-                             "weights=optimal max-degree=2 weights-out engine=host_direct",
-                             NULL, 0);
-    assert_int_equal(test_public_field(answer, "weights", PSPEC_F64)->num, N);
-    assert_null(pspec_answer_find(answer, "nothing"));
-    assert_null(pspec_answer_field(answer, pspec_answer_num_fields(answer)));
-    pspec_answer_destroy(answer);
-}
-
 /* ---- nonsense -------------------------------------------------------------------------------- */
 
 static int give_nothing(uint64_t realization, pspec_pattern *out, void *payload) {
@@ -325,6 +228,13 @@ static void nonsense_is_one_sentence(void **state) {
                         "at least one point");
     test_public_refused(context, pspec_question_add(question, 1, N, 7, plane[0][0], NULL), bad,
                         "of 7 numbers");
+    test_public_refused(context, pspec_question_begin_set(question, "memory"), bad,
+                        "no name of a set");
+    test_public_refused(context, pspec_question_add(question, SIZE_MAX, N, 2, plane[0][0], NULL),
+                        PSPEC_ERROR_MEMORY, "no memory for so many");
+    test_public_refused(context,
+                        pspec_question_add(question, 1, SIZE_MAX / 2 + 2, 2, plane[0][0], NULL),
+                        PSPEC_ERROR_MEMORY, "no memory for so many");
     test_public_refused(context, pspec_question_give(question, 0, NULL, NULL), bad, "no function");
     pspec_context_set_memory_limit(context, sizeof plane - 1);
     test_public_refused(context, pspec_question_add(question, SETS, N, PLANE, plane[0][0], NULL),
@@ -383,25 +293,16 @@ static void lists_are_answers(void **state) {
 
 /* ---- all ------------------------------------------------------------------------------------- */
 
-static void write_sets(const char *path, const double *points, unsigned dimension, bool weighted) {
+static void write_sets(const char *path, const double *points, unsigned dimension) {
     FILE *const file = fopen(path, "w");
     assert_non_null(file);
-    for (size_t j = 0; j < (weighted ? SETS : 1) * (size_t)N; j++) {
+    for (size_t j = 0; j < SETS * (size_t)N; j++) {
         for (unsigned i = 0; i < dimension; i++) {
             fprintf(file, "%.17g ", points[j * dimension + i]);
         }
-        if (weighted) {
-            fprintf(file, "%.17g", weights[j]);
-        }
-        fputs(weighted && (j + 1) % N == 0 && j + 1 < SETS * (size_t)N ? "\n#\n" : "\n", file);
+        fprintf(file, "%.17g", weights[j]);
+        fputs((j + 1) % N == 0 && j + 1 < SETS * (size_t)N ? "\n#\n" : "\n", file);
     }
-    assert_int_equal(fclose(file), 0);
-}
-
-static void write_text(const char *path, const char *text) {
-    FILE *const file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
     assert_int_equal(fclose(file), 0);
 }
 
@@ -429,23 +330,8 @@ static int make_folder(void **state) {
     unsetenv("POINTSPEC_MEMORY");
     context = test_public_context();
     make_points();
-    write_sets("plane.txt", &plane[0][0][0], PLANE, true);
-    write_sets("sphere.txt", &sphere[0][0][0], SPHERE, true);
-    write_sets("bare.txt", &plane[0][0][0], PLANE, false);
-    FILE *const file = fopen("w.txt", "w");
-    for (size_t j = 0; j < N; j++) {
-        fprintf(file, "%.17g\n", weights[j]);
-    }
-    fclose(file);
-    write_text("k.txt", "1 0\n0 1\n12 -5\n");
-    write_text("zonal.txt", "-1 0\n0 0\n1 0.33333333333333331\n");
-    assert_int_equal(system("python3 -c 'import struct; "
-                            "h = str(dict(descr=\"<f8\", fortran_order=False, shape=(2, 2))); "
-                            "h = h.ljust(117) + chr(10); "
-                            "open(\"pixels.npy\", \"wb\").write(b\"\\x93NUMPY\\x01\\x00\" + "
-                            "struct.pack(\"<H\", len(h)) + h.encode() + "
-                            "struct.pack(\"<4d\", 0.1, 1, 2.5, -3))'"),
-                     0);
+    write_sets("plane.txt", &plane[0][0][0], PLANE);
+    write_sets("sphere.txt", &sphere[0][0][0], SPHERE);
     pspec_answer_destroy(test_public_ask(
         context,
         "power sampler=white points=24 realizations=8 seed=5 max-frequency=3 output=saved.npz "
@@ -467,8 +353,6 @@ int main(void) {
         cmocka_unit_test(kinds_take_points_of_the_caller),
         cmocka_unit_test(patterns_are_added_and_forgotten),
         cmocka_unit_test(integrands_are_measured),
-        cmocka_unit_test(arrays_are_files),
-        cmocka_unit_test(answers_have_arrays),
         cmocka_unit_test(nonsense_is_one_sentence),
         cmocka_unit_test(lists_are_answers),
     };
