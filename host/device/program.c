@@ -119,6 +119,17 @@ static bool is_of(const ps_kernel *kernel, const ps_program *program, const char
     return kernel->program == program && strcmp(kernel->name, name) == 0;
 }
 
+/* What PoCL has kept of kernels of this name is looked at here, before it may load it, and not again
+ * by each question that takes the kernel. */
+static pspec_status add_kernel(ps_device *device, ps_kernel **out, ps_program *program,
+                               const char *name, ps_error *error) {
+    PS_TRY(ps_kept_check(&device->kept, name, error));
+    PS_TRY(PS_NEW(out, 1, "a kernel", error));
+    (*out)->program = program;
+    snprintf((*out)->name, sizeof(*out)->name, "%s", name);
+    return PSPEC_OK;
+}
+
 pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *source, const char *name,
                            const char *options, ps_error *error) {
     ps_program *program = NULL;
@@ -129,15 +140,12 @@ pspec_status ps_kernel_get(ps_device *device, ps_kernel **out, const char *sourc
                        "kernel %s has more than %d letters of options: %s", source,
                        PS_DEFINES_BYTES - 2, options);
     }
-    PS_TRY(ps_kept_check(&device->kept, name, error));
     PS_TRY(get_program(device, &program, source, options, error));
     while (*end != NULL && !is_of(*end, program, name)) {
         end = &(*end)->next;
     }
     if (*end == NULL) {
-        PS_TRY(PS_NEW(end, 1, "a kernel", error));
-        (*end)->program = program;
-        snprintf((*end)->name, sizeof(*end)->name, "%s", name);
+        PS_TRY(add_kernel(device, end, program, name, error));
     }
     if (!ps_builders_begin(device, program)) {
         PS_TRY(ps_kernel_object(device, *end, &object, error));

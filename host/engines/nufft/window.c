@@ -160,18 +160,32 @@ ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_fr
 
 enum { NODES = PS_NUFFT_MAX_DEGREE + 8 };
 
+/* T_k at the nodes of T_NODES: row 1 has the nodes themselves. All bins of a window share them,
+ * for the cosines took most of the time of planning a question of few points. */
+typedef struct node_cosines {
+    long double cosine[NODES][NODES]; /* [k][j] */
+} node_cosines;
+
+static void fill_nodes(node_cosines *self) {
+    for (int k = 0; k < NODES; k++) {
+        for (int j = 0; j < NODES; j++) {
+            self->cosine[k][j] = cosl(PS_PI_L * k * (j + 0.5L) / NODES);
+        }
+    }
+}
+
 /* Chebyshev coefficients of bin i in u. */
-static void chebyshev(const ps_nufft_window *window, unsigned bin, long double series[NODES]) {
+static void chebyshev(const ps_nufft_window *window, const node_cosines *nodes, unsigned bin,
+                      long double series[NODES]) {
     long double values[NODES];
     for (int j = 0; j < NODES; j++) {
-        const long double u = cosl(PS_PI_L * (j + 0.5L) / NODES);
-        const long double t = bin + 1 - window->width / 2.0L - (u + 1) / 2;
+        const long double t = bin + 1 - window->width / 2.0L - (nodes->cosine[1][j] + 1) / 2;
         values[j] = value(window, t);
     }
     for (int k = 0; k < NODES; k++) {
         series[k] = 0;
         for (int j = 0; j < NODES; j++) {
-            series[k] += values[j] * cosl(PS_PI_L * k * (j + 0.5L) / NODES);
+            series[k] += values[j] * nodes->cosine[k][j];
         }
         series[k] *= (k == 0 ? 1.0L : 2.0L) / NODES;
     }
@@ -179,10 +193,12 @@ static void chebyshev(const ps_nufft_window *window, unsigned bin, long double s
 
 unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error) {
     unsigned degree = 0;
+    node_cosines nodes;
+    fill_nodes(&nodes);
     for (unsigned bin = 0; bin < window->width; bin++) {
         long double series[NODES];
         long double rest = 0;
-        chebyshev(window, bin, series);
+        chebyshev(window, &nodes, bin, series);
         unsigned needed = NODES - 1;
         while (needed > 0 && rest + fabsl(series[needed]) <= error) {
             rest += fabsl(series[needed]);
@@ -222,12 +238,14 @@ static void powers_of_series(const long double series[NODES], unsigned degree,
 /* Bin i is bin width - 1 - i at -u: made once, so that it is to the bit. */
 void ps_nufft_window_polynomials(const ps_nufft_window *window, unsigned degree, unsigned bins,
                                  double *coefficients) {
+    node_cosines nodes;
+    fill_nodes(&nodes);
     memset(coefficients, 0, (degree + 1) * (size_t)bins * sizeof *coefficients);
     for (unsigned bin = 0; 2 * bin < window->width; bin++) {
         const unsigned mirror = window->width - 1 - bin;
         long double series[NODES];
         long double powers[NODES];
-        chebyshev(window, bin, series);
+        chebyshev(window, &nodes, bin, series);
         powers_of_series(series, degree, powers);
         for (unsigned i = 0; i <= degree; i++) {
             const double power = bin == mirror && i % 2 != 0 ? 0 : (double)powers[i];
