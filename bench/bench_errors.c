@@ -82,7 +82,7 @@ static double run(errors_bench *bench, size_t kind) {
     ps_estimator_reset(estimator);
     BENCH_TRY(ps_device_finish(job->device, error));
     const double begin = bench_seconds();
-    BENCH_TRY(ps_estimator_add(estimator, job->patterns, NULL, job->num_realizations, error));
+    BENCH_TRY(ps_estimator_add(estimator, job->patterns, job->num_realizations, error));
     BENCH_TRY(ps_device_finish(job->device, error));
     return (bench_seconds() - begin) / (double)job->num_realizations * micro;
 }

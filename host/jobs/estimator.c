@@ -124,9 +124,10 @@ pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets
 
 /* ---- add --------------------------------------------------------------------------------- */
 
-pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
-                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
-    const ps_estimator_options *options = &estimator->options;
+/* Checks a pattern that will be realization number `realization`, counted from 0. */
+static pspec_status check(const ps_estimator *self, const pspec_pattern *pattern,
+                          uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
+    const ps_estimator_options *options = &self->options;
     return ps_pattern_check(pattern, options->problem.frequencies, options->normalization,
                             realization, sums, error);
 }
@@ -150,8 +151,7 @@ static pspec_status check_all(const ps_estimator *self, const pspec_pattern *pat
     pspec_status status = PSPEC_OK;
     for (size_t r = 0; r < num_patterns && status == PSPEC_OK; r++) {
         ps_pattern_sums sums = {0};
-        status =
-            ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &sums, error);
+        status = check(self, &patterns[r], self->totals.num_realizations + r, &sums, error);
     }
     return status;
 }
@@ -175,22 +175,20 @@ static pspec_status check_one(const ps_estimator *self, const pspec_pattern *pat
     return are_made(self, patterns)
                ? ps_pattern_check_size(self->options.problem.frequencies, patterns[r].num_points,
                                        realization, error)
-               : ps_estimator_check(self, &patterns[r], realization, sums, error);
+               : check(self, &patterns[r], realization, sums, error);
 }
 
-/* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
- * points. */
-static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
-                            const ps_pattern_sums *sums, size_t num_patterns, uint64_t *longest,
-                            ps_error *error) {
+/* Scales of the patterns of a batch, and the largest number of points. */
+static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns,
+                            uint64_t *longest, ps_error *error) {
     *longest = 0;
-    self->leaves_checks = sums == NULL && may_leave_checks(self, patterns, num_patterns);
+    self->leaves_checks = may_leave_checks(self, patterns, num_patterns);
     for (size_t r = 0; r < num_patterns; r++) {
-        ps_pattern_sums found = plain_sums(&patterns[r]);
-        if (sums == NULL && !self->leaves_checks) {
-            PS_TRY(check_one(self, patterns, r, &found, error));
+        ps_pattern_sums sums = plain_sums(&patterns[r]);
+        if (!self->leaves_checks) {
+            PS_TRY(check_one(self, patterns, r, &sums, error));
         }
-        ps_estimator_set_sums(self, r, patterns[r].num_points, sums != NULL ? &sums[r] : &found);
+        ps_estimator_set_sums(self, r, patterns[r].num_points, &sums);
         *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
     }
     return PSPEC_OK;
@@ -356,14 +354,14 @@ static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patter
 }
 
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
-                              const ps_pattern_sums *sums, size_t num_patterns, ps_error *error) {
+                              size_t num_patterns, ps_error *error) {
     for (size_t done = 0; done < num_patterns;) {
         const pspec_pattern *const next = patterns + done;
         const size_t rest = num_patterns - done;
         size_t taken = rest < estimator->batch ? rest : estimator->batch;
         uint64_t longest = 0;
         ps_rows rows = {0};
-        PS_TRY(prepare(estimator, next, sums != NULL ? sums + done : NULL, taken, &longest, error));
+        PS_TRY(prepare(estimator, next, taken, &longest, error));
         PS_TRY(ps_estimator_get_ready(estimator, longest, error));
         PS_TRY(check_itself(estimator, next, NULL, error));
         PS_TRY(run_batch(estimator, next, &taken, &rows, error));

@@ -71,15 +71,9 @@ pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets
 
 /* Adds realizations, in order; any number at a time gives the same bits. A pattern larger than
  * problem.num_points is taken all the same (the engine is made anew). Every coordinate and
- * weight is checked, unless sums is there: sums[num_patterns] of ps_estimator_check, which was
- * asked of each pattern before. A self-check that fails is PSPEC_ERROR_CHECK. */
+ * weight is checked. A self-check that fails is PSPEC_ERROR_CHECK. */
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
-                              const ps_pattern_sums *sums, size_t num_patterns,
-                              ps_error *error) PS_MUST_CHECK;
-/* Checks a pattern that will be realization number `realization`, counted from 0. */
-pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
-                                uint64_t realization, ps_pattern_sums *sums,
-                                ps_error *error) PS_MUST_CHECK;
+                              size_t num_patterns, ps_error *error) PS_MUST_CHECK;
 
 /* A pattern that is never in memory as a whole. What its scale needs is known before its points
  * come. */

@@ -11,7 +11,8 @@ uint64_t ps_runner_held(const ps_runner *runner) {
     return runner->estimator != NULL ? (uint64_t)runner->plan->chosen->host_bytes : 0;
 }
 
-pspec_status ps_runner_start(ps_runner *runner, ps_error *error) {
+/* Makes the estimator of the plan instead of the one before; fails where nothing is feasible. */
+static pspec_status start(ps_runner *runner, ps_error *error) {
     PS_TRY(ps_plan_require(runner->plan, runner->problem, error));
     const ps_candidate *const chosen = runner->plan->chosen;
     ps_estimator_options options = runner->kind->options(runner->job);
@@ -90,7 +91,7 @@ static bool is_settled(const ps_runner *runner) {
     return runner->has_no_accuracy || runner->accuracy.error <= runner->problem->tolerance;
 }
 
-pspec_status ps_runner_settle(ps_runner *runner, ps_error *error) {
+static pspec_status settle(ps_runner *runner, ps_error *error) {
     enum {
         MOST_PLANS = 2
     }; /* the second has powers and points; one more, should another engine measure larger ones */
@@ -98,7 +99,7 @@ pspec_status ps_runner_settle(ps_runner *runner, ps_error *error) {
     for (int i = 0; i < MOST_PLANS && !is_settled(runner); i++) {
         PS_TRY(plan_again(runner, error));
         runner->was_replanned = true;
-        PS_TRY(ps_runner_start(runner, error));
+        PS_TRY(start(runner, error));
         PS_TRY(add_all(runner, error));
         PS_TRY(measure(runner, error));
     }
@@ -110,7 +111,7 @@ pspec_status ps_runner_settle(ps_runner *runner, ps_error *error) {
 }
 
 pspec_status ps_runner_run(ps_runner *runner, ps_error *error) {
-    PS_TRY(ps_runner_start(runner, error));
+    PS_TRY(start(runner, error));
     PS_TRY(add_all(runner, error));
-    return ps_runner_settle(runner, error);
+    return settle(runner, error);
 }

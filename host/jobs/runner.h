@@ -6,8 +6,8 @@
  * What concerns every job belongs here, and has its place: a range of realizations begins and ends
  * where `num_done` and the `most` of `give` do; a checkpoint is whole between two calls of `give`,
  * where also `tell` is called; several devices are several estimators instead of the one that
- * ps_runner_start makes; ranks bring their accuracies together at the beginning of
- * ps_runner_settle, so that all of them plan again, or none.
+ * `start` makes; ranks bring their accuracies together at the beginning of `settle`, so that all of
+ * them plan again, or none.
  */
 #ifndef PS_JOBS_RUNNER_H
 #define PS_JOBS_RUNNER_H
@@ -56,17 +56,11 @@ typedef struct ps_runner {
 
 void ps_runner_free(ps_runner *runner);
 
-/* The estimator of the plan that was made, instead of the one before; fails where the plan has
- * nothing feasible. */
-pspec_status ps_runner_start(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
-
-/* Starts, adds all realizations, or as many as the standard error takes, and settles. */
-pspec_status ps_runner_run(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
-
-/* Makes sure that the averages are within the tolerance: where powers are too large, by another
+/* Adds all realizations, or as many as the standard error takes, to the estimator of the plan, and
+ * makes sure that the averages are within the tolerance: where powers are too large, by another
  * plan and all realizations again. Where no plan reaches it, or realizations cannot be had again,
  * PSPEC_ERROR_TOLERANCE comes with estimator, plan and problem as they were. */
-pspec_status ps_runner_settle(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_runner_run(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
 
 /* Bytes of the machine's memory that the estimator has, which another plan need not count as taken.
  */

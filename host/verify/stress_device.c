@@ -60,7 +60,7 @@ static pspec_status run_estimator(averages *self, ps_device *device, ps_precisio
                                           .batch = REALIZATIONS,
                                           .normalization = PSPEC_NORMALIZATION_EFFECTIVE};
     PS_TRY(ps_estimator_create(&self->estimator, &options, device, error));
-    PS_TRY(ps_estimator_add(self->estimator, self->patterns, NULL, REALIZATIONS, error));
+    PS_TRY(ps_estimator_add(self->estimator, self->patterns, REALIZATIONS, error));
     PS_TRY(ps_estimator_settle(self->estimator, error));
     *bound = ps_estimator_accuracy(self->estimator).error;
     return ps_estimator_spectrum(self->estimator, &self->spectrum, error);

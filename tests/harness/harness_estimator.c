@@ -55,7 +55,7 @@ ps_spectrum test_estimate(const ps_estimator_options *options, const test_sample
     assert_ok(ps_estimator_create(&estimator, options, device, error));
     for (size_t r = 0; r < what->num; r += at_a_time) {
         const size_t rest = what->num - r;
-        assert_ok(ps_estimator_add(estimator, what->patterns + r, NULL,
+        assert_ok(ps_estimator_add(estimator, what->patterns + r,
                                    rest < at_a_time ? rest : at_a_time, error));
     }
     assert_ok(ps_estimator_spectrum(estimator, &spectrum, error));

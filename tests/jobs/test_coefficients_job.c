@@ -76,7 +76,7 @@ static ps_estimator *make_estimator(const job_case *what, const ps_frequencies *
 
 static ps_spectrum take_spectrum(ps_estimator *estimator, const pspec_pattern *pattern) {
     ps_spectrum spectrum;
-    assert_ok(ps_estimator_add(estimator, pattern, NULL, 1, error));
+    assert_ok(ps_estimator_add(estimator, pattern, 1, error));
     assert_ok(ps_estimator_spectrum(estimator, &spectrum, error));
     return spectrum;
 }
@@ -204,7 +204,7 @@ static void memory_is_announced(void **state) {
         options.coefficients = out;
         options.self_check = false;
         assert_ok(ps_estimator_create(&estimator, &options, own, error));
-        assert_ok(ps_estimator_add(estimator, &pattern, NULL, 1, error));
+        assert_ok(ps_estimator_add(estimator, &pattern, 1, error));
         ps_estimator_destroy(estimator);
         const double there = (double)ps_device_most_buffer_bytes(own);
         print_message("%s: %.3g bytes announced, %.3g there\n", engines[i],

@@ -21,7 +21,7 @@ static pspec_status add_one(pspec_pattern pattern, pspec_normalization normaliza
     ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 4, 1);
     options.normalization = normalization;
     assert_int_equal(ps_estimator_create(&estimator, &options, device, error), PSPEC_OK);
-    const pspec_status status = ps_estimator_add(estimator, &pattern, NULL, 1, error);
+    const pspec_status status = ps_estimator_add(estimator, &pattern, 1, error);
     ps_estimator_destroy(estimator);
     ps_frequencies_free(&grid);
     return status;
@@ -88,10 +88,10 @@ static void check_first_bad(const ps_engine *engine, bool weighted, const char *
     ps_estimator_options options = test_make_options(&grid, engine, precision, POINTS, 3);
     ps_estimator *estimator = NULL;
     assert_int_equal(ps_estimator_create(&estimator, &options, device, &error), PSPEC_OK);
-    assert_int_equal(ps_estimator_add(estimator, patterns, NULL, SETS, &error), PSPEC_ERROR_INPUT);
+    assert_int_equal(ps_estimator_add(estimator, patterns, SETS, &error), PSPEC_ERROR_INPUT);
     assert_string_equal(error.message, expected);
     assert_int_equal(ps_estimator_num_realizations(estimator), 3);
-    assert_int_equal(ps_estimator_add(estimator, patterns, NULL, 3, &error), PSPEC_OK);
+    assert_int_equal(ps_estimator_add(estimator, patterns, 3, &error), PSPEC_OK);
     assert_int_equal(ps_estimator_num_realizations(estimator), 6);
     ps_estimator_destroy(estimator);
     ps_frequencies_free(&grid);
@@ -194,15 +194,14 @@ static void refused_sums_lose_nothing(void **state) {
     ps_estimator *estimator = NULL;
     ps_error refused = {0};
     assert_ok(ps_estimator_create(&estimator, &options, device, error));
-    assert_ok(ps_estimator_add(estimator, what.patterns, NULL, BATCH, error));
+    assert_ok(ps_estimator_add(estimator, what.patterns, BATCH, error));
     ps_device_set_max_allocation(device, 64);
-    assert_int_equal(
-        ps_estimator_add(estimator, what.patterns + BATCH, NULL, SETS - BATCH, &refused),
-        PSPEC_ERROR_MEMORY);
+    assert_int_equal(ps_estimator_add(estimator, what.patterns + BATCH, SETS - BATCH, &refused),
+                     PSPEC_ERROR_MEMORY);
     assert_non_null(strstr(refused.message, "bytes per allocation"));
     ps_device_set_max_allocation(device, 0);
     const size_t done = (size_t)ps_estimator_num_realizations(estimator);
-    assert_ok(ps_estimator_add(estimator, what.patterns + done, NULL, SETS - done, error));
+    assert_ok(ps_estimator_add(estimator, what.patterns + done, SETS - done, error));
     assert_ok(ps_estimator_spectrum(estimator, &found, error));
     assert_true(test_is_same_bits(&expected, &found));
     ps_estimator_destroy(estimator);
@@ -224,7 +223,7 @@ static uint64_t count_waits(const ps_estimator_options *options, const test_samp
     assert_ok(ps_estimator_create(&estimator, options, device, error));
     const uint64_t before = ps_device_num_waits(device);
     for (size_t r = 0; r < num; r += options->batch) {
-        assert_ok(ps_estimator_add(estimator, what->patterns + r, NULL, options->batch, error));
+        assert_ok(ps_estimator_add(estimator, what->patterns + r, options->batch, error));
     }
     assert_ok(ps_estimator_spectrum(estimator, out, error));
     if (options->want_c2) {
@@ -319,7 +318,7 @@ static pspec_status run_a_wrong_device(double share, ps_error *error) {
     ps_estimator_options options = test_make_options(&grid, &wrong, PS_SINGLE, 30, 2);
     ps_estimator *estimator = NULL;
     assert_int_equal(ps_estimator_create(&estimator, &options, device, error), PSPEC_OK);
-    const pspec_status status = ps_estimator_add(estimator, what.patterns, NULL, 2, error);
+    const pspec_status status = ps_estimator_add(estimator, what.patterns, 2, error);
     ps_estimator_destroy(estimator);
     test_free_sample(&what);
     ps_frequencies_free(&grid);

@@ -86,7 +86,7 @@ static void estimate(const fixture *what, const ps_estimator_options *options,
     ps_estimator *estimator = NULL;
     ps_spectrum spectrum = {0};
     assert_ok(ps_estimator_create(&estimator, options, device, error));
-    assert_ok(ps_estimator_add(estimator, patterns, NULL, num, error));
+    assert_ok(ps_estimator_add(estimator, patterns, num, error));
     assert_ok(ps_estimator_weighted(estimator, weighted, error));
     assert_ok(ps_estimator_spectrum(estimator, &spectrum, error));
     for (size_t i = 0; powers != NULL && i < what->set.num; i++) {
@@ -146,7 +146,7 @@ static void find_each(const fixture *what, double (*values)[WEIGHTED]) {
         const double unit = is_mean ? mean_points / (double)pattern->num_points : 1;
         ps_mean alone[WEIGHTED];
         ps_estimator_reset(estimator);
-        assert_ok(ps_estimator_add(estimator, pattern, NULL, 1, error));
+        assert_ok(ps_estimator_add(estimator, pattern, 1, error));
         assert_ok(ps_estimator_weighted(estimator, alone, error));
         for (size_t w = 0; w < WEIGHTED; w++) {
             values[r][w] = unit * alone[w].mean;
@@ -219,10 +219,10 @@ static void reset(void **state) {
     ps_mean found[WEIGHTED];
     estimate(&made, &made.options, made.sample.patterns, 4, expected, NULL);
     assert_ok(ps_estimator_create(&estimator, &made.options, device, error));
-    assert_ok(ps_estimator_add(estimator, made.sample.patterns + 2, NULL, M - 2, error));
+    assert_ok(ps_estimator_add(estimator, made.sample.patterns + 2, M - 2, error));
     ps_estimator_reset(estimator);
     assert_int_equal(ps_estimator_weighted(estimator, found, &nothing), PSPEC_ERROR_INPUT);
-    assert_ok(ps_estimator_add(estimator, made.sample.patterns, NULL, 4, error));
+    assert_ok(ps_estimator_add(estimator, made.sample.patterns, 4, error));
     assert_ok(ps_estimator_weighted(estimator, found, error));
     assert_memory_equal(found, expected, sizeof found);
     ps_estimator_destroy(estimator);
@@ -265,7 +265,7 @@ static void white_noise(void **state) {
     options.weights = weights;
     options.num_weighted = 1;
     assert_ok(ps_estimator_create(&estimator, &options, device, error));
-    assert_ok(ps_estimator_add(estimator, what.patterns, NULL, SETS, error));
+    assert_ok(ps_estimator_add(estimator, what.patterns, SETS, error));
     assert_ok(ps_estimator_weighted(estimator, &found, error));
     const double expected = (N - 1.0) / N / (double)grid.num / SETS;
     assert_true(fabs(found.mean - 1) < 4 * found.standard_error);

@@ -98,8 +98,8 @@ static void check_set(const ps_frequencies *set, size_t num_points, bool has_wei
         options.keep = keep;
         options.payload = &seen;
         assert_ok(ps_estimator_create(&both, &options, device, error));
-        assert_ok(ps_estimator_add(plain, what.patterns, NULL, NUM_SETS, error));
-        assert_ok(ps_estimator_add(both, what.patterns, NULL, NUM_SETS, error));
+        assert_ok(ps_estimator_add(plain, what.patterns, NUM_SETS, error));
+        assert_ok(ps_estimator_add(both, what.patterns, NUM_SETS, error));
         assert_int_equal(seen.num, NUM_SETS);
         assert_ok(ps_estimator_spectrum(plain, &expected, error));
         assert_ok(ps_estimator_spectrum(both, &found, error));

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-const char *const ps_shape_columns[PS_SHAPE_COLUMNS] = {"lower", "upper", "fit"};
+static const char *const shape_columns[PS_SHAPE_COLUMNS] = {"lower", "upper", "fit"};
 
 static void find_powers(double out[PS_SHAPE_COLUMNS], const ps_shape *shape,
                         const ps_spectrum *spectrum, const ps_spectrum_bin *bin) {
@@ -21,7 +21,7 @@ static void find_powers(double out[PS_SHAPE_COLUMNS], const ps_shape *shape,
 
 size_t ps_shape_add_columns(const char **columns, size_t num, const ps_request *request) {
     for (size_t i = 0; request->wants_fit && i < PS_SHAPE_COLUMNS; i++) {
-        columns[num++] = ps_shape_columns[i];
+        columns[num++] = shape_columns[i];
     }
     return num;
 }

@@ -8,7 +8,6 @@
 
 /* Columns of rows: the profile below, the one above, and up to where it goes the fit. */
 enum { PS_SHAPE_COLUMNS = 3 };
-extern const char *const ps_shape_columns[PS_SHAPE_COLUMNS];
 
 /* The columns of a row of the spectrum behind num others; how many there are then. Without --fit
  * there are none. */

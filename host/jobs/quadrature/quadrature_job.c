@@ -132,8 +132,7 @@ static pspec_status sum_batch(ps_quadrature_job *job, ps_error *error) {
     job->num_told = 0;
     if (job->setup.by_pairs) {
         job->error = error;
-        PS_TRY(ps_estimator_add(job->runner.estimator, job->rules.patterns, NULL, job->rules.num,
-                                error));
+        PS_TRY(ps_estimator_add(job->runner.estimator, job->rules.patterns, job->rules.num, error));
         return job->told_status;
     }
     for (size_t r = 0; r < job->rules.num; r++) {

@@ -31,5 +31,5 @@ pspec_status ps_power_device_sets_give(ps_power_job *job, uint64_t most, size_t 
     const size_t capacity = job->sets.capacity;
     most = most < left ? most : left;
     *num = most < capacity ? (size_t)most : capacity;
-    return ps_estimator_add(job->runner.estimator, job->sets.patterns, NULL, *num, error);
+    return ps_estimator_add(job->runner.estimator, job->sets.patterns, *num, error);
 }

@@ -295,7 +295,7 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
         *num = 1;
         PS_TRY(ps_power_sets_stream(sets, estimator, job->question->normalization, error));
     } else {
-        PS_TRY(ps_estimator_add(estimator, sets->patterns, NULL, *num, error));
+        PS_TRY(ps_estimator_add(estimator, sets->patterns, *num, error));
     }
     return ps_power_coefficients_check(job, job->runner.num_done + *num, error);
 }

@@ -97,7 +97,8 @@ double ps_uncertain_p_value(const ps_uncertain *found, double exact) {
                             : 1;
 }
 
-ps_log_variance ps_log_variances_difference(const ps_log_variance *a, const ps_log_variance *b) {
+/* ln(a/b), at the N of a: 0 errors on both sides are one of 0. */
+static ps_log_variance subtract(const ps_log_variance *a, const ps_log_variance *b) {
     const double factors[] = {1, -1};
     const ps_log_variance both[] = {*a, *b};
     const ps_uncertain found = ps_log_variances_combine(both, factors, 2);
@@ -321,7 +322,7 @@ pspec_status ps_crossings_find(ps_crossings *out, ps_crossing *found, const ps_l
     PS_TRY(PS_NEW(&ratios, num, "ratios of variances", error));
     for (size_t i = 0; i < num; i++) {
         const ps_log_variance at_a = move(b, num, i, a[i].points);
-        ratios[i] = ps_log_variances_difference(&a[i], &at_a);
+        ratios[i] = subtract(&a[i], &at_a);
     }
     const pspec_status status = find_between(out, ratios, num, p_value, error);
     free(ratios);

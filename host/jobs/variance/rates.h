@@ -32,8 +32,6 @@ typedef struct ps_uncertain {
 
 void ps_log_variance_make(ps_log_variance *out, double points, ps_mean variance,
                           const ps_block_sums *blocks);
-/* ln(a/b), at the N of a: 0 errors on both sides are one of 0 */
-ps_log_variance ps_log_variances_difference(const ps_log_variance *a, const ps_log_variance *b);
 /* sum of factors[i] * logs[i]. From few blocks errors are told badly: their inverse mean square is
  * that of Student's distribution, which is counted in. nan from less than four. */
 ps_uncertain ps_log_variances_combine(const ps_log_variance *logs, const double *factors,
