@@ -33,7 +33,7 @@ static void run_job(uint64_t num_realizations) {
     BENCH_TRY(ps_power_job_create(&job, &question, error));
     BENCH_TRY(ps_power_job_run(job, error));
     const double seconds = bench_seconds() - begin;
-    const ps_spectrum_bin *bin = &ps_power_job_spectrum(job)->bins[0];
+    const ps_spectrum_bin *bin = &job->spectrum.bins[0];
     getrusage(RUSAGE_SELF, &usage);
     printf("%12llu %12ld %14.2f %10.3f %12.6f %12.6f\n", (unsigned long long)num_realizations,
            usage.ru_maxrss / 1024, seconds / (double)num_realizations * 1e6, seconds, bin->power,
@@ -90,9 +90,9 @@ static void compare_memory(const memory_case *what) {
     BENCH_TRY(ps_power_job_create(&job, &question, error));
     const long before = resident_kibibytes();
     BENCH_TRY(ps_power_job_run(job, error));
-    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
+    const ps_candidate *chosen = job->plan.chosen;
     const double mega = 1e6;
-    const double buffers = (double)ps_power_job_buffer_bytes(job);
+    const double buffers = (double)ps_device_most_buffer_bytes(job->device);
     printf("%2u %9zu %6d %-13s %10.3f %10.3f %6.3f %10.1f %10.1f\n", what->dimension,
            what->num_points, (int)what->k, chosen->engine->name, chosen->device_bytes / mega,
            buffers / mega, chosen->device_bytes / buffers, chosen->bytes / mega,

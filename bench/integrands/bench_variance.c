@@ -56,7 +56,7 @@ static spent predict(const asked *what, uint64_t num_sets) {
     const double begin = bench_seconds();
     BENCH_TRY(ps_variance_job_create(&job, &question, error));
     BENCH_TRY(ps_variance_job_run(job, error));
-    const ps_prediction *const found = &ps_variance_job_rows(job)[0].prediction;
+    const ps_prediction *const found = &job->rows[0].prediction;
     const spent out = {.value = found->variance,
                        .error = found->standard_error,
                        .seconds = bench_seconds() - begin,

@@ -50,6 +50,14 @@ void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ..
     va_end(arguments);
 }
 
+void ps_answer_tell_profile(const ps_answer_hooks *hooks, const ps_device *device) {
+    size_t num = 0;
+    if (hooks->tell_profile != NULL) {
+        const ps_profile_row *const rows = device != NULL ? ps_device_profile(device, &num) : NULL;
+        hooks->tell_profile(hooks->payload, rows, num);
+    }
+}
+
 pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;

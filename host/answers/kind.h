@@ -53,6 +53,8 @@ void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PR
 /* The same with a sentence that may be empty: then nobody hears it. */
 void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence);
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
+/* Calls the hook `tell_profile`; device NULL: the work needed none. */
+void ps_answer_tell_profile(const ps_answer_hooks *hooks, const ps_device *device);
 
 typedef struct ps_answer {
     /* Its arrays are those that the request asks for: "full", the averaged periodogram on the whole

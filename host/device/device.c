@@ -370,7 +370,7 @@ void ps_device_close(ps_device *device) {
 }
 
 const ps_device_limits *ps_device_get_limits(const ps_device *device) {
-    return &device->limits;
+    return device != NULL ? &device->limits : NULL;
 }
 
 pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures, ps_error *error) {

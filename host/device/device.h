@@ -69,7 +69,7 @@ typedef struct ps_device ps_device;
 pspec_status ps_device_open(ps_device **out, const char *selector, bool with_profile,
                             ps_error *error) PS_MUST_CHECK;
 void ps_device_close(ps_device *device);
-const ps_device_limits *ps_device_get_limits(const ps_device *device);
+const ps_device_limits *ps_device_get_limits(const ps_device *device); /* NULL: of NULL */
 /* What the planner is to know of the device from now on; copied. */
 pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures,
                                    ps_error *error) PS_MUST_CHECK;

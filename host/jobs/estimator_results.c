@@ -13,8 +13,7 @@ static double own_error(const ps_estimator *self, double mean_power, double shar
     if (self->engine_state != NULL) {
         return engine->error_of_state(self->engine_state, mean_power, share);
     }
-    const ps_device_limits *limits =
-        self->device != NULL ? ps_device_get_limits(self->device) : NULL;
+    const ps_device_limits *limits = ps_device_get_limits(self->device);
     ps_problem own = ps_engine_problem(engine, &self->options.problem); /* as it was planned */
     own.weight_share = share;
     own.expected_power = mean_power;

@@ -65,11 +65,11 @@ static void the_points_of_a_job_have_the_same_bits_either_way(void **state) {
         const uint64_t after = count_launches();
         ps_power_job *const given = run(&cases[i], true);
         assert_true(after > before && count_launches() == after);
-        assert_true(test_is_same_bits(ps_power_job_spectrum(made), ps_power_job_spectrum(given)));
-        assert_string_equal(ps_power_job_description(made), ps_power_job_description(given));
-        assert_true(ps_power_job_accuracy(made)->was_checked);
-        assert_true(ps_power_job_accuracy(made)->self_check ==
-                    ps_power_job_accuracy(given)->self_check);
+        assert_true(test_is_same_bits(&made->spectrum, &given->spectrum));
+        assert_string_equal(ps_text_string(&made->description),
+                            ps_text_string(&given->description));
+        assert_true(made->runner.accuracy.was_checked);
+        assert_true(made->runner.accuracy.self_check == given->runner.accuracy.self_check);
         ps_power_job_destroy(made);
         ps_power_job_destroy(given);
     }

@@ -41,8 +41,8 @@ static void regular_grid(void **state) {
     ps_power_job *job = NULL;
     assert_ok(ps_power_job_create(&job, &question, error));
     assert_ok(ps_power_job_run(job, error));
-    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
-    assert_true(ps_power_job_needs(job)->one_realization);
+    const ps_spectrum *spectrum = &job->spectrum;
+    assert_true(job->needs.one_realization);
     assert_int_equal(spectrum->num_realizations, 50);
     for (size_t i = 0; i < spectrum->frequencies.num; i++) {
         const int32_t *k = spectrum->frequencies.vectors + 2 * i;
@@ -73,7 +73,7 @@ static void skipping_changes_nothing(void **state) {
             ps_power_job *job = NULL;
             assert_ok(ps_power_job_create(&job, &question, error));
             assert_ok(ps_power_job_run(job, error));
-            const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+            const ps_spectrum *spectrum = &job->spectrum;
             assert_int_equal(spectrum->num_bins, 12);
             for (size_t b = 0; b < 12; b++) {
                 const ps_spectrum_bin *bin = &spectrum->bins[b];
@@ -119,13 +119,13 @@ static void coherent_sets_are_planned_twice(void **state) {
                                   .limits.device = getenv("POINTSPEC_DEVICE")};
     ps_power_job *job = NULL;
     assert_ok(ps_power_job_create(&job, &question, error));
-    assert_int_equal(ps_power_job_plan(job)->chosen->precision, PS_SINGLE);
+    assert_int_equal(job->plan.chosen->precision, PS_SINGLE);
     assert_ok(ps_power_job_run(job, error));
-    assert_true(ps_power_job_was_replanned(job));
+    assert_true(job->runner.was_replanned);
     assert_int_equal(count_kept_sets(job), 1);
-    assert_int_equal(ps_power_job_plan(job)->chosen->precision, PS_DOUBLE);
-    assert_true(ps_power_job_accuracy(job)->error <= 1e-6);
-    assert_true(fabs(ps_power_job_spectrum(job)->powers[0].mean / 4096 - 1) < 1e-12);
+    assert_int_equal(job->plan.chosen->precision, PS_DOUBLE);
+    assert_true(job->runner.accuracy.error <= 1e-6);
+    assert_true(fabs(job->spectrum.powers[0].mean / 4096 - 1) < 1e-12);
     ps_power_job_destroy(job);
     question.limits.constraints.precision = PS_SINGLE;
     assert_ok(ps_power_job_create(&job, &question, error));

@@ -61,14 +61,14 @@ static bool run_power(const both_ways *ways, bool from_file, bool sums_pairs,
         .open_device = device};
     ps_power_job *job = NULL;
     assert_ok(ps_power_job_create(&job, &question, error));
-    const bool is_taken = ps_power_job_plan(job)->chosen != NULL;
+    const bool is_taken = job->plan.chosen != NULL;
     if (is_taken) {
         assert_ok(ps_power_job_run(job, error));
-        const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
+        const ps_spectrum *const spectrum = &job->spectrum;
         assert_true(spectrum->num_bins >= LAST);
         memcpy(bins, spectrum->bins, LAST * sizeof *bins);
         if (sums_pairs) {
-            memcpy(c2, ps_power_job_c2(job), LAST * sizeof *c2);
+            memcpy(c2, job->c2, LAST * sizeof *c2);
         }
     }
     ps_power_job_destroy(job);

@@ -77,12 +77,12 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
     calls = 0;
     pspec_status status = ps_power_job_create(&job, &question, error);
     if (status == PSPEC_OK) {
-        assert_true((ps_power_job_problem(job)->block_points > 0) == (whole_bytes > 0));
+        assert_true((job->problem.block_points > 0) == (whole_bytes > 0));
         status = ps_power_job_run(job, error);
     }
     if (status == PSPEC_OK && out != NULL) {
-        const ps_spectrum *spectrum = ps_power_job_spectrum(job);
-        assert_non_null(strstr(ps_power_job_description(job), "gridded"));
+        const ps_spectrum *spectrum = &job->spectrum;
+        assert_non_null(strstr(ps_text_string(&job->description), "gridded"));
         out->num = spectrum->num_bins;
         out->bins = calloc(out->num, sizeof *out->bins);
         memcpy(out->bins, spectrum->bins, out->num * sizeof *out->bins);

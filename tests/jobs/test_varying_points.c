@@ -86,10 +86,10 @@ static void each_realization_has_its_own_number(void **state) {
                                         .limits.device = getenv("POINTSPEC_DEVICE")};
     ps_power_job *job = NULL;
     assert_int_equal(ps_power_job_create(&job, &question, &error), PSPEC_OK);
-    assert_int_equal(ps_power_job_problem(job)->num_points, N + STEP * M);
-    assert_int_equal(ps_power_job_problem(job)->planned_points, N);
+    assert_int_equal(job->problem.num_points, N + STEP * M);
+    assert_int_equal(job->problem.planned_points, N);
     assert_int_equal(ps_power_job_run(job, &error), PSPEC_OK);
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
+    const ps_spectrum *const spectrum = &job->spectrum;
     assert_int_equal(spectrum->smallest_points, N);
     assert_int_equal(spectrum->largest_points, number_of(M - 1));
     for (size_t i = 0; i < spectrum->frequencies.num; i++) {

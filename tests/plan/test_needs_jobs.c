@@ -53,12 +53,12 @@ static double allowed(const ps_spectrum_bin *bin, double modes, double tolerance
 }
 
 static void compare_spectra(const ps_power_job *a, const ps_power_job *b) {
-    const ps_spectrum *const x = ps_power_job_spectrum(a);
-    const ps_spectrum *const y = ps_power_job_spectrum(b);
-    const double tolerance = ps_power_job_problem(a)->tolerance;
-    const bool of_pairs = ps_power_job_problem(a)->measure == PS_OF_PAIR_SUMS;
+    const ps_spectrum *const x = &a->spectrum;
+    const ps_spectrum *const y = &b->spectrum;
+    const double tolerance = a->problem.tolerance;
+    const bool of_pairs = a->problem.measure == PS_OF_PAIR_SUMS;
     double modes = 0;
-    assert_true(ps_power_job_problem(b)->tolerance <= tolerance);
+    assert_true(b->problem.tolerance <= tolerance);
     assert_int_equal(x->num_bins, y->num_bins);
     assert_int_equal(x->num_realizations, y->num_realizations);
     for (size_t i = 0; i < x->num_bins; i++) {
@@ -100,7 +100,7 @@ static void torus(void **state) {
             .limits.constraints = {.engine = pick_engine(i, "torus_direct"), .precision = -1}};
         ps_power_job *const lean = run_power(&question, false);
         ps_power_job *const full = run_power(&question, true);
-        skipped += ps_power_job_needs(lean)->num_skips - ps_power_job_needs(full)->num_skips;
+        skipped += lean->needs.num_skips - full->needs.num_skips;
         compare_spectra(lean, full);
         ps_power_job_destroy(lean);
         ps_power_job_destroy(full);
@@ -133,7 +133,7 @@ static void sphere(void **state) {
             .limits.constraints = {.engine = pick_engine(i, "sphere_direct"), .precision = -1}};
         ps_power_job *const lean = run_power(&question, false);
         ps_power_job *const full = run_power(&question, true);
-        skipped += ps_power_job_needs(lean)->num_skips - ps_power_job_needs(full)->num_skips;
+        skipped += lean->needs.num_skips - full->needs.num_skips;
         compare_spectra(lean, full);
         ps_power_job_destroy(lean);
         ps_power_job_destroy(full);
@@ -159,9 +159,9 @@ static void statistics(void **state) {
         .limits.constraints = {.engine = "torus_direct", .precision = -1}};
     ps_power_job *const lean = run_power(&question, false);
     ps_power_job *const full = run_power(&question, true);
-    const ps_spectrum *const x = ps_power_job_spectrum(lean);
-    const ps_spectrum *const y = ps_power_job_spectrum(full);
-    assert_true(ps_power_job_problem(lean)->tolerance > ps_power_job_problem(full)->tolerance);
+    const ps_spectrum *const x = &lean->spectrum;
+    const ps_spectrum *const y = &full->spectrum;
+    assert_true(lean->problem.tolerance > full->problem.tolerance);
     assert_true(3 * x->num_realizations < y->num_realizations);
     assert_int_equal(y->num_realizations, 3000);
     for (size_t i = 0; i < x->num_bins; i++) {

@@ -136,9 +136,9 @@ static ps_power_job *run(double standard_error, uint64_t most, bool no_skip) {
 static void job_stops(void **state) {
     (void)state;
     ps_power_job *job = run(0.1, 100000, false);
-    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    const ps_spectrum *spectrum = &job->spectrum;
     const uint64_t num = spectrum->num_realizations;
-    const ps_sequential_look *look = ps_power_job_look(job);
+    const ps_sequential_look *look = &job->look;
     assert_true(num > PS_LEAST_REALIZATIONS && num < 1000);
     assert_int_equal(ps_sequential_next_look(num - 1), num);
     assert_true(look != NULL && look->corrected <= 0.1 && look->relative_error > 0.03);
@@ -146,8 +146,8 @@ static void job_stops(void **state) {
         assert_true(spectrum->bins[b].standard_error <= 0.1 * spectrum->bins[b].power);
     }
     ps_power_job *same = run(0, num, false);
-    const ps_spectrum *whole = ps_power_job_spectrum(same);
-    assert_null(ps_power_job_look(same));
+    const ps_spectrum *whole = &same->spectrum;
+    assert_false(same->has_look);
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         assert_true(spectrum->bins[b].power == whole->bins[b].power);
         assert_true(spectrum->bins[b].standard_error == whole->bins[b].standard_error);
@@ -159,12 +159,12 @@ static void job_stops(void **state) {
 static void job_that_does_not_stop(void **state) {
     (void)state;
     ps_power_job *short_one = run(0.01, 100, false);
-    assert_int_equal(ps_power_job_spectrum(short_one)->num_realizations, 100);
-    assert_true(ps_power_job_look(short_one)->corrected > 0.01);
+    assert_int_equal(short_one->spectrum.num_realizations, 100);
+    assert_true(short_one->look.corrected > 0.01);
     ps_power_job_destroy(short_one);
     ps_power_job *whole = run(0.1, 1500, true);
-    assert_int_equal(ps_power_job_spectrum(whole)->num_realizations, 1500);
-    assert_true(ps_power_job_look(whole)->corrected <= 0.1);
+    assert_int_equal(whole->spectrum.num_realizations, 1500);
+    assert_true(whole->look.corrected <= 0.1);
     ps_power_job_destroy(whole);
 }
 

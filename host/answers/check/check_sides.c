@@ -14,7 +14,7 @@ const char *ps_check_bin_name(const ps_saved_spectrum *saved) {
 /* ---- what a job measured ------------------------------------------------------------------- */
 
 pspec_status ps_check_measured(ps_saved_spectrum *out, const ps_power_job *job, ps_error *error) {
-    const ps_spectrum *const measured = ps_power_job_spectrum(job);
+    const ps_spectrum *const measured = &job->spectrum;
     const ps_frequencies *const set = &measured->frequencies;
     *out = (ps_saved_spectrum){.on_sphere = set->kind == PS_FREQUENCIES_DEGREES,
                                .dimension = set->dimension,
@@ -26,7 +26,7 @@ pspec_status ps_check_measured(ps_saved_spectrum *out, const ps_power_job *job, 
                                .mean_points = measured->mean_points,
                                .sample_size = measured->sample_size.mean,
                                .modes = ps_compared_modes(set),
-                               .error = ps_power_job_accuracy(job)->error};
+                               .error = job->runner.accuracy.error};
     return ps_saved_spectrum_copy_bins(out, measured, error);
 }
 

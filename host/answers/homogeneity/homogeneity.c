@@ -151,33 +151,32 @@ pspec_status ps_homogeneity_plan(ps_planner *planner, const ps_request *request,
 /* ---- one part ---------------------------------------------------------------------------- */
 
 static const ps_frequencies *frequencies_of(const ps_homogeneity *self) {
-    return ps_power_job_problem(self->job)->frequencies;
+    return self->job->problem.frequencies;
 }
 
 /* Of an amplitude: the job's is a multiple of the root mean square. */
 static double find_error(const ps_power_job *job) {
     const double margin = 10; /* the error is a root mean square */
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
-    return margin * ps_power_job_accuracy(job)->error * fabs(spectrum->mean_weight_sum) /
+    const ps_spectrum *const spectrum = &job->spectrum;
+    return margin * job->runner.accuracy.error * fabs(spectrum->mean_weight_sum) /
            sqrt(spectrum->sample_size.mean);
 }
 
 static pspec_status begin_tests(ps_homogeneity *self, ps_error *error) {
     self->num_phases = ps_invariance_count(frequencies_of(self));
-    PS_TRY(check_realizations(self, ps_power_job_spectrum(self->job)->num_realizations, error));
+    PS_TRY(check_realizations(self, self->job->spectrum.num_realizations, error));
     PS_TRY(PS_NEW(&self->labels, count_tests(self), "phases", error));
     return PS_NEW(&self->tests, count_tests(self), "phases", error);
 }
 
 static pspec_status add_sets(ps_homogeneity *self, ps_phase_test *tests,
                              const ps_answer_hooks *hooks, ps_error *error) {
-    size_t num_sets = 0;
-    const double *const kept = ps_power_job_amplitudes(self->job, &num_sets);
+    const size_t num_sets = self->job->num_kept;
     const size_t most = ps_invariance_sets(self->invariance);
     for (size_t first = 0; first < num_sets; first += most) {
         const size_t num = num_sets - first < most ? num_sets - first : most;
         PS_TRY(ps_watch_tell(&hooks->watch, "phases", first, num_sets, NULL, error));
-        ps_invariance_add(self->invariance, num, kept, first, tests);
+        ps_invariance_add(self->invariance, num, self->job->kept, first, tests);
     }
     return PSPEC_OK;
 }

@@ -150,7 +150,7 @@ static pspec_status add_verdict(ps_table *table, const ps_request *arguments,
 
 static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_homogeneity_results *results, ps_error *error) {
-    const ps_frequencies *const set = ps_power_job_problem(results->job)->frequencies;
+    const ps_frequencies *const set = results->job->problem.frequencies;
     const ps_power_job *const job = results->job;
     PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, true, error));
     PS_TRY(add_verdict(table, arguments, results, is_on_sphere(set), error));
@@ -161,7 +161,7 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
 pspec_status ps_homogeneity_table(ps_table **out, const ps_request *arguments,
                                   const ps_homogeneity_results *results, ps_error *error) {
     const char *columns[NUM_COLUMNS];
-    const bool on_sphere = is_on_sphere(ps_power_job_problem(results->job)->frequencies);
+    const bool on_sphere = is_on_sphere(results->job->problem.frequencies);
     for (size_t i = 0; i < NUM_COLUMNS; i++) {
         columns[i] = i == 0 && on_sphere ? "degree" : torus_columns[i];
     }

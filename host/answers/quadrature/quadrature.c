@@ -33,8 +33,7 @@ static pspec_status add_plan(ps_planner *planner, const ps_request *request,
     ps_meta notes[2];
     ps_planned planned = {.problem = &setup->problem,
                           .needs = &setup->needs,
-                          .limits =
-                              setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
+                          .limits = ps_device_get_limits(setup->device),
                           .plan = &setup->plan,
                           .phases = &phases,
                           .repeats = repeats,

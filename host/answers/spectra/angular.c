@@ -67,11 +67,11 @@ static pspec_status make_table(ps_table **out, const ps_request *arguments, cons
 }
 
 static pspec_status add_coefficients(ps_table *table, const ps_power_job *job, ps_error *error) {
-    const size_t num = ps_num_coefficients_at(ps_power_job_problem(job)->frequencies);
+    const size_t num = ps_num_coefficients_at(job->problem.frequencies);
     const size_t shape[] = {num / 2};
     ps_npy_array array;
     PS_TRY(ps_npy_make_array(&array, 1, shape, true, error));
-    memcpy(array.data, ps_power_job_coefficients(job), num * sizeof *array.data);
+    memcpy(array.data, job->coefficients, num * sizeof *array.data);
     return ps_table_add_array(table, "coefficients", false, &array, error);
 }
 

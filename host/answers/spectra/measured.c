@@ -39,7 +39,7 @@ static void put_random(teller *self, const ps_request *arguments) {
 static void put_empty_axis(teller *self, const ps_power_job *job) {
     char text[192];
     ps_empty_axis empty = {0};
-    if (ps_power_job_empty_axis(job, &empty)) {
+    if (ps_axis_cells_find_empty(&job->sets.first_cells, &empty)) {
         snprintf(text, sizeof text,
                  "axis %u of the first set has no point from %.3g to %.3g%s: if the points are of "
                  "a smaller box, --box X0,X1 takes that for the unit cell",
@@ -51,8 +51,8 @@ static void put_empty_axis(teller *self, const ps_power_job *job) {
 
 /* That of the first set; of the others what changes powers: their edges. */
 static void put_boxes(teller *self, const ps_power_job *job) {
-    const ps_boxes *const boxes = ps_power_job_boxes(job);
-    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
+    const ps_boxes *const boxes = &job->sets.boxes;
+    const ps_frequencies *const set = job->problem.frequencies;
     ps_text text = {0};
     self->status = self->status == PSPEC_OK
                        ? ps_header_add_box(self->table, &boxes->first, self->error)
@@ -75,16 +75,15 @@ static void put_boxes(teller *self, const ps_power_job *job) {
 }
 
 static void put_files(teller *self, const ps_request *arguments, const ps_power_job *job) {
-    const bool predicts = ps_power_job_takes_part(job) && arguments->num_shifts > 0;
+    const bool predicts = job->question->num_sets > 0 && arguments->num_shifts > 0;
     self->status =
         self->status == PSPEC_OK
-            ? ps_header_add_files(self->table, ps_power_job_num_files(job),
-                                  ps_power_job_spectrum(job)->num_realizations,
-                                  predicts ? " to predict, the others to measure" : ", one average",
-                                  self->error)
+            ? ps_header_add_files(
+                  self->table, job->question->num_paths, job->spectrum.num_realizations,
+                  predicts ? " to predict, the others to measure" : ", one average", self->error)
             : self->status;
-    put(self, "input_format", PS_TEXT(ps_power_job_source_format(job)));
-    put(self, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+    put(self, "input_format", PS_TEXT(ps_source_format(job->sets.source)));
+    put(self, "input_columns", PS_TEXT(ps_source_columns(job->sets.source)));
     put_boxes(self, job);
     self->status = self->status == PSPEC_OK
                        ? ps_header_add_lift(self->table, &arguments->reading, self->error)
@@ -93,7 +92,7 @@ static void put_files(teller *self, const ps_request *arguments, const ps_power_
 
 static void put_source(teller *self, const ps_request *arguments, const ps_power_job *job,
                        size_t index) {
-    const ps_sampler_request *const sampler = ps_power_job_sampler(job);
+    const ps_sampler_request *const sampler = job->question->sampler;
     const char *const note = sampler != NULL ? ps_sampler_note(sampler) : NULL;
     self->status = self->status == PSPEC_OK
                        ? ps_lead_add_source(self->table, arguments, index, self->error)
@@ -107,18 +106,18 @@ static void put_source(teller *self, const ps_request *arguments, const ps_power
 }
 
 static void put_computed(teller *self, const ps_power_job *job) {
-    const ps_device_limits *const limits = ps_power_job_limits(job);
-    const ps_candidate *const chosen = ps_power_job_plan(job)->chosen;
+    const ps_device_limits *const limits = ps_device_get_limits(job->device);
+    const ps_candidate *const chosen = job->plan.chosen;
     ps_text skipped = {0};
     put(self, "device",
         PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
-    put(self, "engine", PS_TEXT(ps_power_job_description(job)));
+    put(self, "engine", PS_TEXT(ps_text_string(&job->description)));
     put(self, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
-    put(self, "tolerance", PS_NUMBER(ps_power_job_problem(job)->tolerance));
-    if (ps_power_job_was_replanned(job)) {
+    put(self, "tolerance", PS_NUMBER(job->problem.tolerance));
+    if (job->runner.was_replanned) {
         put(self, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
     }
-    ps_needs_describe(ps_power_job_needs(job), &skipped);
+    ps_needs_describe(&job->needs, &skipped);
     if (self->status == PSPEC_OK) {
         self->status = ps_text_check(&skipped, self->error);
     }
@@ -139,16 +138,16 @@ static pspec_status tell(ps_table *table, const ps_request *arguments, const ps_
 /* ---- jobs ------------------------------------------------------------------------------------ */
 
 static ps_measured measure(const ps_power_job *job) {
-    const ps_accuracy *const accuracy = ps_power_job_accuracy(job);
+    const ps_accuracy *const accuracy = &job->runner.accuracy;
     return (ps_measured){
-        .spectrum = ps_power_job_spectrum(job),
-        .c2 = ps_power_job_c2(job),
-        .are_pair_sums = ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS,
-        .is_one_for_all = ps_power_job_needs(job)->one_realization,
+        .spectrum = &job->spectrum,
+        .c2 = job->c2,
+        .are_pair_sums = job->problem.measure == PS_OF_PAIR_SUMS,
+        .is_one_for_all = job->needs.one_realization,
         .error = accuracy->error,
         .self_check = accuracy->was_checked ? accuracy->self_check : NAN,
         .length_error = accuracy->length_error,
-        .look = ps_power_job_look(job),
+        .look = job->has_look ? &job->look : NULL,
         .job = job,
     };
 }

@@ -14,7 +14,7 @@ typedef struct ps_measured {
     bool are_pair_sums;
     bool is_one_for_all;                    /* realizations are equal, and one was computed */
     double error, self_check, length_error; /* as ps_spectrum_sums has them */
-    const ps_sequential_look *look;         /* as ps_power_job_look has it */
+    const ps_sequential_look *look;         /* NULL: nobody looked */
     /* Header entries, of ps_told_keys, that do not follow from numbers: of points, of the device */
     ps_table *told;
     const ps_power_job *job; /* NULL: of a merged answer */

@@ -53,7 +53,7 @@ static pspec_status add_white_sums(ps_table *table, const ps_spectra *spectra, p
     ps_npy_array array;
     PS_TRY(ps_npy_make_array(&array, 1, &spectra->list.num, false, error));
     for (size_t i = 0; i < spectra->list.num; i++) {
-        const ps_spectrum *const own = ps_power_job_spectrum(spectra->jobs[i]);
+        const ps_spectrum *const own = &spectra->jobs[i]->spectrum;
         const double white = own->mean_weight_sum * own->mean_weight_sum / own->sample_size.mean;
         array.data[i] = white > 0 ? white : 1;
     }

@@ -85,10 +85,10 @@ static pspec_status make_boxes(ps_npy_array *out, const ps_frequencies *set, siz
 }
 
 pspec_status ps_power_add_coefficients(ps_table *table, const ps_power_job *job, ps_error *error) {
-    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
-    size_t num_sets = 0;
+    const ps_frequencies *const set = job->problem.frequencies;
+    const size_t num_sets = job->num_kept;
     ps_npy_array array;
-    const double *amplitudes = ps_power_job_amplitudes(job, &num_sets);
+    const double *amplitudes = job->kept;
     PS_TRY(make_boxes(&array, set, num_sets, error));
     const size_t num_entries = num_sets > 0 ? array.num / num_sets : 0;
     for (size_t r = 0; r < num_sets; r++, amplitudes += 2 + 2 * set->num) {

@@ -41,10 +41,10 @@ static void find_row(entry *row, const ps_frequencies_spec *asked, const ps_freq
 
 pspec_status ps_scatter_take(ps_scatter *out, double **rows, const ps_frequencies_spec *asked,
                              const ps_power_job *job, ps_error *error) {
-    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
+    const ps_frequencies *const set = job->problem.frequencies;
     const size_t side = 2 * (size_t)set->max_frequency + 1;
-    size_t num_sets = 0;
-    const double *amplitudes = ps_power_job_amplitudes(job, &num_sets);
+    const size_t num_sets = job->num_kept;
+    const double *amplitudes = job->kept;
     entry *row = NULL;
     PS_TRY(PS_NEW(&row, side, "a row of frequencies", error)); /* zeros: S(0) */
     find_row(row, asked, set);

@@ -17,8 +17,8 @@ const char *const ps_spectra_summary[] = {
 static void warn_of_hours(const ps_power_job *job, unsigned offers, const ps_answer_hooks *hooks) {
     const double hour = 3600;    /* seconds */
     enum { FEW_DIMENSIONS = 3 }; /* where K has a default, and time is a matter of realizations */
-    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
-    const ps_frequencies *set = ps_power_job_problem(job)->frequencies;
+    const ps_candidate *chosen = job->plan.chosen;
+    const ps_frequencies *set = job->problem.frequencies;
     if (chosen == NULL || chosen->seconds <= hour) {
         return;
     }
@@ -38,13 +38,13 @@ static void warn_of_hours(const ps_power_job *job, unsigned offers, const ps_ans
 
 static void warn_of_standard_error(const ps_power_job *job, double standard_error,
                                    const ps_answer_hooks *hooks) {
-    const ps_sequential_look *look = ps_power_job_look(job);
-    if (look != NULL && look->corrected > standard_error) {
+    const ps_sequential_look *look = &job->look;
+    if (job->has_look && look->corrected > standard_error) {
         ps_answer_warn(
             hooks,
             "the standard error %.3g was not reached in %llu realizations: it is %.3g of bin %lld",
-            standard_error, (unsigned long long)ps_power_job_spectrum(job)->num_realizations,
-            look->corrected, (long long)look->bin);
+            standard_error, (unsigned long long)job->spectrum.num_realizations, look->corrected,
+            (long long)look->bin);
     }
 }
 
@@ -60,16 +60,12 @@ pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
     PS_TRY(ps_power_job_create(job, question, error));
     warn_of_hours(*job, question->limits.constraints.offers, hooks);
     if (hooks->tell_plan != NULL) {
-        hooks->tell_plan(hooks->payload, ps_power_job_plan(*job));
+        hooks->tell_plan(hooks->payload, &(*job)->plan);
     }
     PS_TRY(ps_power_job_run(*job, error));
     warn_of_standard_error(*job, question->accuracy.standard_error, hooks);
-    ps_answer_warn_of(hooks, ps_power_job_trouble(*job));
-    if (hooks->tell_profile != NULL) {
-        size_t num_rows = 0;
-        const ps_profile_row *const rows = ps_power_job_profile(*job, &num_rows);
-        hooks->tell_profile(hooks->payload, rows, num_rows);
-    }
+    ps_answer_warn_of(hooks, ps_source_trouble((*job)->sets.source));
+    ps_answer_tell_profile(hooks, (*job)->device);
     return PSPEC_OK;
 }
 
@@ -132,10 +128,10 @@ pspec_status ps_spectra_plan_job(ps_planner *planner, const ps_request *request,
         more->add(more->job, &phases);
     }
     ps_plan_table_add_picture(&phases, request);
-    const ps_planned planned = {.problem = ps_power_job_problem(job),
-                                .needs = ps_power_job_needs(job),
-                                .limits = ps_power_job_limits(job),
-                                .plan = ps_power_job_plan(job),
+    const ps_planned planned = {.problem = &job->problem,
+                                .needs = &job->needs,
+                                .limits = ps_device_get_limits(job->device),
+                                .plan = &job->plan,
                                 .phases = &phases,
                                 .repeats = repeats};
     return ps_plan_table_add_job(planner, request, &planned, index, error);
@@ -182,7 +178,7 @@ static pspec_status add_first_set(ps_table *table, const ps_point_set *set, ps_e
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
                                  ps_make_spectra_table *make, ps_error *error) {
     const ps_spectra *const spectra = computed;
-    const ps_point_set *const first = ps_power_job_first_set(spectra->jobs[0]);
+    const ps_point_set *const first = &spectra->jobs[0]->sets.first;
     const size_t num = spectra->list.num;
     ps_measured *all = NULL;
     pspec_status status =
@@ -191,7 +187,7 @@ pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_
         status = make(&out->table, request, all, num, error);
     }
     ps_measured_free(all, num);
-    if (status == PSPEC_OK && request->plot != NULL && first != NULL) {
+    if (status == PSPEC_OK && request->plot != NULL && first->num_points > 0) {
         status = add_first_set(out->table, first, error);
     }
     return status == PSPEC_OK ? ps_spectra_add_state(out->table, spectra, request, error) : status;

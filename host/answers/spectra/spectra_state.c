@@ -55,7 +55,8 @@ static pspec_status read_asked(ps_request *out, const ps_parts *parts, ps_error 
 static pspec_status add_job(ps_table *table, const ps_power_job *job, size_t question,
                             ps_error *error) {
     ps_spectrum_sums sums;
-    PS_TRY(ps_power_job_sums(job, &sums, error));
+    PS_TRY(ps_estimator_sums(job->runner.estimator, &sums, error));
+    sums.num_equal = job->needs.one_realization ? job->spectrum.num_realizations : 0;
     const pspec_status status = ps_spectrum_state_add(table, question, &sums, error);
     ps_spectrum_sums_free(&sums);
     return status;

@@ -38,15 +38,14 @@ static pspec_status check(const ps_request *request, ps_error *error) {
 
 static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
                  size_t question, size_t integrand) {
-    const ps_variance_row *const row = &ps_variance_job_rows(jobs[question])[integrand];
+    const ps_variance_row *const row = &jobs[question]->rows[integrand];
     (void)request;
     cells[0] = ps_number_or_missing(row->best_bound);
     cells[1] = ps_number_or_missing(row->worst_bound);
 }
 
 static pspec_status add_question(ps_table *table, const ps_variance_job *job, ps_error *error) {
-    return ps_shape_add_profiles(table, ps_variance_job_shape(job),
-                                 ps_power_job_spectrum(ps_variance_job_spectrum(job)), error);
+    return ps_shape_add_profiles(table, &job->shape, &job->spectrum->spectrum, error);
 }
 
 const ps_variance_part ps_variance_part_bounds = {

@@ -9,7 +9,7 @@ static bool is_wanted(const ps_request *request) {
 static void fill(ps_cell *cells, const ps_request *request, ps_variance_job *const *jobs,
                  size_t question, size_t integrand) {
     (void)request;
-    cells[0] = ps_number_or_missing(ps_variance_job_rows(jobs[question])[integrand].paper);
+    cells[0] = ps_number_or_missing(jobs[question]->rows[integrand].paper);
 }
 
 const ps_variance_part ps_variance_part_paper = {

@@ -21,12 +21,11 @@ const ps_variance_job *ps_ranked_job(const ps_ranked *self, size_t sampler) {
 }
 
 static const ps_variance_row *row_of(const ps_ranked *self, size_t sampler) {
-    return &ps_variance_job_rows(ps_ranked_job(self, sampler))[self->integrand];
+    return &ps_ranked_job(self, sampler)->rows[self->integrand];
 }
 
 static double points_of(const ps_ranked *self, size_t sampler) {
-    return ps_power_job_spectrum(ps_variance_job_spectrum(ps_ranked_job(self, sampler)))
-        ->mean_points;
+    return ps_ranked_job(self, sampler)->spectrum->spectrum.mean_points;
 }
 
 /* ---- sides --------------------------------------------------------------------------------- */
@@ -34,8 +33,7 @@ static double points_of(const ps_ranked *self, size_t sampler) {
 /* What sums over pairs lose of their largest term: tests/integrands/test_sphere_pairs.c has it. */
 static double rounding_of_pairs(const ps_ranked *self, size_t sampler) {
     const double digits = 1e-13;
-    const ps_integrand *const integrand =
-        ps_variance_job_integrand(ps_ranked_job(self, sampler), self->integrand);
+    const ps_integrand *const integrand = ps_ranked_job(self, sampler)->integrands[self->integrand];
     const double mean = ps_integrand_integral(integrand);
     return digits *
            (row_of(self, sampler)->prediction.white * points_of(self, sampler) + mean * mean);
@@ -51,8 +49,7 @@ static bool has_pairs(const ps_ranked *self, size_t sampler) {
  * integrand, 2 e sqrt(V E/N) + e^2 E/N of a variance. */
 static double rounding_of_powers(const ps_ranked *self, size_t sampler) {
     const ps_prediction *const prediction = &row_of(self, sampler)->prediction;
-    const double error =
-        ps_power_job_accuracy(ps_variance_job_spectrum(ps_ranked_job(self, sampler)))->error;
+    const double error = ps_ranked_job(self, sampler)->spectrum->runner.accuracy.error;
     return 2 * error * sqrt(prediction->upper * prediction->white) +
            error * error * prediction->white;
 }
@@ -74,9 +71,9 @@ static void make_exact(side *out, double points, double variance, double roundin
 
 static void make_predicted(side *out, const ps_ranked *self, size_t sampler) {
     const ps_variance_job *const job = ps_ranked_job(self, sampler);
-    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
-    const double unit = ps_integrand_factor(ps_variance_job_integrand(job, self->integrand)) /
-                        points_of(self, sampler);
+    const ps_power_beyond *const beyond = &job->beyond;
+    const double unit =
+        ps_integrand_factor(job->integrands[self->integrand]) / points_of(self, sampler);
     *out = (side){.rounding = rounding_of_powers(self, sampler),
                   .open = beyond->white * unit,
                   .more = (ps_variance_likely_most(job) - beyond->white) * unit};
@@ -195,7 +192,7 @@ static bool measure(ps_log_variance *out, const ps_ranked *self, size_t sampler,
  * there are such. */
 static bool is_left_open(const ps_ranked *self, const ps_ranked_pair *pair) {
     const ps_variance_job *const job = ps_ranked_job(self, 0);
-    return !ps_integrand_is_predicted(ps_variance_job_integrand(job, self->integrand)) ||
+    return !ps_integrand_is_predicted(job->integrands[self->integrand]) ||
            (!pair->is_told && !self->request->in_place &&
             (pair->is_told_if_white || (pair->least < 1 && pair->largest > 1)));
 }

@@ -72,8 +72,7 @@ static pspec_status check(const ps_request *request, ps_error *error) {
 static pspec_status write_cure(ps_text *out, const ps_ranked *rows, size_t sampler,
                                const ps_ranked_pair *found, ps_error *error) {
     const ps_variance_job *const job = ps_ranked_job(rows, sampler);
-    const bool is_on_torus =
-        ps_variance_job_integrand(job, rows->integrand)->place.where == PS_SAMPLES_TORUS;
+    const bool is_on_torus = job->integrands[rows->integrand]->place.where == PS_SAMPLES_TORUS;
     const ps_option_id option = is_on_torus ? PS_OPTION_MAX_FREQUENCY : PS_OPTION_MAX_DEGREE;
     double cutoff = 0;
     PS_TRY(ps_variance_find_cutoff(&cutoff, rows->request, job, rows->integrand, found->energy,
@@ -136,10 +135,10 @@ static pspec_status write_more(ps_text *out, const ps_ranked *rows, size_t sampl
 }
 
 static ps_cell points_of(const ps_ranked *rows, size_t sampler) {
-    const ps_power_job *const job = ps_variance_job_spectrum(ps_ranked_job(rows, sampler));
-    return ps_power_job_sampler(job) != NULL
+    const ps_power_job *const job = ps_ranked_job(rows, sampler)->spectrum;
+    return job->question->sampler != NULL
                ? PS_INTEGER(ps_request_points(rows->request, rows->first))
-               : PS_NUMBER(ps_power_job_spectrum(job)->mean_points);
+               : PS_NUMBER(job->spectrum.mean_points);
 }
 
 /* The N that was asked for, or that the sets of files have: of all rows, or from .. to. */
@@ -147,8 +146,7 @@ static void write_points(ps_text *out, const ps_ranked *rows) {
     double least = (double)ps_request_points(rows->request, rows->first);
     double most = least;
     for (size_t i = 0; ps_request_has_files(rows->request) && i < rows->num; i++) {
-        const double own =
-            ps_power_job_spectrum(ps_variance_job_spectrum(ps_ranked_job(rows, i)))->mean_points;
+        const double own = ps_ranked_job(rows, i)->spectrum->spectrum.mean_points;
         least = i == 0 ? own : fmin(least, own);
         most = i == 0 ? own : fmax(most, own);
     }
@@ -193,8 +191,7 @@ static pspec_status write_sentence(ps_text *out, const ps_ranked *rows, const pl
         const ps_ranked_pair found = ps_ranked_compare(rows, places[i].sampler, first);
         PS_TRY(write_more(out, rows, places[i].sampler, first, &found, error));
     }
-    if (ps_integrand_is_predicted(
-            ps_variance_job_integrand(ps_ranked_job(rows, first), rows->integrand))) {
+    if (ps_integrand_is_predicted(ps_ranked_job(rows, first)->integrands[rows->integrand])) {
         PS_TRY(write_more(out, rows, rows->num, first, &white, error));
     }
     return ps_text_check(out, error);

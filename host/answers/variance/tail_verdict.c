@@ -18,7 +18,7 @@ typedef struct judging {
 } judging;
 
 static const ps_spectrum *spectrum_of(const judging *self, size_t job) {
-    return ps_power_job_spectrum(ps_variance_job_spectrum(self->jobs[job]));
+    return &self->jobs[job]->spectrum->spectrum;
 }
 
 static double tail_of(const ps_prediction *prediction) {
@@ -31,7 +31,7 @@ double ps_variance_largest_tail(const ps_request *request, ps_variance_job *cons
     double largest = 0;
     for (size_t i = 0; i < num; i++) {
         for (size_t k = 0; k < request->num_integrands; k++) {
-            largest = fmax(largest, tail_of(&ps_variance_job_rows(jobs[i])[k].prediction));
+            largest = fmax(largest, tail_of(&jobs[i]->rows[k].prediction));
         }
     }
     return largest;
@@ -49,16 +49,16 @@ static double white_from(const ps_spectrum *spectrum, bool is_on_torus) {
 static const double MOST_OF_PEAKS = 4;
 
 static double cutoff_of(const ps_variance_job *job) {
-    return ps_power_job_spectrum(ps_variance_job_spectrum(job))->frequencies.max_frequency;
+    return job->spectrum->spectrum.frequencies.max_frequency;
 }
 
 static bool is_on_torus(const ps_variance_job *job) {
-    return ps_variance_job_integrand(job, 0)->place.where == PS_SAMPLES_TORUS;
+    return job->integrands[0]->place.where == PS_SAMPLES_TORUS;
 }
 
 double ps_variance_likely_most(const ps_variance_job *job) {
-    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(ps_variance_job_spectrum(job));
+    const ps_power_beyond *const beyond = &job->beyond;
+    const ps_spectrum *const spectrum = &job->spectrum->spectrum;
     const bool has_peak =
         beyond->is_known || cutoff_of(job) >= white_from(spectrum, is_on_torus(job));
     return has_peak ? beyond->most : fmax(beyond->most, MOST_OF_PEAKS);
@@ -69,10 +69,10 @@ double ps_variance_likely_most(const ps_variance_job *job) {
  * is. */
 static double find_energy(const judging *self, const ps_variance_job *job, size_t integrand,
                           const ps_tails *tails) {
-    const ps_prediction *const prediction = &ps_variance_job_rows(job)[integrand].prediction;
-    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(ps_variance_job_spectrum(job));
-    const double factor = ps_integrand_factor(ps_variance_job_integrand(job, integrand));
+    const ps_prediction *const prediction = &job->rows[integrand].prediction;
+    const ps_power_beyond *const beyond = &job->beyond;
+    const ps_spectrum *const spectrum = &job->spectrum->spectrum;
+    const double factor = ps_integrand_factor(job->integrands[integrand]);
     const double from = fmax(cutoff_of(job), white_from(spectrum, is_on_torus(job)));
     const double rest = beyond->white * factor * ps_tails_beyond(tails, from);
     const double sum = prediction->lower * spectrum->mean_points + rest;
@@ -90,7 +90,7 @@ static double round_up(double cutoff, double reach) {
 }
 
 static bool is_possible(const ps_variance_job *job, double cutoff) {
-    const ps_integrand_place place = ps_variance_job_integrand(job, 0)->place;
+    const ps_integrand_place place = job->integrands[0]->place;
     ps_frequencies set;
     if (place.where != PS_SAMPLES_TORUS) {
         return cutoff <= PS_MAX_DEGREE;
@@ -102,13 +102,13 @@ static bool is_possible(const ps_variance_job *job, double cutoff) {
 static pspec_status open_tails(ps_tails **out, const ps_request *request,
                                const ps_variance_job *job, size_t integrand, ps_error *error) {
     const bool over_shells = request->frequencies.bins.kind == PS_BINS_SHELLS;
-    return ps_tails_create(out, ps_variance_job_integrand(job, integrand), over_shells, error);
+    return ps_tails_create(out, job->integrands[integrand], over_shells, error);
 }
 
 /* Larger than that of the job, which was not enough. */
 static double find_cutoff(const ps_tails *tails, const ps_variance_job *job, size_t integrand,
                           double energy) {
-    const double reach = ps_integrand_reach(ps_variance_job_integrand(job, integrand));
+    const double reach = ps_integrand_reach(job->integrands[integrand]);
     return round_up(fmax(ps_tails_find(tails, energy), cutoff_of(job) + 1), reach);
 }
 
@@ -125,7 +125,7 @@ pspec_status ps_variance_find_cutoff(double *out, const ps_request *request,
 
 static void add_row(judging *self, size_t job, size_t integrand, const ps_tails *tails) {
     const ps_variance_job *const asked = self->jobs[job];
-    if (tail_of(&ps_variance_job_rows(asked)[integrand].prediction) <= self->request->tail) {
+    if (tail_of(&asked->rows[integrand].prediction) <= self->request->tail) {
         self->cutoff = fmax(self->cutoff, cutoff_of(asked));
         return;
     }
@@ -160,7 +160,7 @@ static void describe(const judging *self, ps_text *out) {
     const bool on_torus = spectrum->frequencies.kind != PS_FREQUENCIES_DEGREES;
     const ps_option_id id = on_torus ? PS_OPTION_MAX_FREQUENCY : PS_OPTION_MAX_DEGREE;
     const ps_prediction *const prediction =
-        &ps_variance_job_rows(self->jobs[self->worst_job])[self->worst_integrand].prediction;
+        &self->jobs[self->worst_job]->rows[self->worst_integrand].prediction;
     const char *const name = ps_request_name(request, self->worst_job);
     ps_text_append(out,
                    "half of upper - lower of %s by %s at N = %.10g is %.3g of predicted, above %s "
@@ -187,7 +187,7 @@ pspec_status ps_variance_judge_tails(ps_error *verdict, const ps_request *reques
         return PSPEC_OK;
     }
     for (size_t k = 0; k < request->num_integrands; k++) {
-        if (ps_integrand_is_predicted(ps_variance_job_integrand(jobs[0], k))) {
+        if (ps_integrand_is_predicted(jobs[0]->integrands[k])) {
             PS_TRY(add_integrand(&self, num, k, error));
         }
     }

@@ -35,10 +35,10 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
     PS_TRY(ps_plan_table_find_lack(planner, &question->spectrum.limits.constraints,
                                    &question->spectrum.may_lack_device, error));
     PS_TRY(ps_variance_job_create(&job, question, error));
-    ps_power_job_rate_skips(ps_variance_job_spectrum(job));
+    ps_power_job_rate_skips(job->spectrum);
     const ps_plan_more more = {add_trials, job};
     const pspec_status status =
-        ps_spectra_plan_job(planner, request, ps_variance_job_spectrum(job), &more, index, error);
+        ps_spectra_plan_job(planner, request, job->spectrum, &more, index, error);
     ps_variance_job_destroy(job);
     return status;
 }
@@ -63,17 +63,13 @@ static pspec_status run_one(ps_variance_job **job, ps_variance_question *questio
     }
     ps_answer_begin_next(hooks);
     PS_TRY(ps_variance_job_create(job, question, error));
-    ps_power_job *const spectrum = ps_variance_job_spectrum(*job);
+    ps_power_job *const spectrum = (*job)->spectrum;
     if (hooks->tell_plan != NULL) {
-        hooks->tell_plan(hooks->payload, ps_power_job_plan(spectrum));
+        hooks->tell_plan(hooks->payload, &spectrum->plan);
     }
     PS_TRY(ps_variance_job_run(*job, error));
-    ps_answer_warn_of(hooks, ps_power_job_trouble(spectrum));
-    if (hooks->tell_profile != NULL) {
-        size_t num_rows = 0;
-        const ps_profile_row *const rows = ps_power_job_profile(spectrum, &num_rows);
-        hooks->tell_profile(hooks->payload, rows, num_rows);
-    }
+    ps_answer_warn_of(hooks, ps_source_trouble(spectrum->sets.source));
+    ps_answer_tell_profile(hooks, spectrum->device);
     return PSPEC_OK;
 }
 

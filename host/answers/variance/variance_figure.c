@@ -296,7 +296,7 @@ pspec_status ps_variance_figure(ps_figure *out, ps_pool *memory, const ps_chart 
 
 /* Of one integrand there is no panel to name it. */
 void ps_variance_write_title(ps_text *out, const ps_request *request, const ps_table *table) {
-    const double sets = ps_variance_sets(request, table, NULL);
+    const double sets = ps_variance_num_sets(request, table, NULL);
     const double shifts = ps_cell_number(ps_table_find_meta(table, "shifts"));
     ps_text_append(out, "%s", request->num_integrands == 1 ? request->integrands[0] : "variance");
     if (request->num_sources == 1) {
@@ -305,7 +305,7 @@ void ps_variance_write_title(ps_text *out, const ps_request *request, const ps_t
     if (sets > 0) {
         ps_text_append(out, ", M = %.0f", sets);
     } else if (request->num_sources > 1) {
-        ps_variance_sets(request, table, out);
+        ps_variance_num_sets(request, table, out);
     }
     if (sets > 0 && shifts > 0) {
         ps_text_append(out, ", %.0f trial%s", sets * shifts, sets * shifts > 1 ? "s" : "");

@@ -49,9 +49,9 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
                             ps_variance_job *const *jobs, size_t question, size_t integrand,
                             ps_error *error) {
     const ps_variance_job *const job = jobs[question];
-    const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
+    const ps_variance_row *const row = &job->rows[integrand];
     ps_cell cells[MOST_COLUMNS] = {
-        points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
+        points_cell(&job->spectrum->spectrum),
         ps_number_or_missing(row->prediction.variance),
         ps_number_or_missing(row->prediction.standard_error),
         ps_number_or_missing(row->prediction.lower),
@@ -71,7 +71,7 @@ static pspec_status add_row(ps_table *table, const ps_request *request, const ps
 /* What all jobs have in common. */
 static pspec_status begin(ps_table *table, const ps_request *request, const ps_variance_job *first,
                           ps_error *error) {
-    const ps_variance_trials trials = ps_variance_job_trials(first);
+    const ps_variance_trials trials = first->trials;
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
@@ -109,10 +109,10 @@ static pspec_status add_integrand(ps_table *table, const ps_request *request,
 /* Of files: how many sets are measured, beside those that predict, and what their weights cost. */
 static pspec_status add_files(ps_table *table, const ps_variance_job *job, ps_error *error) {
     const ps_meta entries[] = {
-        {"measured_sets", PS_INTEGER(ps_variance_job_trials(job).num_sets)},
-        {"white_power", PS_NUMBER(ps_variance_job_power_beyond(job)->white)},
+        {"measured_sets", PS_INTEGER(job->trials.num_sets)},
+        {"white_power", PS_NUMBER(job->beyond.white)},
     };
-    return ps_power_job_sampler(ps_variance_job_spectrum(job)) != NULL
+    return job->spectrum->question->sampler != NULL
                ? PSPEC_OK
                : ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
@@ -120,7 +120,7 @@ static pspec_status add_files(ps_table *table, const ps_variance_job *job, ps_er
 /* How many standard errors hold 95 % of normal numbers, from as many as are measured. */
 static pspec_status add_quantile(ps_table *table, const ps_variance_job *job, ps_error *error) {
     const double outside = 0.05;
-    const ps_variance_trials trials = ps_variance_job_trials(job);
+    const ps_variance_trials trials = job->trials;
     const uint64_t num = trials.is_one_set ? trials.num_shifts : trials.num_sets;
     const double quantile = num > 1 ? ps_student_score(outside, (double)num - 1) : NAN;
     return trials.num_shifts == 0
@@ -137,7 +137,7 @@ static pspec_status add_pairwise(ps_table *table, const ps_variance_row *row, ps
 
 /* What the bracket takes for the power beyond the cut-off. */
 static pspec_status add_most_power(ps_table *table, const ps_variance_job *job, ps_error *error) {
-    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
+    const ps_power_beyond *const beyond = &job->beyond;
     const ps_meta entries[] = {
         {"most_power", PS_NUMBER(beyond->most)},
         {"most_power_is",
@@ -175,7 +175,7 @@ static pspec_status add_choices(ps_table *table, const ps_request *request,
 static pspec_status fill(ps_table *table, const ps_request *request, ps_variance_job *const *jobs,
                          const ps_power_job *const *spectra, size_t num, ps_error *error) {
     for (size_t i = 0; i < request->num_integrands; i++) {
-        PS_TRY(add_integrand(table, request, ps_variance_job_integrand(jobs[0], i), i, error));
+        PS_TRY(add_integrand(table, request, jobs[0]->integrands[i], i, error));
     }
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_header_add_job(table, request, spectra, num, i, false, error));
@@ -185,7 +185,7 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         PS_TRY(ps_variance_parts_add_question(table, request, jobs[i], error));
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
-            PS_TRY(add_pairwise(table, &ps_variance_job_rows(jobs[i])[k], error));
+            PS_TRY(add_pairwise(table, &jobs[i]->rows[k], error));
             PS_TRY(add_row(table, request, &lead, jobs, i, k, error));
         }
     }
@@ -203,7 +203,7 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
     const ps_power_job **spectra = NULL;
     PS_TRY(PS_NEW(&spectra, num, "jobs", error));
     for (size_t i = 0; i < num; i++) {
-        spectra[i] = ps_variance_job_spectrum(jobs[i]);
+        spectra[i] = jobs[i]->spectrum;
     }
     pspec_status status = ps_lead_create_table(out, "variance", &first, names, num_columns, error);
     if (status == PSPEC_OK) {
@@ -219,7 +219,7 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
     return status;
 }
 
-double ps_variance_sets(const ps_request *request, const ps_table *table, ps_text *each) {
+double ps_variance_num_sets(const ps_request *request, const ps_table *table, ps_text *each) {
     double all = ps_cell_number(ps_table_find_meta(table, "realizations"));
     const char *key = NULL;
     size_t found = 0;

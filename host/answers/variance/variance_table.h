@@ -18,6 +18,6 @@ ps_make_figure ps_variance_figure;
 void ps_variance_write_title(ps_text *out, const ps_request *request, const ps_table *table);
 
 /* The number of sets of all samplers, or nan; with a text, which may be NULL, that of each. */
-double ps_variance_sets(const ps_request *request, const ps_table *table, ps_text *each);
+double ps_variance_num_sets(const ps_request *request, const ps_table *table, ps_text *each);
 
 #endif

@@ -42,8 +42,7 @@ static bool should_stop(void *payload) {
 
 static pspec_status add_header(const answer *shown, ps_error *error) {
     const ps_request *const arguments = shown->arguments;
-    const ps_device_limits *const limits =
-        shown->device != NULL ? ps_device_get_limits(shown->device) : NULL;
+    const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},

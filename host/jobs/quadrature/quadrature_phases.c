@@ -96,8 +96,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
 double ps_quadrature_phases(const ps_quadrature_setup *setup,
                             const ps_quadrature_question *question, ps_phases *phases) {
     const ps_candidate *const chosen = setup->plan.chosen;
-    const ps_device_limits *const limits =
-        setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
+    const ps_device_limits *const limits = ps_device_get_limits(setup->device);
     ps_phases_start(phases, chosen, limits);
     /* coefficients come by another build of the engine's last kernel */
     ps_phases_load_kernels(phases, chosen != NULL && !setup->by_pairs ? 1 : 0);

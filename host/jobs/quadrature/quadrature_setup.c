@@ -164,9 +164,8 @@ static pspec_status plan_all(double *seconds, const ps_quadrature_setup *setup,
     ps_problem problem = setup->problem;
     PS_TRY(ps_frequencies_degrees(&all, (int64_t)setup->most_degree, false, error));
     problem.frequencies = &all;
-    const pspec_status status = ps_plan_make(
-        &plan, &problem, setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
-        &question->limits.constraints, error);
+    const pspec_status status = ps_plan_make(&plan, &problem, ps_device_get_limits(setup->device),
+                                             &question->limits.constraints, error);
     *seconds = status == PSPEC_OK && plan.chosen != NULL ? plan.chosen->seconds : 0;
     ps_frequencies_free(&all);
     return status;
@@ -212,8 +211,7 @@ static pspec_status plan_needs(ps_quadrature_setup *setup, const ps_quadrature_q
     ps_memory_room_find(&room, held);
     constraints.room = &room;
     PS_TRY(ps_needs_plan(&setup->needs, &setup->plan, &setup->problem,
-                         setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
-                         &constraints, &strict, error));
+                         ps_device_get_limits(setup->device), &constraints, &strict, error));
     if (setup->plan.chosen == NULL || setup->needs.no_skip) {
         return PSPEC_OK;
     }

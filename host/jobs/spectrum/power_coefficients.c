@@ -78,12 +78,3 @@ pspec_status ps_power_coefficients_check(const ps_power_job *job, uint64_t num_s
                      error, PSPEC_ERROR_INVALID_ARGUMENT,
                      "coefficients are of one set, but there are more; --select-sets chooses one");
 }
-
-const double *ps_power_job_coefficients(const ps_power_job *job) {
-    return job->coefficients;
-}
-
-const double *ps_power_job_amplitudes(const ps_power_job *job, size_t *num_sets) {
-    *num_sets = job->num_kept;
-    return job->kept;
-}

@@ -8,7 +8,7 @@ bool ps_power_job_leaves_points(const ps_power_job *job) {
     return question->sampler != NULL && chosen != NULL && chosen->engine->takes_sets &&
            !question->keeps_first && question->harmonics == PS_NO_HARMONICS &&
            job->sets.weights == NULL &&
-           ps_device_sets_serve(&job->request, ps_power_job_limits(job));
+           ps_device_sets_serve(&job->request, ps_device_get_limits(job->device));
 }
 
 pspec_status ps_power_device_sets_begin(ps_power_job *job, ps_error *error) {

@@ -265,6 +265,7 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
     PS_TRY(ps_estimator_bin_means(job->runner.estimator, job->means, error));
     job->look =
         ps_sequential_find(bins, job->means, job->question->accuracy.floor, job->runner.num_done);
+    job->has_look = true;
     *largest = job->look.corrected;
     return PSPEC_OK;
 }

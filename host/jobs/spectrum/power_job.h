@@ -12,13 +12,10 @@
 
 #include "base/watch.h"
 #include "frequencies/frequencies_spec.h"
-#include "jobs/estimator.h"
-#include "jobs/source.h"
-#include "jobs/spectrum/empty_axis.h"
+#include "jobs/runner.h"
+#include "jobs/spectrum/power_sets.h"
 #include "plan/needs.h"
-#include "plan/specs.h"
 #include "points/weights_spec.h"
-#include "spectra/sequential.h"
 
 typedef struct ps_power_question {
     /* realizations: a sampler, or files */
@@ -54,7 +51,7 @@ typedef struct ps_power_question {
     /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
     ps_harmonics harmonics;
     bool fills_boxes; /* on the torus, coefficients of every set are handed on as boxes */
-    bool keeps_sums;  /* somebody will ask for ps_power_job_sums, and keep them */
+    bool keeps_sums;  /* somebody will ask the estimator for its sums, and keep them */
     bool keeps_sets;  /* on the sphere, too, those of every set are wanted */
     bool keeps_first; /* a copy of the first set, for a picture */
     bool is_turned;   /* on the sphere: about the x axis, see ps_source_turn */
@@ -73,8 +70,47 @@ typedef struct ps_power_question {
     ps_watch watch;         /* told of realizations and other phases; {0}: nobody */
 } ps_power_question;
 
-/* A job that is planned but not yet run. */
-typedef struct ps_power_job ps_power_job;
+typedef struct ps_power_job {
+    const ps_power_question *question;
+    /* Known after create. Of files the first set is read for planning; formats, columns and what
+     * was wrong with kept sets are those of their source */
+    ps_power_sets sets;
+    ps_device_sets *device_sets; /* instead, where the device makes them; else NULL */
+    unsigned dimension;
+    uint64_t num_points;  /* of the first set, or that a sampler is asked for */
+    uint64_t most_points; /* of any set, as far as it is known */
+    ps_frequencies frequencies;
+    ps_needs needs;
+    char useless[48];           /* the skip of frequencies that do not matter; "": there is none */
+    ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
+    uint64_t num_realizations;  /* that are computed; 0: unknown */
+    ps_problem problem;
+    ps_device *device; /* NULL: none */
+    bool owns_device;
+    ps_plan plan;
+    /* Known after run: with the accuracy, and whether the first run missed the tolerance and the
+     * plan was made again */
+    ps_runner runner;
+    ps_spectrum spectrum;
+    ps_text description; /* of the engine, "(torus_direct ...)" */
+    /* c_lm of the only set as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL
+     * unless they were asked for */
+    double *coefficients;
+    /* Coefficients of every set, where they were asked for: S(k) on the torus, [num_kept][1 +
+     * number of frequencies][2], S(0) = W first; with question.keeps_sets c_lm on the sphere,
+     * [num_kept][ps_num_coefficients(L)]; room for so many */
+    double *kept;
+    size_t num_kept, kept_room;
+    ps_mean *c2;       /* C_l^2 of pair sums, [number of degrees]; NULL: not asked for */
+    double *weights;   /* [num_weighted][number of frequencies] */
+    ps_mean *weighted; /* [num_weighted]; NULL: not asked for */
+    ps_block_sums *weighted_blocks; /* the same by blocks of realizations, in another unit */
+    ps_mean *means;                 /* [all bins] for looks at the standard error */
+    /* The bin of the largest standard error when the realizations ended; not without
+     * question.accuracy.standard_error, and with one realization that stands for all */
+    ps_sequential_look look;
+    bool has_look;
+} ps_power_job;
 
 /* Reads the first set, opens the device unless no engine that may be chosen needs it, and plans.
  * The question must outlive the job. With nothing feasible the job exists all the same, and only
@@ -91,56 +127,5 @@ void ps_power_job_rate_skips(ps_power_job *job);
 
 /* Gives the memory back that only realizations need; after run. */
 void ps_power_job_release(ps_power_job *job);
-
-/* What is known after create. */
-const ps_plan *ps_power_job_plan(const ps_power_job *job);
-const ps_needs *ps_power_job_needs(const ps_power_job *job);
-const ps_problem *ps_power_job_problem(const ps_power_job *job);
-const ps_device_limits *ps_power_job_limits(const ps_power_job *job); /* NULL: no device */
-ps_device *ps_power_job_device(const ps_power_job *job);              /* NULL: none; borrowed */
-size_t ps_power_job_num_files(const ps_power_job *job);               /* 0: a sampler */
-bool ps_power_job_takes_part(const ps_power_job *job); /* only the first of the files' sets */
-const char *ps_power_job_source_format(const ps_power_job *job);
-const char *ps_power_job_source_columns(const ps_power_job *job);
-const ps_boxes *ps_power_job_boxes(const ps_power_job *job); /* after run: of all sets */
-const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL: files */
-
-/* What is known after run. Borrowed. */
-const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
-/* A piece of an axis that the first set of files leaves empty, unlike uniform points; false: none,
- * or nobody looked (samplers, the sphere, with --box). */
-bool ps_power_job_empty_axis(const ps_power_job *job, ps_empty_axis *out);
-/* The points of the first set, as they came; NULL unless question.keeps_first, and of sets of more
- * than PS_MOST_POINTS_KEPT. */
-const ps_point_set *ps_power_job_first_set(const ps_power_job *job);
-/* The sums that the spectrum, and C_l^2, were made of; freed by the caller. */
-pspec_status ps_power_job_sums(const ps_power_job *job, ps_spectrum_sums *out,
-                               ps_error *error) PS_MUST_CHECK;
-const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
-/* "(torus_direct ...)" */
-const char *ps_power_job_description(const ps_power_job *job);
-/* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked
- * for. */
-const double *ps_power_job_coefficients(const ps_power_job *job);
-/* S(k) on the torus, [*num_sets][1 + number of frequencies][2], S(0) = W first; with
- * question.keeps_sets c_lm on the sphere, [*num_sets][ps_num_coefficients(L)]. NULL unless asked
- * for. */
-const double *ps_power_job_amplitudes(const ps_power_job *job, size_t *num_sets);
-/* The bin of the largest standard error when the realizations ended; NULL unless
- * question.accuracy.standard_error was asked for, and with one realization that stands for all. */
-const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
-/* What was wrong with kept sets (sets/sets.h), "" where nothing was. Not while the job runs. */
-const char *ps_power_job_trouble(const ps_power_job *job);
-/* [question.num_weighted]; NULL: none were asked for. */
-const ps_mean *ps_power_job_weighted(const ps_power_job *job);
-/* The same by blocks of realizations, in another unit. */
-const ps_block_sums *ps_power_job_weighted_blocks(const ps_power_job *job);
-/* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
-const ps_mean *ps_power_job_c2(const ps_power_job *job);
-/* True when the first run missed the tolerance and the plan was made again. */
-bool ps_power_job_was_replanned(const ps_power_job *job);
-/* The most bytes that buffers of the device had at a time. */
-uint64_t ps_power_job_buffer_bytes(const ps_power_job *job);
-const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows);
 
 #endif

@@ -88,8 +88,8 @@ static double find_share(const ps_power_job *job, const ps_frequencies *frequenc
     ps_plan plan;
     ps_problem problem = job->problem;
     problem.frequencies = frequencies;
-    if (ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->limits.constraints,
-                     NULL) != PSPEC_OK ||
+    if (ps_plan_make(&plan, &problem, ps_device_get_limits(job->device),
+                     &job->question->limits.constraints, NULL) != PSPEC_OK ||
         plan.chosen == NULL) {
         return -1;
     }
@@ -144,7 +144,7 @@ pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
     constraints.room = &room;
     const ps_needs_strict strict = {
         question->may_loosen ? strict_tolerance(question) : job->problem.tolerance, 0};
-    return ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_power_job_limits(job),
+    return ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_device_get_limits(job->device),
                          &constraints, &strict, error);
 }
 

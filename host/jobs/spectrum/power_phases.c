@@ -239,8 +239,7 @@ static double scatter_seconds(const ps_power_job *job, const amounts *amount) {
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     const ps_candidate *const chosen = job->plan.chosen;
     const bool is_known = job->problem.num_realizations > 0;
-    const ps_device_limits *const limits =
-        job->device != NULL ? ps_device_get_limits(job->device) : NULL;
+    const ps_device_limits *const limits = ps_device_get_limits(job->device);
     ps_phases_start(phases, chosen, limits);
     const amounts all = add_points(job, phases);
     const double repeats = is_known ? 1 : all.sets;

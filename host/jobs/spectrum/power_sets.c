@@ -1,4 +1,4 @@
-#include "jobs/spectrum/power_job_private.h"
+#include "jobs/spectrum/power_sets.h"
 
 #include "base/memory.h"
 #include "points/lists/weight_list.h"

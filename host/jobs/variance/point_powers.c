@@ -41,8 +41,7 @@ static pspec_status make_plan(const work *self, const ps_problem *problem, ps_pl
     ps_device *const device = self->way->device;
     const ps_plan_constraints constraints = {.precision = -1,
                                              .memory_limit = self->way->memory_limit};
-    return ps_plan_make(plan, problem, device != NULL ? ps_device_get_limits(device) : NULL,
-                        &constraints, error);
+    return ps_plan_make(plan, problem, ps_device_get_limits(device), &constraints, error);
 }
 
 static pspec_status start(work *self, const ps_frequencies *frequencies, ps_error *error) {

@@ -1,4 +1,4 @@
-#include "jobs/variance/variance_job_private.h"
+#include "jobs/variance/variance_job.h"
 
 #include "base/memory.h"
 #include "files/input_file.h"
@@ -9,8 +9,8 @@
 
 static ps_point_way way_of(const ps_variance_job *job) {
     const ps_power_question *const spectrum = &job->question->spectrum;
-    return (ps_point_way){ps_power_job_device(job->spectrum),
-                          spectrum->limits.constraints.memory_limit, &spectrum->watch};
+    return (ps_point_way){job->spectrum->device, spectrum->limits.constraints.memory_limit,
+                          &spectrum->watch};
 }
 
 static pspec_status weigh(void *payload, const ps_frequencies *frequencies, double *weights,
@@ -135,8 +135,7 @@ static pspec_status time_images(ps_variance_job *job, ps_error *error) {
         double seconds = 0;
         if (ps_integrand_has_points(job->integrands[i])) {
             PS_TRY(ps_point_powers_seconds(&seconds, job->integrands[i],
-                                           ps_power_job_problem(job->spectrum)->frequencies, &way,
-                                           error));
+                                           job->spectrum->problem.frequencies, &way, error));
         }
         job->image_seconds += seconds;
     }
@@ -217,13 +216,13 @@ static pspec_status find_shape(ps_variance_job *job, ps_error *error) {
         job->shape = (ps_shape){.above = bounds->above, .below = bounds->below};
     }
     return bounds->is_wanted && !bounds->is_given
-               ? ps_shape_find(&job->shape, ps_power_job_spectrum(job->spectrum), NAN, error)
+               ? ps_shape_find(&job->shape, &job->spectrum->spectrum, NAN, error)
                : PSPEC_OK;
 }
 
 static pspec_status add_bounds(ps_variance_job *job, size_t integrand, ps_error *error) {
     const ps_variance_question *const question = job->question;
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
+    const ps_spectrum *const spectrum = &job->spectrum->spectrum;
     ps_variance_row *const row = &job->rows[integrand];
     const ps_shape *const shape = &job->shape;
     const ps_point_way way = way_of(job);
@@ -245,12 +244,12 @@ static pspec_status add_bounds(ps_variance_job *job, size_t integrand, ps_error 
 
 static pspec_status fill_rows(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
+    const ps_spectrum *const spectrum = &job->spectrum->spectrum;
     job->beyond = find_power_beyond(job, spectrum);
     PS_TRY(find_shape(job, error));
     for (size_t i = 0; i < question->num_integrands; i++) {
         ps_variance_row *const row = &job->rows[i];
-        ps_mean sum = ps_power_job_weighted(job->spectrum)[i];
+        ps_mean sum = job->spectrum->weighted[i];
         if (job->trials.is_one_set) {
             sum.standard_error = 0; /* every move of the set has this spectrum */
         }
@@ -276,30 +275,6 @@ pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) {
     return fill_rows(job, error);
 }
 
-ps_variance_trials ps_variance_job_trials(const ps_variance_job *job) {
-    return job->trials;
-}
-
-ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job) {
-    return job->spectrum;
-}
-
-const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index) {
-    return job->integrands[index];
-}
-
-const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job) {
-    return job->rows;
-}
-
-const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job) {
-    return &job->beyond;
-}
-
-const ps_shape *ps_variance_job_shape(const ps_variance_job *job) {
-    return &job->shape;
-}
-
 /* What is added to the sum of powers for what lies beyond the cut-off has no error. */
 void ps_variance_job_log(const ps_variance_job *job, size_t integrand, ps_variance_number number,
                          ps_log_variance *out) {
@@ -313,7 +288,7 @@ void ps_variance_job_log(const ps_variance_job *job, size_t integrand, ps_varian
     };
     const ps_mean variance = {values[number],
                               is_measured ? row->measured_error : row->prediction.standard_error};
-    ps_log_variance_make(out, ps_power_job_spectrum(job->spectrum)->mean_points, variance,
+    ps_log_variance_make(out, job->spectrum->spectrum.mean_points, variance,
                          is_measured ? &job->measured_blocks[integrand]
-                                     : &ps_power_job_weighted_blocks(job->spectrum)[integrand]);
+                                     : &job->spectrum->weighted_blocks[integrand]);
 }

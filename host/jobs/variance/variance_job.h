@@ -9,10 +9,9 @@
 #ifndef PS_JOBS_VARIANCE_VARIANCE_JOB_H
 #define PS_JOBS_VARIANCE_VARIANCE_JOB_H
 
-#include "integrands/integrand.h"
-#include "jobs/spectrum/power_job.h"
-#include "jobs/variance/rates.h"
 #include "jobs/variance/prediction.h"
+#include "jobs/variance/rates.h"
+#include "jobs/variance/variance_sets.h"
 #include "plan/phases.h"
 #include "spectra/shape/shape.h"
 
@@ -58,7 +57,23 @@ typedef struct ps_variance_trials {
     uint64_t num_shifts; /* trials of each */
 } ps_variance_trials;
 
-typedef struct ps_variance_job ps_variance_job;
+typedef struct ps_variance_job {
+    const ps_variance_question *question;
+    ps_power_question spectrum_question;
+    ps_power_job *spectrum;         /* of the prediction: its plan, and what it found */
+    ps_integrand **integrands;      /* [num] */
+    double *held;                   /* [num] of the energy, up to the cut-off */
+    ps_mean *measured;              /* [num] */
+    ps_block_sums *measured_blocks; /* [num] */
+    ps_variance_row *rows;          /* [num], after run */
+    double reach;                   /* the largest frequency or degree that matters */
+    ps_power_beyond beyond;         /* the power that `upper` has beyond the cut-off, after run */
+    ps_shape shape;                 /* profiles of bounds, where they were asked for, after run */
+    ps_variance_sets files;         /* {0} of a sampler */
+    ps_variance_trials trials;      /* num_shifts 0: none */
+    double trial_bytes;
+    double image_seconds; /* of the powers of integrands that are points; 0: there are none */
+} ps_variance_job;
 
 /* Are there such integrands where the points are? Of files on the torus, whose dimension is not
  * known yet, the job says so. */
@@ -73,12 +88,6 @@ pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) PS_MUST_
 
 /* Adds what the measurement comes to: its points, and trials. */
 void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases);
-/* The job of the prediction: its plan, and what it found. */
-ps_variance_trials ps_variance_job_trials(const ps_variance_job *job);
-ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job);
-const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index);
-/* [question.num_integrands], after run */
-const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job);
 /* The logarithm of a number of a row, after run. */
 typedef enum ps_variance_number {
     PS_VARIANCE_PREDICTED,
@@ -88,9 +97,14 @@ typedef enum ps_variance_number {
 } ps_variance_number;
 void ps_variance_job_log(const ps_variance_job *job, size_t integrand, ps_variance_number number,
                          ps_log_variance *out);
-/* The power that `upper` has beyond the cut-off, after run. */
-const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job);
-/* The profiles that bounds are made of, where they were asked for, after run. */
-const ps_shape *ps_variance_job_shape(const ps_variance_job *job);
+
+/* ---- the parts of create and run that are in variance_trials.c ------------------------------- */
+
+/* What is measured, once the spectrum is planned, and does it fit into the memory? */
+pspec_status ps_variance_trials_prepare(ps_variance_job *job, ps_error *error) PS_MUST_CHECK;
+/* Fills measured; nan where nothing is. */
+pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) PS_MUST_CHECK;
+/* The check of a single set: fills pairwise of the rows; nan where there is none. */
+pspec_status ps_variance_trials_sum_pairs(ps_variance_job *job, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -3,7 +3,7 @@
 #include "base/process/memory_limit.h"
 #include "jobs/point_phases.h"
 #include "jobs/variance/measurement.h"
-#include "jobs/variance/variance_job_private.h"
+#include "jobs/variance/variance_job.h"
 #include "math/random/random.h"
 
 #include <math.h>
@@ -74,7 +74,7 @@ static ps_measurement_plan plan_measurement(const ps_variance_job *job) {
         .is_moved = question->is_moved,
         .memory_limit = spectrum->limits.constraints.memory_limit,
         .making_bytes = spectrum->sampler != NULL ? ps_sampler_work_bytes(spectrum->sampler) : 0,
-        .device = ps_power_job_device(job->spectrum),
+        .device = job->spectrum->device,
         .watch = &spectrum->watch,
     };
 }
@@ -175,10 +175,8 @@ static void add_reading(const ps_variance_job *job, ps_phases *phases) {
 static double step_seconds(const ps_variance_job *job, const ps_integrand *integrand) {
     const double by_kernel = 5e-10;
     const double by_host = 5e-9;
-    return ps_power_job_device(job->spectrum) != NULL &&
-                   ps_integrand_kernel(integrand, true) != NULL
-               ? by_kernel
-               : by_host;
+    return job->spectrum->device != NULL && ps_integrand_kernel(integrand, true) != NULL ? by_kernel
+                                                                                         : by_host;
 }
 
 void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {

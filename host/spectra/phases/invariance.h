@@ -31,7 +31,7 @@ void ps_invariance_label(const ps_invariance *invariance, bool is_turned, ps_pha
 /* Sets that are taken at a time. */
 size_t ps_invariance_sets(const ps_invariance *invariance);
 /* Adds the phases of so many sets, or fewer, from number `first` on, to tests[ps_invariance_count].
- * The amplitudes of all sets are as ps_power_job_amplitudes has them: on the torus S(0) comes first
+ * The amplitudes of all sets are as ps_power_job.kept has them: on the torus S(0) comes first
  * in each. */
 void ps_invariance_add(ps_invariance *invariance, size_t num_sets, const double *all_amplitudes,
                        size_t first, ps_phase_test *tests);

@@ -34,15 +34,15 @@ const ps_variance_row *test_variance_run(test_variance *asked) {
     assert_ok(ps_variance_question_check(&asked->question, error));
     assert_ok(ps_variance_job_create(&asked->job, &asked->question, error));
     assert_ok(ps_variance_job_run(asked->job, error));
-    return ps_variance_job_rows(asked->job);
+    return asked->job->rows;
 }
 
 const ps_spectrum *test_variance_spectrum(const test_variance *asked) {
-    return ps_power_job_spectrum(ps_variance_job_spectrum(asked->job));
+    return &asked->job->spectrum->spectrum;
 }
 
 const ps_integrand *test_variance_integrand(const test_variance *asked, size_t index) {
-    return ps_variance_job_integrand(asked->job, index);
+    return asked->job->integrands[index];
 }
 
 void test_variance_free(test_variance *asked) {

@@ -102,8 +102,8 @@ static void check_single(const test_folder *folder, const test_set *set, ps_samp
     }
     near(set->name, row->measured, row->pairwise, 5 * row->measured_error + rounding);
     assert_true(row->prediction.standard_error == 0);
-    assert_true(ps_variance_job_power_beyond(asked.job)->is_known);
-    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(asked.job);
+    assert_true(asked.job->beyond.is_known);
+    const ps_power_beyond *const beyond = &asked.job->beyond;
     const double allowed = 1e-12 * num_points * signs;
     near(set->name, beyond->most, num_points * signs, allowed);
     near(set->name, beyond->white, num_points * sums[1] / (sums[0] * sums[0]), allowed);

@@ -28,7 +28,7 @@ static ps_integrand *parse(const char *text, ps_sampler_domain where, unsigned d
 /* ---- frequencies that do not matter -------------------------------------------------------- */
 
 static bool skips(const test_variance *asked, const char *what) {
-    const ps_needs *const needs = ps_power_job_needs(ps_variance_job_spectrum(asked->job));
+    const ps_needs *const needs = &asked->job->spectrum->needs;
     bool found = false;
     for (size_t i = 0; i < needs->num_skips; i++) {
         found = found || strncmp(needs->skips[i].what, what, strlen(what)) == 0;
@@ -72,9 +72,9 @@ static void check_skip(size_t i) {
         assert_int_equal(skips(&asked, "frequencies beyond") || skips(&asked, "degrees beyond"),
                          is_cut && no_skip == 0);
         if (is_cut) {
-            assert_false(ps_variance_job_power_beyond(asked.job)->matters);
+            assert_false(asked.job->beyond.matters);
         }
-        const double e = 2 * ps_power_job_problem(ps_variance_job_spectrum(asked.job))->tolerance;
+        const double e = 2 * asked.job->spectrum->problem.tolerance;
         error += 2 * e * sqrt(found->variance * found->white) + e * e * found->white;
         predicted[no_skip] = found->variance;
         test_variance_free(&asked);
