@@ -265,7 +265,7 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
         source->is_inside = true;
         PS_TRY(ps_source_more(source, set, FIRST_POINTS, &part->is_whole, error));
         *has_set = set->num_points > 0;
-        PS_TRY(add_columns(source, error));
+        PS_TRY(source->sets_of_file == 0 ? add_columns(source, error) : PSPEC_OK);
         if (!*has_set) {
             ps_points_close(source->reader);
             source->reader = NULL;
