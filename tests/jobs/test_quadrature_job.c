@@ -3,7 +3,6 @@
 #include "harness.h"
 
 #include "jobs/quadrature/quadrature_job.h"
-#include "jobs/quadrature/quadrature_private.h"
 #include "math/pi.h"
 #include "samplers/sampler.h"
 
@@ -36,11 +35,12 @@ static void ask(asked *job, const char *sampler, size_t num_points, uint64_t num
                                  .limits.constraints = {.engine = engine, .precision = -1}};
 }
 
-static ps_quadrature_result run(const ps_quadrature_question *question) {
-    ps_quadrature_result result;
-    assert_ok(ps_quadrature_run(&result, question, error));
-    assert_int_equal(result.max_degree, LAST);
-    return result;
+static ps_quadrature_job *run(const ps_quadrature_question *question) {
+    ps_quadrature_job *job = NULL;
+    assert_ok(ps_quadrature_job_create(&job, question, error));
+    assert_ok(ps_quadrature_job_run(job, error));
+    assert_int_equal(job->setup.max_degree, LAST);
+    return job;
 }
 
 static void same_bits(const ps_quadrature_result *a, const ps_quadrature_result *b) {
@@ -60,22 +60,24 @@ static void batches(void **state) {
     for (size_t i = 0; i < sizeof engines / sizeof engines[0]; i++) {
         asked job;
         ask(&job, "white-hemisphere:morph=diffuse", 24, 10, engines[i]);
-        ps_quadrature_result whole = run(&job.question);
-        assert_true(strstr(whole.engine, engines[i]) != NULL);
+        ps_quadrature_job *const whole = run(&job.question);
+        assert_true(strstr(ps_text_string(&whole->description), engines[i]) != NULL);
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
             job.question.batch = sizes[k];
-            ps_quadrature_result parts = run(&job.question);
-            same_bits(&whole, &parts);
-            ps_quadrature_free(&parts);
+            ps_quadrature_job *const parts = run(&job.question);
+            same_bits(&whole->result, &parts->result);
+            ps_quadrature_job_destroy(parts);
         }
-        ps_quadrature_free(&whole);
+        ps_quadrature_job_destroy(whole);
         ps_brdf_destroy(job.brdf);
     }
 }
 
 /* Sums over pairs against coefficients: |dC_l^2| <= (2l + 1) / (4 pi) tol (sum |w|)^2, and so do
  * d_l^2 and e_l^2 follow. */
-static void near(const ps_quadrature_result *a, const ps_quadrature_result *b, double tolerance) {
+static void near(const ps_quadrature_job *one, const ps_quadrature_job *other, double tolerance) {
+    const ps_quadrature_result *const a = &one->result;
+    const ps_quadrature_result *const b = &other->result;
     double e = 0;
     for (size_t l = 0; l <= LAST; l++) {
         const double factor = (2 * (double)l + 1) / PS_FOUR_PI;
@@ -83,7 +85,7 @@ static void near(const ps_quadrature_result *a, const ps_quadrature_result *b, d
         assert_true(fabs(a->degrees[l].d2.mean - b->degrees[l].d2.mean) <= factor * tolerance);
         e += fabs(a->degrees[l].e2.mean - b->degrees[l].e2.mean);
     }
-    assert_true(e <= tolerance * a->representer.constant);
+    assert_true(e <= tolerance * one->setup.representer.constant);
     assert_true(fabs(a->squared.mean - b->squared.mean) <= a->numerical_bound + b->numerical_bound);
 }
 
@@ -95,13 +97,13 @@ static void two_routes(void **state) {
     for (size_t i = 0; i < 2; i++) {
         asked job;
         ask(&job, samplers[i], 64, 1, "host_direct");
-        ps_quadrature_result coefficients = run(&job.question);
+        ps_quadrature_job *const coefficients = run(&job.question);
         job.question.limits.constraints.engine = "pairs_direct";
-        ps_quadrature_result pairs = run(&job.question);
-        assert_true(strstr(pairs.engine, "pairs_direct") != NULL);
-        near(&coefficients, &pairs, 1e-14);
-        ps_quadrature_free(&coefficients);
-        ps_quadrature_free(&pairs);
+        ps_quadrature_job *const pairs = run(&job.question);
+        assert_true(strstr(ps_text_string(&pairs->description), "pairs_direct") != NULL);
+        near(coefficients, pairs, 1e-14);
+        ps_quadrature_job_destroy(coefficients);
+        ps_quadrature_job_destroy(pairs);
         ps_brdf_destroy(job.brdf);
     }
 }
@@ -117,14 +119,14 @@ static void replanned(void **state) {
         asked job;
         ask(&job, "white-hemisphere:morph=glossy,n=5000", 64, 4, "sphere_nufft");
         job.question.accuracy.tolerance = tolerances[i];
-        ps_quadrature_result result = run(&job.question);
+        ps_quadrature_job *const result = run(&job.question);
         job.question.limits.constraints.engine = "host_direct";
-        ps_quadrature_result exact = run(&job.question);
-        near(&exact, &result, tolerances[i]);
-        assert_false(exact.was_replanned);
-        num_replanned += result.was_replanned ? 1 : 0;
-        ps_quadrature_free(&exact);
-        ps_quadrature_free(&result);
+        ps_quadrature_job *const exact = run(&job.question);
+        near(exact, result, tolerances[i]);
+        assert_false(exact->runner.was_replanned);
+        num_replanned += result->runner.was_replanned ? 1 : 0;
+        ps_quadrature_job_destroy(exact);
+        ps_quadrature_job_destroy(result);
         ps_brdf_destroy(job.brdf);
     }
     assert_true(num_replanned > 0);
@@ -173,31 +175,31 @@ static void stops(void **state) {
         ask(&job, "white-hemisphere:morph=diffuse", 16, 5000, "pairs_direct");
         job.question.weights.kind = weights[i];
         job.question.accuracy.standard_error = wanted;
-        ps_quadrature_result whole = run(&job.question);
-        const uint64_t num = whole.num_realizations;
+        ps_quadrature_job *const whole = run(&job.question);
+        const uint64_t num = whole->result.num_realizations;
         assert_true(num > PS_LEAST_REALIZATIONS && num < 1000);
         assert_int_equal(ps_sequential_next_look(num - 1), num);
-        assert_true(whole.has_look && whole.look.corrected <= wanted);
-        assert_true(whole.squared.standard_error <= wanted * whole.squared.mean);
-        const double least = job.question.accuracy.tolerance * whole.representer.constant *
-                             whole.weight_size * whole.weight_size;
+        assert_true(whole->result.has_look && whole->result.look.corrected <= wanted);
+        assert_true(whole->result.squared.standard_error <= wanted * whole->result.squared.mean);
+        const double least = job.question.accuracy.tolerance * whole->setup.representer.constant *
+                             whole->result.weight_size * whole->result.weight_size;
         for (size_t l = 0; l <= LAST; l++) {
-            const ps_mean e2 = whole.degrees[l].e2;
+            const ps_mean e2 = whole->result.degrees[l].e2;
             assert_true(e2.mean <= least || e2.standard_error <= wanted * e2.mean);
         }
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
             job.question.batch = sizes[k];
-            ps_quadrature_result parts = run(&job.question);
-            same_bits(&whole, &parts);
-            ps_quadrature_free(&parts);
+            ps_quadrature_job *const parts = run(&job.question);
+            same_bits(&whole->result, &parts->result);
+            ps_quadrature_job_destroy(parts);
         }
         job.question.accuracy.standard_error = 0;
         job.question.num_realizations = num;
-        ps_quadrature_result exactly = run(&job.question);
-        same_bits(&whole, &exactly);
-        assert_false(exactly.has_look);
-        ps_quadrature_free(&exactly);
-        ps_quadrature_free(&whole);
+        ps_quadrature_job *const exactly = run(&job.question);
+        same_bits(&whole->result, &exactly->result);
+        assert_false(exactly->result.has_look);
+        ps_quadrature_job_destroy(exactly);
+        ps_quadrature_job_destroy(whole);
         ps_brdf_destroy(job.brdf);
     }
 }
@@ -208,14 +210,15 @@ static void one_is_enough(void **state) {
     (void)state;
     ask(&job, "fibonacci-hemisphere:morph=diffuse", 24, 20, NULL);
     job.question.accuracy.standard_error = 0.01;
-    ps_quadrature_result once = run(&job.question);
-    assert_true(once.num_realizations == 1 && !once.has_look);
+    ps_quadrature_job *const once = run(&job.question);
+    assert_true(once->result.num_realizations == 1 && !once->result.has_look);
     job.question.accuracy.no_skip = true;
-    ps_quadrature_result all = run(&job.question);
-    assert_true(all.num_realizations == 20 && all.has_look && all.look.corrected < 1e-12);
-    assert_true(fabs(once.squared.mean - all.squared.mean) <= 1e-15);
-    ps_quadrature_free(&once);
-    ps_quadrature_free(&all);
+    ps_quadrature_job *const all = run(&job.question);
+    assert_true(all->result.num_realizations == 20 && all->result.has_look &&
+                all->result.look.corrected < 1e-12);
+    assert_true(fabs(once->result.squared.mean - all->result.squared.mean) <= 1e-15);
+    ps_quadrature_job_destroy(once);
+    ps_quadrature_job_destroy(all);
     ps_brdf_destroy(job.brdf);
 }
 

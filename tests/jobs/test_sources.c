@@ -5,6 +5,7 @@
 #include "harness.h"
 
 #include "jobs/quadrature/quadrature_job.h"
+#include "jobs/spectrum/power_job.h"
 #include "test_folder.h"
 
 #include <stdlib.h>
@@ -89,33 +90,39 @@ static void compare_power(const both_ways *ways, bool sums_pairs) {
 
 /* ---- quadrature ------------------------------------------------------------------------------ */
 
-static void run_quadrature(const both_ways *ways, bool from_file, ps_quadrature_result *out) {
+static ps_quadrature_job *run_quadrature(const ps_quadrature_question *question) {
+    ps_quadrature_job *job = NULL;
+    assert_ok(ps_quadrature_job_create(&job, question, error));
+    assert_ok(ps_quadrature_job_run(job, error));
+    return job;
+}
+
+static void compare_quadrature(const both_ways *ways) {
     ps_brdf *brdf = NULL;
     assert_ok(ps_brdf_parse(&brdf, "diffuse", error));
-    const ps_quadrature_question question = {
+    const ps_quadrature_question by_sampler = {
         .brdf = brdf,
         .smoothness = 1.5,
-        .sampler = from_file ? NULL : &ways->request,
-        .num_realizations = from_file ? 0 : ways->num_sets,
-        .paths = from_file ? ways->paths : NULL,
-        .num_paths = from_file ? 1 : 0,
+        .sampler = &ways->request,
+        .num_realizations = ways->num_sets,
         .point_options.domain = PS_DOMAIN_SPHERE,
         .max_degree = LAST,
         .accuracy.tolerance = ways->constraints.precision == PS_SINGLE ? 1e-4 : 1e-10,
         .limits.constraints = ways->constraints,
         .open_device = device};
-    assert_ok(ps_quadrature_run(out, &question, error));
+    ps_quadrature_question by_file = by_sampler;
+    by_file.sampler = NULL;
+    by_file.num_realizations = 0;
+    by_file.paths = ways->paths;
+    by_file.num_paths = 1;
+    ps_quadrature_job *const expected = run_quadrature(&by_sampler);
+    ps_quadrature_job *const found = run_quadrature(&by_file);
+    const ps_quadrature_degree *const degrees = found->result.degrees;
+    assert_memory_equal(degrees, expected->result.degrees, (LAST + 1) * sizeof *degrees);
+    assert_memory_equal(&found->result.squared, &expected->result.squared, sizeof(ps_mean));
+    ps_quadrature_job_destroy(expected);
+    ps_quadrature_job_destroy(found);
     ps_brdf_destroy(brdf);
-}
-
-static void compare_quadrature(const both_ways *ways) {
-    ps_quadrature_result expected, found;
-    run_quadrature(ways, false, &expected);
-    run_quadrature(ways, true, &found);
-    assert_memory_equal(found.degrees, expected.degrees, (LAST + 1) * sizeof *found.degrees);
-    assert_memory_equal(&found.squared, &expected.squared, sizeof found.squared);
-    ps_quadrature_free(&expected);
-    ps_quadrature_free(&found);
     num_compared++;
 }
 

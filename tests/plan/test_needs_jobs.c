@@ -174,32 +174,37 @@ static void statistics(void **state) {
 
 /* ---- quadrature ------------------------------------------------------------------------------ */
 
-static ps_quadrature_result run_rule(ps_quadrature_question *question, bool no_skip) {
-    ps_quadrature_result result;
+static ps_quadrature_job *run_rule(ps_quadrature_question *question, bool no_skip) {
+    ps_quadrature_job *job = NULL;
     question->accuracy.no_skip = no_skip;
-    assert_ok(ps_quadrature_run(&result, question, error));
-    return result;
+    assert_ok(ps_quadrature_job_create(&job, question, error));
+    assert_ok(ps_quadrature_job_run(job, error));
+    return job;
 }
 
 /* E^2 is the kernel form in both; e_l^2 are compared in units of c, as the tolerance is meant, and
  * what the degrees that were left out are together is within it. */
-static void compare_rules(const ps_quadrature_result *lean, const ps_quadrature_result *full,
+static void compare_rules(const ps_quadrature_job *lean_job, const ps_quadrature_job *full_job,
                           double tolerance) {
+    const ps_quadrature_result *const lean = &lean_job->result;
+    const ps_quadrature_result *const full = &full_job->result;
+    const size_t last = lean_job->setup.max_degree;
+    const size_t all = full_job->setup.max_degree;
     const double most =
-        tolerance * lean->representer.constant * full->weight_size * full->weight_size;
+        tolerance * lean_job->setup.representer.constant * full->weight_size * full->weight_size;
     double differ = 0;
     double beyond = 0;
-    assert_true(lean->max_degree <= full->max_degree);
-    for (size_t l = 0; l <= full->max_degree; l++) {
+    assert_true(last <= all);
+    for (size_t l = 0; l <= all; l++) {
         const ps_mean e2 = full->degrees[l].e2;
-        if (l <= lean->max_degree) {
+        if (l <= last) {
             differ += fabs(lean->degrees[l].e2.mean - e2.mean);
         } else {
             beyond += e2.mean;
         }
     }
     assert_true(differ <= 2 * most);
-    assert_true(beyond <= most * (1 + tolerance) || lean->max_degree == full->max_degree);
+    assert_true(beyond <= most * (1 + tolerance) || last == all);
     assert_true(fabs(lean->squared.mean - full->squared.mean) <=
                 lean->numerical_bound + full->numerical_bound);
 }
@@ -232,14 +237,14 @@ static void quadrature(void **state) {
             .accuracy.tolerance = i % 2 == 0 ? 1e-2 : pick_tolerance(&random, i, 1e-10, 1e-2),
             .open_device = device,
             .limits.constraints = {.engine = pick_engine(i, "sphere_direct"), .precision = -1}};
-        ps_quadrature_result lean = run_rule(&question, false);
-        ps_quadrature_result full = run_rule(&question, true);
-        compare_rules(&lean, &full, question.accuracy.tolerance);
-        assert_int_equal(full.num_realizations, question.num_realizations);
-        fewer_degrees += lean.max_degree < full.max_degree;
-        fewer_sets += lean.num_realizations < full.num_realizations;
-        ps_quadrature_free(&lean);
-        ps_quadrature_free(&full);
+        ps_quadrature_job *const lean = run_rule(&question, false);
+        ps_quadrature_job *const full = run_rule(&question, true);
+        compare_rules(lean, full, question.accuracy.tolerance);
+        assert_int_equal(full->result.num_realizations, question.num_realizations);
+        fewer_degrees += lean->setup.max_degree < full->setup.max_degree;
+        fewer_sets += lean->result.num_realizations < full->result.num_realizations;
+        ps_quadrature_job_destroy(lean);
+        ps_quadrature_job_destroy(full);
         ps_brdf_destroy(brdf);
     }
     ps_device_close(device);

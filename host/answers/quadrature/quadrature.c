@@ -12,8 +12,8 @@
 /* One rule, or one mean over realizations, for each question. */
 typedef struct rules {
     ps_quadrature_list list;
-    ps_device *device; /* of all of them, where they share one that was opened for them */
-    ps_quadrature_result *results; /* [list.num] */
+    ps_device *device;        /* of all of them, where they share one that was opened for them */
+    ps_quadrature_job **jobs; /* [list.num] */
 } rules;
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
@@ -26,10 +26,10 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
 /* ---- plan ---------------------------------------------------------------------------------- */
 
 static pspec_status add_plan(ps_planner *planner, const ps_request *request,
-                             const ps_quadrature_question *question,
-                             const ps_quadrature_setup *setup, size_t index, ps_error *error) {
+                             const ps_quadrature_job *job, size_t index, ps_error *error) {
+    const ps_quadrature_setup *const setup = &job->setup;
     ps_phases phases = ps_plan_table_begin_phases(planner);
-    const double repeats = ps_quadrature_phases(setup, question, &phases);
+    const double repeats = ps_quadrature_job_phases(job, &phases);
     ps_meta notes[2];
     ps_planned planned = {.problem = &setup->problem,
                           .needs = &setup->needs,
@@ -50,16 +50,17 @@ static pspec_status add_plan(ps_planner *planner, const ps_request *request,
 
 static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_quadrature_question *question, size_t index, ps_error *error) {
-    ps_quadrature_setup setup = {0};
+    ps_quadrature_job *job = NULL;
     question->open_device = planner->device;
     ps_plan_table_begin_question(planner, request, index);
     PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
                                    &question->may_lack_device, error));
-    pspec_status status = ps_quadrature_setup_ask(&setup, question, error);
+    PS_TRY(ps_quadrature_job_create(&job, question, error));
+    pspec_status status = ps_quadrature_job_rate(job, error);
     if (status == PSPEC_OK) {
-        status = add_plan(planner, request, question, &setup, index, error);
+        status = add_plan(planner, request, job, index, error);
     }
-    ps_quadrature_setup_free(&setup);
+    ps_quadrature_job_destroy(job);
     return status;
 }
 
@@ -87,19 +88,22 @@ static void warn_of_standard_error(const ps_quadrature_result *result, double st
     }
 }
 
-static pspec_status run_one(ps_quadrature_result *result, ps_quadrature_question *question,
+static pspec_status run_one(ps_quadrature_job **job, ps_quadrature_question *question,
                             const ps_answer_hooks *hooks, ps_error *error) {
     question->watch = hooks->watch;
     if (hooks->device != NULL) {
         question->open_device = hooks->device;
     }
-    question->tell_plan = hooks->tell_plan;
-    question->tell_profile = hooks->tell_profile;
-    question->tell_trouble = hooks->warn;
-    question->payload = hooks->payload;
     ps_answer_begin_next(hooks);
-    PS_TRY(ps_quadrature_run(result, question, error));
-    warn_of_standard_error(result, question->accuracy.standard_error, hooks);
+    PS_TRY(ps_quadrature_job_create(job, question, error));
+    if (hooks->tell_plan != NULL) {
+        hooks->tell_plan(hooks->payload, &(*job)->setup.plan);
+    }
+    PS_TRY(ps_quadrature_job_run(*job, error));
+    ps_answer_tell_profile(hooks, (*job)->setup.device);
+    ps_answer_warn_of(hooks, ps_source_trouble((*job)->rules.sets.source));
+    warn_of_standard_error(&(*job)->result, question->accuracy.standard_error, hooks);
+    ps_quadrature_job_release(*job);
     return PSPEC_OK;
 }
 
@@ -109,12 +113,12 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     rules *const work = *out;
     ps_quadrature_list *const list = &work->list;
     PS_TRY(ps_quadrature_list_make(list, request, error));
-    PS_TRY(PS_NEW(&work->results, list->num, "results", error));
+    PS_TRY(PS_NEW(&work->jobs, list->num, "jobs", error));
     PS_TRY(ps_answer_open_device(&work->device, request, &list->questions[0].limits.constraints,
                                  list->num, hooks, error));
     for (size_t i = 0; i < list->num; i++) {
         list->questions[i].open_device = work->device;
-        PS_TRY(run_one(&work->results[i], &list->questions[i], hooks, error));
+        PS_TRY(run_one(&work->jobs[i], &list->questions[i], hooks, error));
     }
     return PSPEC_OK;
 }
@@ -130,9 +134,9 @@ static pspec_status add_weights(ps_table *table, const ps_quadrature_result *res
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const rules *const work = computed;
-    PS_TRY(ps_quadrature_table(&out->table, request, &work->list, work->results, error));
+    PS_TRY(ps_quadrature_table(&out->table, request, work->jobs, work->list.num, error));
     return request->wants_array || request->weights_out != NULL
-               ? add_weights(out->table, &work->results[0], error)
+               ? add_weights(out->table, &work->jobs[0]->result, error)
                : PSPEC_OK;
 }
 
@@ -146,10 +150,10 @@ static void discard(void *computed) {
     if (work == NULL) {
         return;
     }
-    for (size_t i = 0; work->results != NULL && i < work->list.num; i++) {
-        ps_quadrature_free(&work->results[i]);
+    for (size_t i = 0; work->jobs != NULL && i < work->list.num; i++) {
+        ps_quadrature_job_destroy(work->jobs[i]);
     }
-    free(work->results);
+    free(work->jobs);
     ps_quadrature_list_free(&work->list);
     ps_device_close(work->device);
     free(work);

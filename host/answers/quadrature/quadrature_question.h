@@ -2,7 +2,7 @@
 #ifndef PS_ANSWERS_QUADRATURE_QUADRATURE_QUESTION_H
 #define PS_ANSWERS_QUADRATURE_QUADRATURE_QUESTION_H
 
-#include "jobs/quadrature/quadrature_setup.h"
+#include "jobs/quadrature/quadrature_job.h"
 #include "request/file_list.h"
 
 /* One question for each sampler or set and number of points, or one for the files, as the request

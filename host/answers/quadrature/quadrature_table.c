@@ -31,8 +31,7 @@ static const char *name_weights(const ps_quadrature_question *question) {
 
 /* What all jobs have in common. */
 static pspec_status add_question(ps_table *table, const ps_request *arguments,
-                                 const ps_quadrature_list *list, ps_error *error) {
-    const ps_quadrature_question *const question = &list->questions[0];
+                                 const ps_quadrature_question *question, ps_error *error) {
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
@@ -45,7 +44,7 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
         {"smoothness", PS_NUMBER(arguments->smoothness)},
     };
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
-    return add_remark(table, "note", ps_brdf_note(list->brdf), error);
+    return add_remark(table, "note", ps_brdf_note(question->brdf), error);
 }
 
 /* As other commands say it. */
@@ -57,31 +56,42 @@ static pspec_status add_files(ps_table *table, const ps_quadrature_question *que
     return ps_header_add_lift(table, &question->point_options, error);
 }
 
-static pspec_status add_facts(ps_table *table, const ps_quadrature_question *question,
-                              const ps_quadrature_result *result, bool with_range,
-                              ps_error *error) {
-    const ps_points_range range = {result->mean_points, result->smallest_points,
-                                   result->largest_points};
-    if (question->sampler == NULL) {
-        PS_TRY(add_files(table, question, result, error));
+static pspec_status add_skipped(ps_table *table, const ps_needs *needs, ps_error *error) {
+    ps_text text = {0};
+    ps_needs_describe(needs, &text);
+    pspec_status status = ps_text_check(&text, error);
+    if (status == PSPEC_OK) {
+        status = ps_table_add_meta(table, "skipped", PS_TEXT(ps_text_string(&text)), error);
     }
+    ps_text_free(&text);
+    return status;
+}
+
+static pspec_status add_facts(ps_table *table, const ps_quadrature_job *job, bool with_range,
+                              ps_error *error) {
+    const ps_quadrature_setup *const setup = &job->setup;
+    const ps_quadrature_result *const result = &job->result;
+    const ps_rule_facts *const facts = &result->facts;
+    const ps_points_range range = {(double)facts->num_points / (double)result->num_realizations,
+                                   facts->smallest_points, facts->largest_points};
+    const ps_device_limits *const limits = ps_device_get_limits(setup->device);
     const ps_meta entries[] = {
-        {"device", PS_TEXT(result->device)},
-        {"engine", PS_TEXT(result->engine)},
-        {"precision", PS_TEXT(result->precision)},
+        {"device", PS_TEXT(limits != NULL ? limits->name : "none")},
+        {"engine", PS_TEXT(ps_text_string(&job->description))},
+        {"precision", PS_TEXT(ps_precision_name(setup->plan.chosen->precision))},
         {"realizations", PS_INTEGER(result->num_realizations)},
     };
-    const ps_meta more[] = {
-        {"max_degree", PS_INTEGER(result->max_degree)},
-        {"skipped", PS_TEXT(result->skipped)},
-    };
+    if (job->question->sampler == NULL) {
+        PS_TRY(add_files(table, job->question, result, error));
+    }
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     PS_TRY(ps_header_add_points(table, &range, with_range, error));
-    PS_TRY(ps_table_add_metas(table, more, sizeof more / sizeof more[0], error));
-    PS_TRY(add_remark(table, "degrees", result->degrees_note, error));
-    return result->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
-                                                       PS_INTEGER(result->num_dropped), error)
-                                   : PSPEC_OK;
+    PS_TRY(ps_table_add_meta(table, "max_degree", PS_INTEGER(setup->max_degree), error));
+    PS_TRY(add_skipped(table, &setup->needs, error));
+    PS_TRY(add_remark(table, "degrees", setup->degrees_note, error));
+    return facts->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
+                                                      PS_INTEGER(facts->num_dropped), error)
+                                  : PSPEC_OK;
 }
 
 /* As other commands say it. */
@@ -130,30 +140,35 @@ static pspec_status add_answer(ps_table *table, const ps_quadrature_result *resu
 }
 
 /* Optimal weights have a condition number and a residual. */
-static pspec_status add_condition(ps_table *table, const ps_quadrature_result *result,
-                                  ps_error *error) {
+static pspec_status add_condition(ps_table *table, const ps_rule_facts *facts, ps_error *error) {
+    char by[128] = "Cholesky";
     char warning[160];
-    if (isnan(result->largest_condition)) {
+    if (facts->largest_condition == 0) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_table_add_meta(table, "weights_by", PS_TEXT(result->weights_by), error));
-    PS_TRY(ps_table_add_meta(table, "condition", PS_NUMBER(result->largest_condition), error));
-    PS_TRY(ps_table_add_meta(table, "duplicates", PS_INTEGER(result->num_duplicates), error));
+    if (facts->most_steps > 0) {
+        snprintf(by, sizeof by, "%sconjugate gradients, %zu steps to a residual of %.2g, at most",
+                 facts->has_matrices ? "Cholesky, and " : "", facts->most_steps,
+                 facts->largest_residual);
+    }
+    PS_TRY(ps_table_add_meta(table, "weights_by", PS_TEXT(by), error));
+    PS_TRY(ps_table_add_meta(table, "condition", PS_NUMBER(facts->largest_condition), error));
+    PS_TRY(ps_table_add_meta(table, "duplicates", PS_INTEGER(facts->num_duplicates), error));
     snprintf(warning, sizeof warning,
              "the condition number is %s%.2g: points lie so near each other that the weights have "
              "fewer than four digits",
-             result->has_matrices ? "" : "at least ", result->largest_condition);
-    return add_remark(table, "warning", result->is_ill_conditioned ? warning : NULL, error);
+             facts->has_matrices ? "" : "at least ", facts->largest_condition);
+    return add_remark(table, "warning", facts->is_ill_conditioned ? warning : NULL, error);
 }
 
 static const char *const columns[] = {"degree",   "b", "d2", "d2_error", "c2",
                                       "c2_error", "a", "e2", "e2_error"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
-static pspec_status add_degrees(ps_table *table, const ps_lead *lead,
-                                const ps_quadrature_result *result, ps_error *error) {
-    for (size_t l = 0; l <= result->max_degree; l++) {
-        const ps_quadrature_degree *const degree = &result->degrees[l];
+static pspec_status add_degrees(ps_table *table, const ps_lead *lead, const ps_quadrature_job *job,
+                                ps_error *error) {
+    for (size_t l = 0; l <= job->setup.max_degree; l++) {
+        const ps_quadrature_degree *const degree = &job->result.degrees[l];
         const ps_cell cells[NUM_COLUMNS] = {
             PS_INTEGER(l),
             PS_NUMBER(degree->b),
@@ -170,40 +185,35 @@ static pspec_status add_degrees(ps_table *table, const ps_lead *lead,
     return PSPEC_OK;
 }
 
-static bool have_ranges(const ps_quadrature_result *results, size_t num) {
+static bool have_ranges(ps_quadrature_job *const *jobs, size_t num) {
     size_t i = 0;
-    while (i < num && results[i].smallest_points == results[i].largest_points) {
+    while (i < num &&
+           jobs[i]->result.facts.smallest_points == jobs[i]->result.facts.largest_points) {
         i++;
     }
     return i < num;
 }
 
 static pspec_status fill(ps_table *table, const ps_request *arguments,
-                         const ps_quadrature_list *list, const ps_quadrature_result *results,
-                         ps_error *error) {
-    const bool with_range = have_ranges(results, list->num);
-    PS_TRY(add_question(table, arguments, list, error));
-    for (size_t i = 0; i < list->num; i++) {
+                         ps_quadrature_job *const *jobs, size_t num, ps_error *error) {
+    const bool with_range = have_ranges(jobs, num);
+    PS_TRY(add_question(table, arguments, jobs[0]->question, error));
+    for (size_t i = 0; i < num; i++) {
         const ps_lead lead = ps_lead_make(arguments, i);
+        const ps_quadrature_result *const result = &jobs[i]->result;
         PS_TRY(ps_lead_add_source(table, arguments, i, error));
-        PS_TRY(add_facts(table, &list->questions[i], &results[i], with_range, error));
-        PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
-        PS_TRY(add_answer(table, &results[i], error));
-        PS_TRY(add_condition(table, &results[i], error));
-        PS_TRY(add_degrees(table, &lead, &results[i], error));
+        PS_TRY(add_facts(table, jobs[i], with_range, error));
+        PS_TRY(add_look(table, arguments->accuracy.standard_error, result, error));
+        PS_TRY(add_answer(table, result, error));
+        PS_TRY(add_condition(table, &result->facts, error));
+        PS_TRY(add_degrees(table, &lead, jobs[i], error));
     }
     return PSPEC_OK;
 }
 
 pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
-                                 const ps_quadrature_list *list,
-                                 const ps_quadrature_result *results, ps_error *error) {
+                                 ps_quadrature_job *const *jobs, size_t num, ps_error *error) {
     const ps_lead first = ps_lead_make(arguments, 0);
     PS_TRY(ps_lead_create_table(out, "quadrature", &first, columns, NUM_COLUMNS, error));
-    const pspec_status status = fill(*out, arguments, list, results, error);
-    if (status != PSPEC_OK) {
-        ps_table_destroy(*out);
-        *out = NULL;
-    }
-    return status;
+    return fill(*out, arguments, jobs, num, error);
 }

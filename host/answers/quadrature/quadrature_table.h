@@ -5,10 +5,9 @@
 #include "answers/quadrature/quadrature_question.h"
 #include "tables/table.h"
 
-/* results[list->num] */
+/* jobs[num] */
 pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
-                                 const ps_quadrature_list *list,
-                                 const ps_quadrature_result *results,
+                                 ps_quadrature_job *const *jobs, size_t num,
                                  ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,5 +1,5 @@
 /* The result of a quadrature job, and looks at what is there before. */
-#include "jobs/quadrature/quadrature_private.h"
+#include "jobs/quadrature/quadrature_job.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@ static ps_mean finish(const ps_sums *sums, uint64_t num) {
 }
 
 static void collect_means(ps_quadrature_job *job) {
-    ps_quadrature_result *const out = job->out;
+    ps_quadrature_result *const out = &job->result;
     const uint64_t num = out->num_realizations;
     for (size_t l = 0; l <= job->setup.max_degree; l++) {
         const ps_sums *const sums = &job->sums[PS_RULE_SUMS * l];
@@ -27,60 +27,10 @@ static void collect_means(ps_quadrature_job *job) {
     out->weight_sum = finish(&job->of_rules.weight_sum, num);
 }
 
-/* How optimal weights were made. */
-static void name_weights(const ps_rule_facts *facts, char *text, size_t size) {
-    if (facts->most_steps == 0) {
-        snprintf(text, size, "Cholesky");
-        return;
-    }
-    snprintf(text, size, "%sconjugate gradients, %zu steps to a residual of %.2g, at most",
-             facts->has_matrices ? "Cholesky, and " : "", facts->most_steps,
-             facts->largest_residual);
-}
-
-static void collect_facts(ps_quadrature_job *job) {
-    ps_quadrature_result *const out = job->out;
-    const ps_rule_facts *const facts = &job->rules.facts;
-    out->mean_points = (double)facts->num_points / (double)out->num_realizations;
-    out->smallest_points = facts->smallest_points;
-    out->largest_points = facts->largest_points;
-    out->num_dropped = facts->num_dropped;
-    out->num_duplicates = facts->num_duplicates;
-    out->is_ill_conditioned = facts->is_ill_conditioned;
-    out->has_matrices = facts->has_matrices;
-    out->largest_condition = facts->largest_condition > 0 ? facts->largest_condition : (double)NAN;
-    name_weights(facts, out->weights_by, sizeof out->weights_by);
-}
-
-/* What the header says of the setup and of the engine. */
-static pspec_status describe(ps_quadrature_job *job, ps_error *error) {
-    ps_quadrature_result *const out = job->out;
-    const ps_quadrature_setup *const setup = &job->setup;
-    ps_text skips = {0};
-    ps_text engine = {0};
-    out->max_degree = setup->max_degree;
-    out->was_replanned = job->runner.was_replanned;
-    out->precision = ps_precision_name(setup->plan.chosen->precision);
-    snprintf(out->device, sizeof out->device, "%s",
-             setup->device != NULL ? ps_device_get_limits(setup->device)->name : "none");
-    snprintf(out->degrees_note, sizeof out->degrees_note, "%s", setup->degrees_note);
-    ps_needs_describe(&setup->needs, &skips);
-    ps_estimator_describe(job->runner.estimator, &engine);
-    snprintf(out->skipped, sizeof out->skipped, "%s", ps_text_string(&skips));
-    snprintf(out->engine, sizeof out->engine, "%s", ps_text_string(&engine));
-    pspec_status status = ps_text_check(&skips, error);
-    if (status == PSPEC_OK) {
-        status = ps_text_check(&engine, error);
-    }
-    ps_text_free(&skips);
-    ps_text_free(&engine);
-    return status;
-}
-
 /* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than
  * rounding. */
 static pspec_status check_forms(const ps_quadrature_job *job, ps_error *error) {
-    const ps_quadrature_result *const result = job->out;
+    const ps_quadrature_result *const result = &job->result;
     const double slack = result->numerical_bound + job->question->accuracy.tolerance *
                                                        job->setup.representer.constant *
                                                        result->weight_size * result->weight_size;
@@ -91,13 +41,14 @@ static pspec_status check_forms(const ps_quadrature_job *job, ps_error *error) {
                    "E^2 is %.17g by the kernel and %.17g to degree %zu by the spectrum: the rest, "
                    "%.3g, is outside 0 .. %.3g",
                    result->squared.mean, result->zonal.mean + result->anisotropic.mean,
-                   result->max_degree, result->tail.mean, result->tail_bound);
+                   job->setup.max_degree, result->tail.mean, result->tail_bound);
 }
 
 pspec_status ps_quadrature_collect(ps_quadrature_job *job, ps_error *error) {
     collect_means(job);
-    collect_facts(job);
-    PS_TRY(describe(job, error));
+    job->result.facts = job->rules.facts;
+    ps_estimator_describe(job->runner.estimator, &job->description);
+    PS_TRY(ps_text_check(&job->description, error));
     return check_forms(job, error);
 }
 

@@ -1,8 +1,8 @@
 #include "jobs/quadrature/quadrature_job.h"
 
 #include "base/memory.h"
-#include "jobs/quadrature/quadrature_private.h"
 #include "math/pi.h"
+#include "rules/distance_split.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void add_degrees(ps_quadrature_job *job) {
 /* The next rule of the batch, whose spectrum is c_l0 and c2. */
 static pspec_status take_rule(ps_quadrature_job *job, const double *c_l0, const double *c2,
                               ps_error *error) {
-    ps_quadrature_result *const out = job->out;
+    ps_quadrature_result *const out = &job->result;
     ps_rule_sums *const sums = &job->of_rules;
     const ps_weighted_rule *const rule = &job->rules.batch[job->num_told++];
     ps_spectral_error spectral;
@@ -74,7 +74,7 @@ static pspec_status sum_coefficients(ps_quadrature_job *job, const pspec_pattern
 
 static pspec_status tell(void *payload, ps_error *error) {
     const ps_quadrature_job *const job = payload;
-    return ps_watch_tell(&job->question->watch, "realizations", job->out->num_realizations,
+    return ps_watch_tell(&job->question->watch, "realizations", job->result.num_realizations,
                          job->setup.num_realizations, NULL, error);
 }
 
@@ -82,18 +82,10 @@ static bool should_stop(void *payload) {
     return tell(payload, NULL) != PSPEC_OK;
 }
 
-static void tell_plan(const ps_quadrature_job *job) {
-    if (job->question->tell_plan != NULL) {
-        job->question->tell_plan(job->question->payload, &job->setup.plan);
-    }
-}
-
 static pspec_status plan_again(void *payload, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    PS_TRY(ps_quadrature_setup_plan_again(&job->setup, job->question, ps_runner_held(&job->runner),
-                                          error));
-    tell_plan(job);
-    return PSPEC_OK;
+    return ps_quadrature_setup_plan_again(&job->setup, job->question, ps_runner_held(&job->runner),
+                                          error);
 }
 
 static ps_estimator_options choose_options(void *payload) {
@@ -120,9 +112,9 @@ static size_t choose_batch(const ps_quadrature_job *job) {
 /* Nothing is averaged yet. */
 static pspec_status begin(void *payload, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    ps_quadrature_degree *const degrees = job->out->degrees;
-    free(job->out->weights);
-    *job->out = (ps_quadrature_result){.degrees = degrees, .largest_condition = NAN};
+    ps_quadrature_degree *const degrees = job->result.degrees;
+    free(job->result.weights);
+    job->result = (ps_quadrature_result){.degrees = degrees};
     job->of_rules = (ps_rule_sums){0};
     memset(job->sums, 0, PS_RULE_SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
     return ps_rules_allocate(&job->rules, choose_batch(job), error);
@@ -132,11 +124,12 @@ static pspec_status sum_batch(ps_quadrature_job *job, ps_error *error) {
     job->num_told = 0;
     if (job->setup.by_pairs) {
         job->error = error;
-        PS_TRY(ps_estimator_add(job->runner.estimator, job->rules.patterns, job->rules.num, error));
+        PS_TRY(ps_estimator_add(job->runner.estimator, job->rules.sets.patterns, job->rules.num,
+                                error));
         return job->told_status;
     }
     for (size_t r = 0; r < job->rules.num; r++) {
-        PS_TRY(sum_coefficients(job, &job->rules.patterns[r], error));
+        PS_TRY(sum_coefficients(job, &job->rules.sets.patterns[r], error));
     }
     return PSPEC_OK;
 }
@@ -148,10 +141,10 @@ static pspec_status keep_weights(ps_quadrature_job *job, ps_error *error) {
     if (!job->question->keeps_weights) {
         return PSPEC_OK;
     }
-    PS_TRY(PS_NEW(&job->out->weights, rules->num_given, "weights", error));
-    job->out->num_weights = rules->num_given;
-    for (size_t j = 0; j < rule->set.num_points; j++) {
-        job->out->weights[rules->places[j]] = rule->weights[j];
+    PS_TRY(PS_NEW(&job->result.weights, rules->num_given, "weights", error));
+    job->result.num_weights = rules->num_given;
+    for (size_t j = 0; j < rules->sets.sets[0].num_points; j++) {
+        job->result.weights[rules->places[j]] = rule->weights[j];
     }
     return PSPEC_OK;
 }
@@ -167,7 +160,7 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
 /* e_l^2 matters where it is above the tolerance, and so does E^2. */
 static pspec_status look_at_errors(void *payload, double *largest, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    ps_quadrature_result *const out = job->out;
+    ps_quadrature_result *const out = &job->result;
     const ps_quadrature_sums sums = {job->setup.max_degree + 1, job->sums + PS_RULE_E2,
                                      PS_RULE_SUMS, &job->of_rules.squared};
     const double unit = job->setup.representer.constant * out->weight_size * out->weight_size;
@@ -181,8 +174,9 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
 
 static pspec_status rewind_rules(void *payload, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    PS_TRY(ps_source_check_rewind(
-        job->rules.source, "these rules have larger coefficients than was planned for", error));
+    PS_TRY(ps_source_check_rewind(job->rules.sets.source,
+                                  "these rules have larger coefficients than was planned for",
+                                  error));
     return ps_rules_rewind(&job->rules, error);
 }
 
@@ -196,23 +190,6 @@ static const ps_runner_kind kind = {.plan = plan_again,
 
 /* ---- all of it ---------------------------------------------------------------------------- */
 
-static void tell_profile(const ps_quadrature_job *job) {
-    const ps_quadrature_question *const question = job->question;
-    if (question->tell_profile != NULL && job->setup.device != NULL) {
-        size_t num = 0;
-        const ps_profile_row *const rows = ps_device_profile(job->setup.device, &num);
-        question->tell_profile(question->payload, rows, num);
-    }
-}
-
-static void tell_trouble(const ps_quadrature_job *job) {
-    const ps_quadrature_question *const question = job->question;
-    const char *const trouble = ps_source_trouble(job->rules.source);
-    if (question->tell_trouble != NULL && trouble[0] != '\0') {
-        question->tell_trouble(question->payload, trouble);
-    }
-}
-
 static pspec_status allocate(ps_quadrature_job *job, ps_error *error) {
     enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
     const size_t num = job->setup.max_degree + 1;
@@ -225,66 +202,89 @@ static pspec_status allocate(ps_quadrature_job *job, ps_error *error) {
     job->c2 = job->c_l0 + num;
     job->sums = (ps_sums *)(void *)(job->c2 + num);
     PS_TRY(PS_NEW(&job->degrees, num, "degrees", error));
-    return PS_NEW(&job->out->degrees, num, "degrees", error);
+    return PS_NEW(&job->result.degrees, num, "degrees", error);
 }
 
 static pspec_status prepare(ps_quadrature_job *job, ps_error *error) {
     const ps_quadrature_question *const question = job->question;
-    ps_quadrature_setup *const setup = &job->setup;
-    PS_TRY(ps_quadrature_setup_begin(setup, question, error));
+    PS_TRY(ps_quadrature_setup_begin(&job->setup, question, error));
     PS_TRY(ps_rules_open(&job->rules, &job->shape, error));
-    PS_TRY(ps_quadrature_setup_make(setup, question, &job->shape, error));
-    if (question->keeps_weights && job->shape.num_sets != 1) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "the weights of one rule are to be kept, but there are several sets");
+    return ps_quadrature_setup_make(&job->setup, question, &job->shape, error);
+}
+
+pspec_status ps_quadrature_job_create(ps_quadrature_job **out,
+                                      const ps_quadrature_question *question, ps_error *error) {
+    ps_quadrature_job *job = NULL;
+    *out = NULL;
+    PS_TRY(PS_NEW(&job, 1, "a job", error));
+    job->question = question;
+    job->rules.question = question;
+    const pspec_status status = prepare(job, error);
+    if (status != PSPEC_OK) {
+        ps_quadrature_job_destroy(job);
+        return status;
     }
-    tell_plan(job);
-    PS_TRY(ps_plan_require(&setup->plan, &setup->problem, error));
-    job->rules.most = setup->needs.one_realization ? 1 : UINT64_MAX;
-    job->rules.device = setup->device;
-    return allocate(job, error);
+    *out = job;
+    return PSPEC_OK;
+}
+
+/* Points that lie together leave more pairs than those of samplers: where they are known they are
+ * counted. */
+static pspec_status count_distances(ps_quadrature_job *job, ps_error *error) {
+    const ps_point_set *const set = &job->rules.sets.next;
+    if (!job->rules.sets.has_next || set->dimension != PS_SPHERE_DIMENSION) {
+        return PSPEC_OK;
+    }
+    const ps_rule rule = {.num_points = set->num_points, .points = set->points};
+    return ps_distance_count_of(&rule, &job->setup.num_distances, error);
+}
+
+pspec_status ps_quadrature_job_rate(ps_quadrature_job *job, ps_error *error) {
+    PS_TRY(count_distances(job, error));
+    return ps_quadrature_setup_rate(&job->setup, job->question, error);
 }
 
 /* Errors of coefficients do not depend on powers: it is sums of squares that are off by more where
  * powers are larger than was expected. */
-static pspec_status run(ps_quadrature_job *job, ps_error *error) {
-    PS_TRY(prepare(job, error));
+pspec_status ps_quadrature_job_run(ps_quadrature_job *job, ps_error *error) {
+    ps_quadrature_setup *const setup = &job->setup;
+    if (job->question->keeps_weights && job->shape.num_sets != 1) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "the weights of one rule are to be kept, but there are several sets");
+    }
+    PS_TRY(ps_plan_require(&setup->plan, &setup->problem, error));
+    job->rules.most = setup->needs.one_realization ? 1 : UINT64_MAX;
+    job->rules.device = setup->device;
+    PS_TRY(allocate(job, error));
     job->runner = (ps_runner){.kind = &kind,
                               .job = job,
-                              .problem = &job->setup.problem,
-                              .plan = &job->setup.plan,
-                              .device = job->setup.device,
+                              .problem = &setup->problem,
+                              .plan = &setup->plan,
+                              .device = setup->device,
                               .standard_error = job->question->accuracy.standard_error,
-                              .is_sequential = job->setup.needs.sequential,
-                              .has_no_accuracy = !job->setup.by_pairs};
+                              .is_sequential = setup->needs.sequential,
+                              .has_no_accuracy = !setup->by_pairs};
     PS_TRY(ps_runner_run(&job->runner, error));
-    tell_profile(job);
-    tell_trouble(job);
     return ps_quadrature_collect(job, error);
 }
 
-static void release(ps_quadrature_job *job) {
+void ps_quadrature_job_release(ps_quadrature_job *job) {
     ps_runner_free(&job->runner);
     ps_rules_free(&job->rules);
     free(job->block);
     free(job->degrees);
-    job->out->representer = job->setup.representer; /* it is the result's from here on */
-    job->setup.representer = (ps_representer){0};
+    job->block = NULL;
+    job->degrees = NULL;
+}
+
+void ps_quadrature_job_destroy(ps_quadrature_job *job) {
+    if (job == NULL) {
+        return;
+    }
+    ps_quadrature_job_release(job);
+    ps_text_free(&job->description);
+    free(job->result.degrees);
+    free(job->result.weights);
     ps_quadrature_setup_free(&job->setup);
-}
-
-pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_question *question,
-                               ps_error *error) {
-    *out = (ps_quadrature_result){0};
-    ps_quadrature_job job = {.question = question, .out = out, .rules = {.question = question}};
-    const pspec_status status = run(&job, error);
-    release(&job);
-    return status;
-}
-
-void ps_quadrature_free(ps_quadrature_result *result) {
-    free(result->degrees);
-    free(result->weights);
-    ps_representer_destroy(&result->representer);
-    *result = (ps_quadrature_result){0};
+    free(job);
 }

@@ -93,18 +93,18 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
                   sets * distances, (double)ps_distance_bytes(setup->problem.num_points));
 }
 
-double ps_quadrature_phases(const ps_quadrature_setup *setup,
-                            const ps_quadrature_question *question, ps_phases *phases) {
+double ps_quadrature_job_phases(const ps_quadrature_job *job, ps_phases *phases) {
+    const ps_quadrature_setup *const setup = &job->setup;
     const ps_candidate *const chosen = setup->plan.chosen;
     const ps_device_limits *const limits = ps_device_get_limits(setup->device);
     ps_phases_start(phases, chosen, limits);
     /* coefficients come by another build of the engine's last kernel */
     ps_phases_load_kernels(phases, chosen != NULL && !setup->by_pairs ? 1 : 0);
     ps_phases_lobe(phases, &setup->representer);
-    const double sets = add_points(setup, question, phases);
+    const double sets = add_points(setup, job->question, phases);
     const double planned = (double)setup->problem.num_realizations;
     const double repeats = planned > 0 ? 1 : sets;
-    add_rules(setup, question, sets, phases);
+    add_rules(setup, job->question, sets, phases);
     if (chosen != NULL) {
         const double points = (double)setup->problem.num_points;
         const ps_phases_load load = {.seconds = chosen->seconds * repeats,

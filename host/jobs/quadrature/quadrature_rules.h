@@ -4,10 +4,11 @@
 #define PS_JOBS_QUADRATURE_QUADRATURE_RULES_H
 
 #include "jobs/quadrature/quadrature_setup.h"
+#include "jobs/spectrum/power_sets.h"
 #include "rules/worst_case_error.h"
 
+/* Of a set of points. */
 typedef struct ps_weighted_rule {
-    ps_point_set set;
     double *weights, *kappa; /* [capacity] in one block */
     size_t capacity;
     ps_weight_sums weight;
@@ -30,14 +31,8 @@ typedef struct ps_rules {
     const ps_quadrature_question *question;
     /* for systems without a matrix; NULL: none. Borrowed, set before the first batch */
     ps_device *device;
-    ps_source *source;
-    double *file_weights;
-    size_t num_file_weights;
-    enum { PS_RULES_AHEAD = 2 } ahead; /* sets that are read before the plan is made */
-    ps_point_set waiting[PS_RULES_AHEAD];
-    size_t num_waiting, num_taken; /* of waiting */
-    ps_weighted_rule *batch;       /* [capacity] */
-    pspec_pattern *patterns;
+    ps_power_sets sets;      /* points, which are whole, and weights of a file */
+    ps_weighted_rule *batch; /* [capacity] of these */
     size_t capacity, num;    /* rules in batch */
     uint64_t num_read, most; /* rules; others are left unread */
     size_t *places;   /* [num_given] of the points of the only rule that are kept, where its */

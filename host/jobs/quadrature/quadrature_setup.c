@@ -1,13 +1,13 @@
 #include "jobs/quadrature/quadrature_setup.h"
 
 #include "files/input_file.h"
-#include "jobs/quadrature/quadrature_rules.h"
 #include "math/pi.h"
 #include "math/sobolev.h"
 #include "rules/distance_split.h"
 #include "store/figures_file.h"
 #include "rules/kernel/kernel_product.h"
 #include "plan/cost_model.h"
+#include "spectra/sequential.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -188,9 +188,8 @@ static void list_degrees(ps_quadrature_setup *setup) {
     }
 }
 
-/* For who shows the shares: that of degrees becomes what planning for all of them says. */
-static pspec_status rate_degrees(ps_quadrature_setup *setup, const ps_quadrature_question *question,
-                                 ps_error *error) {
+pspec_status ps_quadrature_setup_rate(ps_quadrature_setup *setup,
+                                      const ps_quadrature_question *question, ps_error *error) {
     char what[sizeof setup->needs.skips[0].what];
     double seconds = 0;
     if (setup->max_degree < setup->most_degree && setup->plan.chosen != NULL) {
@@ -348,34 +347,6 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
     describe_weights(question, shape->num_points, out->device, out->weights_note,
                      sizeof out->weights_note);
     return PSPEC_OK;
-}
-
-/* Points that lie together leave more pairs than those of samplers: where they are known they are
- * counted. For the seconds that plan prints alone. */
-static pspec_status count_distances(ps_quadrature_setup *out, const ps_rules *rules,
-                                    ps_error *error) {
-    enum { DIMENSION = 3 };
-    const ps_point_set *const set = &rules->waiting[0];
-    if (rules->num_waiting == 0 || set->dimension != DIMENSION) {
-        return PSPEC_OK;
-    }
-    const ps_rule rule = {.num_points = set->num_points, .points = set->points};
-    return ps_distance_count_of(&rule, &out->num_distances, error);
-}
-
-pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
-                                     const ps_quadrature_question *question, ps_error *error) {
-    ps_rules rules = {.question = question};
-    ps_rule_shape shape;
-    pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_quadrature_setup_begin(out, question, error));
-    PS_TRY_OUT(status, ps_rules_open(&rules, &shape, error));
-    PS_TRY_OUT(status, ps_quadrature_setup_make(out, question, &shape, error));
-    PS_TRY_OUT(status, count_distances(out, &rules, error));
-    status = rate_degrees(out, question, error);
-out:
-    ps_rules_free(&rules);
-    return status;
 }
 
 void ps_quadrature_setup_free(ps_quadrature_setup *setup) {

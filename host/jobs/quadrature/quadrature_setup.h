@@ -2,8 +2,40 @@
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_SETUP_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_SETUP_H
 
-#include "jobs/quadrature/quadrature_job.h"
+#include "base/watch.h"
+#include "frequencies/frequencies.h"
 #include "plan/needs.h"
+#include "points/points.h"
+#include "points/weights_spec.h"
+#include "rules/kernel/kernel_system.h"
+#include "rules/representer.h"
+
+typedef struct ps_quadrature_question {
+    const ps_brdf *brdf;
+    double smoothness;
+    ps_weights_spec weights;
+    bool keeps_weights; /* those of the rule are in the result; several rules are an error */
+    const ps_sampler_request
+        *sampler;              /* NULL: files; resolved, morphed to the BRDF if that is wanted */
+    uint64_t num_realizations; /* of the sampler */
+    const char *const *paths;
+    size_t num_paths;
+    ps_point_options point_options;
+    /* Points of files for a lobe that ends there; else they are refused */
+    bool drops_below_horizon;
+    /* 0: where the bound of what is beyond meets the tolerance, at most ceil(4 sqrt N) */
+    size_t max_degree;
+    /* The tolerance is of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum
+     * |w|)^2. The standard error is that of the means of E^2 and of every e_l^2 above the
+     * tolerance. Without skips all realizations are done, all degrees to ceil(4 sqrt N), in double
+     * precision. There is no floor. */
+    ps_accuracy_spec accuracy;
+    ps_limits_spec limits;
+    size_t batch; /* rules at a time, the results the same; 0: what the plan and memory say */
+    bool may_lack_device;   /* to be planned only: without a device, with the host's engines */
+    ps_device *open_device; /* borrowed; NULL: the one that limits.device selects is opened */
+    ps_watch watch;         /* told of realizations and other phases; {0}: nobody */
+} ps_quadrature_question;
 
 /* What is known of the rules before the first is computed with. */
 typedef struct ps_rule_shape {
@@ -50,10 +82,10 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
 pspec_status ps_quadrature_setup_plan_again(ps_quadrature_setup *setup,
                                             const ps_quadrature_question *question, uint64_t held,
                                             ps_error *error) PS_MUST_CHECK;
-/* Both from the question alone, for `plan`: of files the first two sets are read. */
-pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
-                                     const ps_quadrature_question *question,
-                                     ps_error *error) PS_MUST_CHECK;
+/* For who shows the shares of skips: that of degrees becomes what planning for all of them says. */
+pspec_status ps_quadrature_setup_rate(ps_quadrature_setup *setup,
+                                      const ps_quadrature_question *question,
+                                      ps_error *error) PS_MUST_CHECK;
 void ps_quadrature_setup_free(ps_quadrature_setup *setup);
 
 #endif
