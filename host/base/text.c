@@ -269,3 +269,25 @@ size_t ps_text_character(const char *text) {
     const bool is_control = code < ' ' || (code >= 0x7f && code <= 0x9f);
     return is_control || (code & 0xfffe) == 0xfffe ? 0 : length; /* the two last of a plane */
 }
+
+/* YAML refuses control characters and marks in a file, and takes some breaks of lines for blanks.
+ */
+static bool is_plain(uint32_t code) {
+    return code >= ' ' && (code < 0x7f || code >= 0xa0) && code != 0x2028 && code != 0x2029 &&
+           code != 0xfeff && code != 0xfffe && code != 0xffff;
+}
+
+ps_json_character ps_text_next_json(const char **text) {
+    ps_json_character out = {"\\ufffd"};
+    uint32_t code = 0;
+    const size_t length = ps_text_decode(&code, *text);
+    if (length == 1 && strchr("\"\\", (int)code) != NULL) {
+        snprintf(out.text, sizeof out.text, "\\%c", (int)code);
+    } else if (length > 0 && is_plain(code)) {
+        snprintf(out.text, sizeof out.text, "%.*s", (int)length, *text);
+    } else if (length > 0) {
+        snprintf(out.text, sizeof out.text, "\\u%04x", (unsigned)code & 0xffffU);
+    }
+    *text += length > 0 ? length : 1;
+    return out;
+}

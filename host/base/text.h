@@ -37,6 +37,13 @@ size_t ps_text_decode(uint32_t *code, const char *text);
 size_t ps_text_character(const char *text);
 #define PS_TEXT_UNKNOWN "\xef\xbf\xbd" /* U+FFFD, which stands for what is none */
 
+/* What stands in a string of JSON, which is one of YAML too, for the character that *text begins
+ * with; *text is behind it then. A byte that begins none is U+FFFD. */
+typedef struct ps_json_character {
+    char text[8];
+} ps_json_character;
+ps_json_character ps_text_next_json(const char **text);
+
 /* "1024", "1e6", "4096.0" -> a whole number in [minimum, maximum]; anything else is
  * PSPEC_ERROR_INVALID_ARGUMENT with a sentence that names the thing, the text and the limits. */
 pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum, uint64_t maximum,

@@ -1,51 +1,10 @@
 /* A scene as JSON. */
 #include "scene/scene_file.h"
 
-/* The character that text begins with, and its bytes; 0: they are not UTF-8, which paths need not
- * be. */
-static size_t decode(const unsigned char *text, unsigned *code) {
-    static const struct {
-        unsigned char mask, lead;
-        unsigned least; /* shorter forms of a character are refused */
-    } forms[] = {{0x80, 0x00, 0}, {0xe0, 0xc0, 0x80}, {0xf0, 0xe0, 0x800}, {0xf8, 0xf0, 0x10000}};
-    for (size_t more = 0; more < sizeof forms / sizeof forms[0]; more++) {
-        if ((text[0] & forms[more].mask) != forms[more].lead) {
-            continue;
-        }
-        *code = text[0] & (unsigned char)~forms[more].mask;
-        for (size_t i = 1; i <= more; i++) {
-            if ((text[i] & 0xc0) != 0x80) {
-                return 0;
-            }
-            *code = *code << 6 | (text[i] & 0x3f);
-        }
-        const bool is_surrogate = *code >= 0xd800 && *code <= 0xdfff;
-        return *code >= forms[more].least && *code <= 0x10ffff && !is_surrogate ? more + 1 : 0;
-    }
-    return 0;
-}
-
-/* YAML refuses control characters and marks in a file, and takes some breaks of lines for blanks.
- */
-static bool is_plain(unsigned code) {
-    return (code >= ' ' && code < 0x7f) || (code >= 0xa0 && code != 0x2028 && code != 0x2029 &&
-                                            code != 0xfeff && code != 0xfffe && code != 0xffff);
-}
-
 void ps_scene_print_text(const char *text, ps_text *out) {
-    const unsigned replacement = 0xfffd;
     ps_text_append(out, "\"");
     while (*text != '\0') {
-        unsigned code = replacement;
-        const size_t bytes = decode((const unsigned char *)text, &code);
-        if (code == '"' || code == '\\') {
-            ps_text_append(out, "\\%c", (int)code);
-        } else if (bytes > 0 && is_plain(code)) {
-            ps_text_append_bytes(out, text, bytes);
-        } else {
-            ps_text_append(out, "\\u%04x", bytes > 0 ? code : replacement);
-        }
-        text += bytes > 0 ? bytes : 1;
+        ps_text_append(out, "%s", ps_text_next_json(&text).text);
     }
     ps_text_append(out, "\"");
 }

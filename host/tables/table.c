@@ -323,7 +323,7 @@ static pspec_status write_npy(const ps_table *table, const char *path, ps_error 
     PS_TRY_OUT(status, open_names(&names, path, error));
     ps_npy_write_header(ps_output_stream(file), 2, shape);
     ps_output_write(file, numbers, sizeof *numbers, shape[0] * shape[1]);
-    PS_TRY_OUT(status, ps_table_write_json(table, false, ps_output_stream(names), error));
+    ps_table_write_json(table, false, ps_output_stream(names));
     PS_TRY_OUT(status, ps_output_check(file, error));
     PS_TRY_OUT(status, ps_output_check(names, error));
     PS_TRY_OUT(status, ps_output_commit(&file, error));
@@ -347,9 +347,9 @@ pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_fo
     pspec_status status = PSPEC_OK;
     PS_TRY(ps_output_open(&file, path, error));
     if (format == PS_FORMAT_JSON) {
-        PS_TRY_OUT(status, ps_table_write_json(table, true, ps_output_stream(file), error));
+        ps_table_write_json(table, true, ps_output_stream(file));
     } else if (format == PS_FORMAT_JSONL) {
-        PS_TRY_OUT(status, ps_table_write_jsonl(table, ps_output_stream(file), error));
+        ps_table_write_jsonl(table, ps_output_stream(file));
     } else if (format == PS_FORMAT_TEXT) {
         PS_TRY_OUT(status, ps_table_write_text(table, ps_output_stream(file), error));
     } else {

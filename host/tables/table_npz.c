@@ -142,14 +142,13 @@ static pspec_status add_header(const ps_table *table, ps_npz *npz, ps_error *err
     char *text = NULL;
     size_t num_bytes = 0;
     FILE *const stream = open_memstream(&text, &num_bytes);
-    pspec_status status =
-        stream != NULL ? ps_table_write_json(table, false, stream, error) : PSPEC_OK;
-    if ((stream == NULL || fclose(stream) != 0) && status == PSPEC_OK) {
-        status = ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a header");
+    if (stream != NULL) {
+        ps_table_write_json(table, false, stream);
     }
-    if (status == PSPEC_OK) {
-        status = add_text(text, npz, error);
-    }
+    const pspec_status status =
+        stream != NULL && fclose(stream) == 0
+            ? add_text(text, npz, error)
+            : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a header");
     free(text);
     return status;
 }

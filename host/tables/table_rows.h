@@ -56,8 +56,7 @@ void ps_table_write_csv_head(const ps_table *table, FILE *stream);
 void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream);
 void ps_table_write_csv(const ps_table *table, FILE *stream);
 /* A line for the head, and one for each row. */
-pspec_status ps_table_write_jsonl(const ps_table *table, FILE *stream,
-                                  ps_error *error) PS_MUST_CHECK;
+void ps_table_write_jsonl(const ps_table *table, FILE *stream);
 /* For people: all of it, and its parts: header lines, with how many entries they have, and columns
  * side by side. */
 pspec_status ps_table_write_text(const ps_table *table, FILE *stream,
@@ -66,8 +65,7 @@ pspec_status ps_table_write_head(const ps_table *table, size_t *num_shown, FILE 
                                  ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_write_columns(const ps_table *table, FILE *stream,
                                     ps_error *error) PS_MUST_CHECK;
-pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
-                                 ps_error *error) PS_MUST_CHECK;
+void ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream);
 pspec_status ps_table_write_npz(const ps_table *table, const char *path,
                                 ps_error *error) PS_MUST_CHECK;
 

@@ -4,11 +4,8 @@
 #include "files/decimal.h"
 #include "tables/table_rows.h"
 
-#include <cJSON.h>
-
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void print_number(double number, FILE *stream) {
@@ -95,53 +92,24 @@ void ps_table_write_csv(const ps_table *table, FILE *stream) {
 
 /* ---- JSON ---- */
 
-/* File names may hold any bytes, JSON only UTF-8: others become U+FFFD. NULL without memory. */
-static char *to_utf8(const char *text) {
-    static const char replacement[] = PS_TEXT_UNKNOWN;
-    enum { REPLACEMENT_BYTES = sizeof replacement - 1 };
-    uint32_t code = 0;
-    char *const copy = malloc(strlen(text) * REPLACEMENT_BYTES + 1);
-    char *out = copy;
-    while (copy != NULL && *text != '\0') {
-        const size_t length = ps_text_decode(&code, text);
-        memcpy(out, length > 0 ? text : replacement, length > 0 ? length : REPLACEMENT_BYTES);
-        out += length > 0 ? length : REPLACEMENT_BYTES;
-        text += length > 0 ? length : 1;
+static void print_json_text(const char *text, FILE *stream) {
+    putc('"', stream);
+    while (*text != '\0') {
+        fputs(ps_text_next_json(&text).text, stream);
     }
-    if (copy != NULL) {
-        *out = '\0';
-    }
-    return copy;
+    putc('"', stream);
 }
 
-/* Escaped by cJSON. */
-static bool print_json_text(const char *text, FILE *stream) {
-    char *const valid = to_utf8(text);
-    cJSON *const item = valid != NULL ? cJSON_CreateString(valid) : NULL;
-    char *const printed = item != NULL ? cJSON_PrintUnformatted(item) : NULL;
-    if (printed != NULL) {
-        fputs(printed, stream);
-    }
-    cJSON_free(printed);
-    cJSON_Delete(item);
-    free(valid);
-    return printed != NULL;
-}
-
-/* cJSON prints numbers with 15 digits where that is within one unit in the last place, and holds
- * integers as doubles; ours are exact. */
-static bool print_json_cell(const ps_cell *cell, FILE *stream) {
+static void print_json_cell(const ps_cell *cell, FILE *stream) {
     if (cell->kind == PS_CELL_TEXT) {
-        return print_json_text(cell->text, stream);
-    }
-    if (cell->kind == PS_CELL_INTEGER) {
+        print_json_text(cell->text, stream);
+    } else if (cell->kind == PS_CELL_INTEGER) {
         fprintf(stream, "%" PRId64, cell->integer);
     } else if (cell->kind == PS_CELL_NUMBER && isfinite(cell->number)) {
         print_number(cell->number, stream);
     } else {
         fputs("null", stream);
     }
-    return true;
 }
 
 /* The entry with the same key that comes next after i, or num_meta. */
@@ -163,18 +131,17 @@ static bool is_first_of_key(const ps_table *table, size_t i) {
 }
 
 /* The value of a key, or all its values in an array. */
-static bool print_json_entry(const ps_table *table, size_t i, FILE *stream) {
+static void print_json_entry(const ps_table *table, size_t i, FILE *stream) {
     size_t next = find_same_key(table, i);
     const bool is_array = table->meta[i].is_repeated || next < table->num_meta;
-    bool is_good = print_json_text(table->meta[i].key, stream);
+    print_json_text(table->meta[i].key, stream);
     fputs(is_array ? ": [" : ": ", stream);
-    is_good = print_json_cell(&table->meta[i].value, stream) && is_good;
+    print_json_cell(&table->meta[i].value, stream);
     for (; next < table->num_meta; next = find_same_key(table, next)) {
         fputs(", ", stream);
-        is_good = print_json_cell(&table->meta[next].value, stream) && is_good;
+        print_json_cell(&table->meta[next].value, stream);
     }
     fputs(is_array ? "]" : "", stream);
-    return is_good;
 }
 
 /* What stands between parts: on lines of their own, or all on one. */
@@ -184,67 +151,57 @@ typedef struct json_spaces {
 static const json_spaces on_lines = {"\n  ", ",\n  ", "\n    ", "\n  "};
 static const json_spaces on_one_line = {"", ", ", "", ""};
 
-static bool print_json_head(const ps_table *table, const json_spaces *spaces, FILE *stream) {
+static void print_json_head(const ps_table *table, const json_spaces *spaces, FILE *stream) {
     fprintf(stream, "{%s\"schema\": %d%s\"command\": ", spaces->begin, PS_TABLE_SCHEMA,
             spaces->part);
-    bool is_good = print_json_text(table->command, stream);
+    print_json_text(table->command, stream);
     fprintf(stream, "%s\"meta\": {", spaces->part);
     for (size_t i = 0; i < table->num_meta; i++) {
         if (is_first_of_key(table, i)) {
             fprintf(stream, "%s%s", i > 0 ? spaces == &on_lines ? "," : ", " : "", spaces->entry);
-            is_good = print_json_entry(table, i, stream) && is_good;
+            print_json_entry(table, i, stream);
         }
     }
     fprintf(stream, "%s}%s\"columns\": [", spaces->end_entries, spaces->part);
     for (size_t i = 0; i < table->num_columns; i++) {
         fputs(i > 0 ? ", " : "", stream);
-        is_good = print_json_text(table->columns[i], stream) && is_good;
+        print_json_text(table->columns[i], stream);
     }
     putc(']', stream);
-    return is_good;
 }
 
-static bool print_json_row(const ps_table *table, size_t row, FILE *stream) {
-    bool is_good = true;
+static void print_json_row(const ps_table *table, size_t row, FILE *stream) {
     for (size_t i = 0; i < table->num_columns; i++) {
         fputs(i > 0 ? ", " : "{", stream);
-        is_good = print_json_text(table->columns[i], stream) && is_good;
+        print_json_text(table->columns[i], stream);
         fputs(": ", stream);
-        is_good = print_json_cell(&table->cells[row * table->num_columns + i], stream) && is_good;
+        print_json_cell(&table->cells[row * table->num_columns + i], stream);
     }
     putc('}', stream);
-    return is_good;
 }
 
-static bool print_json_rows(const ps_table *table, FILE *stream) {
-    bool is_good = true;
+static void print_json_rows(const ps_table *table, FILE *stream) {
     fputs(",\n  \"rows\": [", stream);
     for (size_t row = 0; row < table->num_rows; row++) {
         fputs(row > 0 ? ",\n    " : "\n    ", stream);
-        is_good = print_json_row(table, row, stream) && is_good;
+        print_json_row(table, row, stream);
     }
     fputs("\n  ]", stream);
-    return is_good;
 }
 
-static pspec_status end(bool is_good, ps_error *error) {
-    return is_good ? PSPEC_OK : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for JSON");
-}
-
-pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
-                                 ps_error *error) {
-    bool is_good = print_json_head(table, &on_lines, stream);
-    is_good = (!with_rows || print_json_rows(table, stream)) && is_good;
+void ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream) {
+    print_json_head(table, &on_lines, stream);
+    if (with_rows) {
+        print_json_rows(table, stream);
+    }
     fputs("\n}\n", stream);
-    return end(is_good, error);
 }
 
-pspec_status ps_table_write_jsonl(const ps_table *table, FILE *stream, ps_error *error) {
-    bool is_good = print_json_head(table, &on_one_line, stream);
+void ps_table_write_jsonl(const ps_table *table, FILE *stream) {
+    print_json_head(table, &on_one_line, stream);
     fputs("}\n", stream);
     for (size_t row = 0; row < table->num_rows; row++) {
-        is_good = print_json_row(table, row, stream) && is_good;
+        print_json_row(table, row, stream);
         putc('\n', stream);
     }
-    return end(is_good, error);
 }

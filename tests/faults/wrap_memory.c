@@ -1,10 +1,9 @@
-/* Memory: what our code takes, also through functions of the C library and of cJSON that give
+/* Memory: what our code takes, also through functions of the C library and of others that give
  * memory away. */
 #include "faults.h"
 
 #include <zlib.h>
 
-#include <cJSON.h>
 #include <errno.h>
 #include <glob.h>
 #include <stddef.h>
@@ -31,8 +30,6 @@ ALLOCATION(calloc, void *, (size_t count, size_t bytes), (count, bytes))
 ALLOCATION(aligned_alloc, void *, (size_t alignment, size_t bytes), (alignment, bytes))
 ALLOCATION(strdup, char *, (const char *text), (text))
 ALLOCATION(strndup, char *, (const char *text, size_t length), (text, length))
-ALLOCATION(cJSON_CreateString, cJSON *, (const char *text), (text))
-ALLOCATION(cJSON_PrintUnformatted, char *, (const cJSON *item), (item))
 
 WRAPPER(realloc, void *, (void *old, size_t bytes)) {
     if (is_refused("realloc")) {
@@ -51,8 +48,6 @@ WRAPPER(realloc, void *, (void *old, size_t bytes)) {
     }
 
 DEALLOCATION(free, void *)
-DEALLOCATION(cJSON_free, void *)
-DEALLOCATION(cJSON_Delete, cJSON *)
 
 /* zlib allocates its window here, and gives it back there. */
 WRAPPER(inflateInit2_, int, (z_stream * stream, int bits, const char *version, int bytes)) {

@@ -185,7 +185,7 @@ static void writes_npz(void **state) {
     uint32_t meta[MOST_META] = {0};
     char words[64];
     memcpy(before_rows, "\n}\n", sizeof "\n}\n");
-    const size_t num = strlen(array) - 3; /* two characters have more than one byte */
+    const size_t num = strlen(array) - 1; /* one character has two bytes */
     snprintf(words, sizeof words, "U%zu', 'fortran_order': False, 'shape': ()", num);
     read_member(meta, num * sizeof *meta, state, "meta", words);
     for (size_t i = 0; i < num; i++) {
@@ -205,7 +205,7 @@ static void json_is_utf8_whatever_the_names_are(void **state) {
     const ps_cell cell = PS_TEXT("\xc3\xa9|\xe9|\xed\xa0\x80|\xf0\x9f\x98\x80|\xc0\xaf|\xe2\x82");
     assert_int_equal(ps_table_add_row(table, &cell, &error), PSPEC_OK);
     char *const text = write_table(state, table, "t.json", PS_FORMAT_JSON);
-#define BAD "\xef\xbf\xbd"
+#define BAD "\\ufffd"
     assert_non_null(strstr(text, "\"\xc3\xa9|" BAD "|" BAD BAD BAD "|\xf0\x9f\x98\x80|" BAD BAD
                                  "|" BAD BAD "\""));
     free(text);
