@@ -5,28 +5,12 @@
 #include "request/option_help.h"
 #include "request/options.h"
 #include "samplers/sampler.h"
+#include "tables/table_cells.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { TEXT_WIDTH = 79, HELP_COLUMN = 30 }; /* fits a terminal of 80 columns */
-
-/* Prints text word by word, from the column where the line now is; further lines begin at indent.
- * Ends the line. */
-static void print_wrapped(FILE *stream, const char *text, int indent, int column) {
-    while (*text != '\0') {
-        const int length = (int)strcspn(text, " ");
-        if (column > indent && column + 1 + length > TEXT_WIDTH) {
-            fprintf(stream, "\n%*s", indent, "");
-            column = indent;
-        }
-        const bool is_first = column <= indent;
-        fprintf(stream, "%s%.*s", is_first ? "" : " ", length, text);
-        column += length + !is_first;
-        text += length + (text[length] == ' ');
-    }
-    putc('\n', stream);
-}
 
 /* "  term      text", the text in a column of its own. */
 static void print_item(FILE *stream, const char *term, const char *text) {
@@ -36,7 +20,7 @@ static void print_item(FILE *stream, const char *term, const char *text) {
         column = 0;
     }
     fprintf(stream, "%*s", HELP_COLUMN - column, "");
-    print_wrapped(stream, text, HELP_COLUMN, HELP_COLUMN);
+    ps_places_wrap(text, HELP_COLUMN, HELP_COLUMN, TEXT_WIDTH, SIZE_MAX, stream);
 }
 
 enum { TEXT_BYTES = PS_OPTION_HELP_BYTES };
@@ -158,7 +142,7 @@ static void print_integrands(FILE *stream) {
 
 void ps_help_command(FILE *stream, const ps_command *command) {
     fprintf(stream, "Usage: pointspec %s\n\n", command->usage);
-    print_wrapped(stream, command->description, 0, 0);
+    ps_places_wrap(command->description, 0, 0, TEXT_WIDTH, SIZE_MAX, stream);
     fputs("\nOptions:\n", stream);
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (ps_command_takes(command, (ps_option_id)id)) {

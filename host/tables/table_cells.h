@@ -1,4 +1,4 @@
-/* Cells and lines of tables for people. Private to host/tables. */
+/* Cells and lines of tables for people, and of their help. */
 #ifndef PS_TABLES_TABLE_CELLS_H
 #define PS_TABLES_TABLE_CELLS_H
 
