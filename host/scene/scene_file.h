@@ -93,9 +93,6 @@ pspec_status ps_scene_take_sets(const ps_scene_reader *reader, const ps_scene_no
 pspec_status ps_scene_join_sources(const ps_scene_reader *reader,
                                    ps_scene_result *result) PS_MUST_CHECK;
 
-/* The kinds that a scene may have results of; ended by NULL. */
-extern const ps_kind *const ps_scene_kinds[];
-
 /* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
  * names none. */
 const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text);

@@ -6,6 +6,10 @@
 #include <ctype.h>
 #include <string.h>
 
+/* What a scene can ask for. */
+static const ps_kind *const scene_kinds[] = {
+    PS_COMMANDS(PS_KIND_OF, PS_NO_COMMAND, PS_NO_COMMAND, PS_NO_COMMAND) PS_KIND_OF(points) NULL};
+
 void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *known) {
     const size_t distance = ps_name_distance(typed, known);
     if (best->word == NULL || distance < best->distance) {
@@ -39,8 +43,8 @@ static int find_option(const ps_kind *kind, const char *key) {
 }
 
 static bool is_any_option(const char *key) {
-    for (size_t i = 0; ps_scene_kinds[i] != NULL; i++) {
-        if (find_option(ps_scene_kinds[i], key) >= 0) {
+    for (size_t i = 0; scene_kinds[i] != NULL; i++) {
+        if (find_option(scene_kinds[i], key) >= 0) {
             return true;
         }
     }
@@ -109,7 +113,7 @@ static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node
     const char *text = NULL;
     size_t distance = 0;
     PS_TRY(ps_scene_take_text(reader->file, node, "result", &text));
-    *out = ps_command_nearest(ps_scene_kinds, text, &distance);
+    *out = ps_command_nearest(scene_kinds, text, &distance);
     return distance == 0
                ? PSPEC_OK
                : ps_scene_complain(
@@ -265,13 +269,9 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
 /* "power, angular, .. or check" */
 static pspec_status complain_of_no_kind(const ps_scene_reader *reader, int line) {
     ps_text names = {0};
-    for (size_t i = 0; ps_scene_kinds[i] != NULL; i++) {
-        const bool is_last = ps_scene_kinds[i + 1] == NULL;
-        ps_text_append(&names, "%s%s",
-                       i == 0    ? ""
-                       : is_last ? " or "
-                                 : ", ",
-                       ps_scene_kinds[i]->name);
+    for (size_t i = 0; scene_kinds[i] != NULL; i++) {
+        const bool is_last = scene_kinds[i + 1] == NULL;
+        ps_text_append(&names, "%s%s", i == 0 ? "" : is_last ? " or " : ", ", scene_kinds[i]->name);
     }
     const pspec_status status =
         ps_scene_complain(reader->file, line, "result", "is missing: %s", ps_text_string(&names));
