@@ -36,6 +36,8 @@ typedef struct ps_answer_hooks {
     void (*warn)(void *payload, const char *sentence);
     /* The same, of a file that was asked for and is not there. */
     void (*tell_missing)(void *payload, const char *sentence);
+    /* A finding of the doctor: "ok", "note" or "WRONG", what it is about, and the sentence. */
+    void (*tell_finding)(void *payload, const char *word, const char *topic, const char *sentence);
     /* Asked between two questions of a scene, and after a failure: was it an interrupt? */
     bool (*is_interrupted)(void *payload);
     /* Before the work for one sampler, and after it. */

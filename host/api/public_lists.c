@@ -1,25 +1,14 @@
 /* The public library: which kinds of answers there are, what they take, and what they have. */
 #include "api/public_objects.h"
 #include "base/text.h"
-#include "commands/doctor.h"
 #include "commands/plan.h"
 #include "request/option_help.h"
 
 /* ---- what can be asked ------------------------------------------------------------------- */
 
-static pspec_status examine(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
-                            ps_error *error) {
-    (void)hooks;
-    return ps_doctor_tabulate(out, request->limits.device, error);
-}
-
-/* The program's prints sentences while it looks. */
-static const ps_command doctor = {
-    .name = "doctor", .takes = PS_COMMAND_BIT(doctor), .run = examine};
-
 const ps_command *const ps_public_commands[] = {
     PS_COMMANDS(PS_KIND_OF, PS_COMMAND_OF, PS_NO_COMMAND, PS_NO_COMMAND) & ps_command_devices,
-    &doctor, NULL};
+    &ps_command_doctor, NULL};
 
 /* ---- names ------------------------------------------------------------------------------- */
 

@@ -60,4 +60,29 @@ void ps_progress_end(ps_progress *progress);
  * shown, too, with a rate of their own or their detail; an interrupt cancels. */
 int ps_progress_tell(const ps_watch_report *report, void *progress);
 
+/* Where a table goes to a terminal: its view, which is no wider or longer than people look at, and
+ * text as the format where none was said. */
+void ps_terminal_settle(const ps_command *command, ps_request *arguments);
+
+/* ---- work that a terminal sees: a progress line, warnings on standard error, interrupts ------ */
+
+typedef struct ps_shown {
+    const ps_request *arguments;
+    const char *counted; /* what the progress line counts: "realizations" */
+    const char *speaker; /* who says warnings: "pointspec" */
+    /* What is made goes to the output while the line is shown: it would run into points on the same
+     * terminal. */
+    bool is_streamed;
+    bool has_printed;      /* findings, to standard output */
+    ps_progress *progress; /* NULL between two phases of the work */
+} ps_shown;
+
+/* shown must outlive the work. With --quiet there are no warnings, but what is missing is told. */
+ps_answer_hooks ps_shown_hooks(ps_shown *shown);
+
+/* Runs the command with these, and writes what they name. Differences that a check found are
+ * PSPEC_ERROR_CHECK. */
+pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments,
+                          ps_error *error) PS_MUST_CHECK;
+
 #endif

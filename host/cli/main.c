@@ -3,8 +3,6 @@
 #include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "cli/command.h"
-#include "cli/shown.h"
-#include "cli/terminal.h"
 #include "request/options.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"

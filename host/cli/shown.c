@@ -1,4 +1,5 @@
-#include "cli/shown.h"
+#include "cli/command.h"
+#include "tables/table_cells.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -50,6 +51,16 @@ static void print_warning(void *payload, const char *sentence) {
     fprintf(stderr, "%s: %s\n", shown->speaker, sentence);
 }
 
+/* Names of files may hold anything. */
+static void print_finding(void *payload, const char *word, const char *topic,
+                          const char *sentence) {
+    ps_shown *const shown = payload;
+    printf("%-6s %-8s ", word, topic);
+    ps_places_print(sentence, strlen(sentence), stdout);
+    putchar('\n');
+    shown->has_printed = true;
+}
+
 static void print_plan(void *payload, const ps_plan *plan) {
     hide(payload);
     for (size_t i = 0; i < plan->num_candidates; i++) {
@@ -83,6 +94,7 @@ ps_answer_hooks ps_shown_hooks(ps_shown *shown) {
                              .end = end_line,
                              .warn = arguments->quiet ? NULL : print_warning,
                              .tell_missing = print_warning,
+                             .tell_finding = print_finding,
                              .is_interrupted = is_interrupted,
                              .tell_plan = arguments->verbose ? print_plan : NULL,
                              .tell_profile = arguments->limits.profile ? print_profile : NULL};
@@ -110,5 +122,7 @@ pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments
     ps_answer answer = {0};
     const pspec_status status = run(&answer, command, arguments, &hooks, error);
     ps_answer_free(&answer);
-    return status;
+    return shown.has_printed && (fflush(stdout) != 0 || ferror(stdout))
+               ? ps_fail(error, PSPEC_ERROR_IO, "cannot write standard output")
+               : status;
 }

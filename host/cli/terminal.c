@@ -1,6 +1,6 @@
-#include "cli/terminal.h"
-
+/* Tables on a terminal. */
 #include "base/text.h"
+#include "cli/command.h"
 #include "request/options.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* pointspec doctor: what works here, and what does not. */
 #include "commands/doctor.h"
 
 #include "base/process/memory_limit.h"
@@ -173,7 +174,9 @@ static void tell_gnuplot(const ps_doctor *doctor) {
     ps_text_free(&path);
 }
 
-pspec_status ps_doctor_examine(const ps_doctor *doctor, ps_error *error) {
+/* ---- the command ----------------------------------------------------------------------------- */
+
+static pspec_status examine(const ps_doctor *doctor, ps_error *verdict, ps_error *error) {
     bool is_wrong = false;
     PS_TRY(ps_doctor_devices(doctor, &is_wrong, error));
     tell_own_cache(doctor);
@@ -181,52 +184,51 @@ pspec_status ps_doctor_examine(const ps_doctor *doctor, ps_error *error) {
     tell_memory(doctor);
     tell_threads(doctor);
     tell_gnuplot(doctor);
-    return is_wrong ? ps_fail(error, PSPEC_ERROR_CHECK,
-                              "the default device cannot be used; the lines that begin with WRONG "
-                              "say why; --engine host_direct needs no device")
-                    : PSPEC_OK;
-}
-
-/* ---- as a table ------------------------------------------------------------------------------ */
-
-typedef struct list {
-    ps_table *table;
-    pspec_status status; /* of the rows so far */
-    ps_error *error;
-} list;
-
-static void add(ps_finding_kind kind, const char *topic, const char *sentence, void *payload) {
-    list *const found = payload;
-    const ps_cell cells[] = {PS_TEXT(ps_finding_words[kind]), PS_TEXT(topic), PS_TEXT(sentence)};
-    if (found->status == PSPEC_OK) {
-        found->status = ps_table_add_row(found->table, cells, found->error);
+    if (is_wrong) {
+        ps_fail(verdict, PSPEC_ERROR_CHECK,
+                "the default device cannot be used; the lines that begin with WRONG say why; "
+                "--engine host_direct needs no device");
     }
+    return doctor->unwritten->status == PSPEC_OK
+               ? PSPEC_OK
+               : ps_fail(error, doctor->unwritten->status, "%s", doctor->unwritten->message);
 }
 
-static pspec_status fill(ps_answer *out, const char *device, ps_error *error) {
-    ps_table *const table = out->table;
-    ps_text folder = {0}; /* also one that is not trusted, which is then a finding */
-    ps_error ignored = {0};
-    list found = {table, PSPEC_OK, error};
-    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
-    const bool has_folder = ps_cache_default_directory(&folder, &ignored) == PSPEC_OK;
-    const ps_doctor doctor = {.device = device,
-                              .cache_folder = has_folder ? ps_text_string(&folder) : NULL,
-                              .hear = add,
-                              .payload = &found};
-    pspec_status status = ps_doctor_examine(&doctor, &out->verdict);
-    ps_text_free(&folder);
-    if (status != PSPEC_OK && status != PSPEC_ERROR_CHECK) {
-        *error = out->verdict;
-        return status;
-    }
-    return found.status;
-}
-
-pspec_status ps_doctor_tabulate(ps_answer *out, const char *device, ps_error *error) {
+/* The folder may be one that is not trusted, which is then a finding. */
+static pspec_status run(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
+                        ps_error *error) {
     static const char *const columns[] = {"finding", "topic", "sentence"};
+    ps_text folder = {0};
+    ps_error unwritten = {0};
+    ps_error ignored = {0};
+    if (request->num_files > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
+                       request->files[0]);
+    }
     PS_TRY(
         ps_table_create(&out->table, "doctor", columns, sizeof columns / sizeof columns[0], error));
-    return fill(out, device, error);
+    PS_TRY(ps_table_add_meta(out->table, "pointspec_version", PS_TEXT(PS_VERSION), error));
+    PS_TRY(ps_table_add_meta(out->table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
+    const bool has_folder = ps_cache_default_directory(&folder, &ignored) == PSPEC_OK;
+    const ps_doctor doctor = {request->limits.device, has_folder ? ps_text_string(&folder) : NULL,
+                              hooks, out->table, &unwritten};
+    const pspec_status status = examine(&doctor, &out->verdict, error);
+    ps_text_free(&folder);
+    return status;
 }
+
+const ps_command ps_command_doctor = {
+    .name = "doctor",
+    .purpose = "say what works here: drivers, devices, caches, memory, threads, gnuplot",
+    .usage = "doctor [options]",
+    .description =
+        "Looks at what pointspec depends on and says what it finds, a sentence a line: the OpenCL "
+        "drivers and why one does not load, whether a kernel builds on every device and computes "
+        "what is known, the folders of caches and what they hold, limits of memory, processors, "
+        "gnuplot. Lines begin "
+        "with ok, with note where something is missing that can be done without, or with WRONG. "
+        "The exit status is 0 when the default device works, 3 when it does not.",
+    .takes = PS_COMMAND_BIT(doctor),
+    .examples = {"pointspec doctor", "pointspec doctor --device cpu"},
+    .run = run,
+};

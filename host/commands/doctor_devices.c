@@ -6,20 +6,25 @@
 #include "request/option_text.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <stdarg.h>
-
-const char *const ps_finding_words[] = {"ok", "note", "WRONG"};
 
 void ps_doctor_tell(const ps_doctor *doctor, ps_finding_kind kind, const char *topic,
                     const char *format, ...) {
+    static const char *const words[] = {"ok", "note", "WRONG"};
     char sentence[PS_MESSAGE_BYTES];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    doctor->hear(kind, topic, sentence, doctor->payload);
+    if (doctor->hooks->tell_finding != NULL) {
+        doctor->hooks->tell_finding(doctor->hooks->payload, words[kind], topic, sentence);
+    }
+    const ps_cell cells[] = {PS_TEXT(words[kind]), PS_TEXT(topic), PS_TEXT(sentence)};
+    if (doctor->unwritten->status == PSPEC_OK) {
+        doctor->unwritten->status = ps_table_add_row(doctor->table, cells, doctor->unwritten);
+    }
 }
 
 /* Four points at equal distances: P is 4 at multiples of 4 and 0 elsewhere. */

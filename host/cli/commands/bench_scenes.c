@@ -1,6 +1,6 @@
 #include "cli/commands/bench_scenes.h"
 
-#include "cli/shown.h"
+#include "cli/command.h"
 #include "scene/run/run.h"
 
 #include <math.h>
