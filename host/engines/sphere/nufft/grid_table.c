@@ -4,8 +4,6 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/window.h"
-#include "engines/sphere/nufft/sphere_powers.h"
-#include "engines/sphere/nufft/tables.h"
 #include "math/pi.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "engines/sphere/nufft/places.h"
+#include "engines/sphere/nufft/variants.h"
 
 #include "base/memory.h"
 #include "base/round.h"

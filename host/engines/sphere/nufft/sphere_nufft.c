@@ -49,6 +49,12 @@ static const char *refuse_cells(const ps_problem *problem) {
                : NULL;
 }
 
+static const ps_sphere_variant *variant_of(const ps_sphere_shape *shape) {
+    return shape->route == PS_SPHERE_BY_CELLS ? &ps_sphere_cells
+           : shape->is_sorted                 ? &ps_sphere_sorted_rings
+                                              : &ps_sphere_rings;
+}
+
 static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                        ps_precision precision) {
     const double realizations =
@@ -61,12 +67,14 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                             ? 0
                             : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
                                   (double)sizeof(double);
-    const ps_sphere_variant *variant = ps_sphere_variant_of(shape);
+    const ps_sphere_variant *variant = variant_of(shape);
     const double kernels = variant->kernels + (shape->order.tile > 0 ? 1 : 0) +
                            (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
     const double flops =
         ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
-    return (ps_work){.transform_flops = realizations * flops + variant->count_table_flops(shape),
+    const double of_table =
+        variant->count_table_flops != NULL ? variant->count_table_flops(shape) : 0;
+    return (ps_work){.transform_flops = realizations * flops + of_table,
                      .kernels = kernels,
                      .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
                      .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
@@ -120,7 +128,14 @@ static void destroy(void *state) {
     if (self == NULL) {
         return;
     }
-    self->variant->free(self);
+    if (self->own != NULL) {
+        self->variant->free(self->own);
+    }
+    free(self->own);
+    ps_buffer_release(&self->grids);
+    ps_buffer_release(&self->scratch);
+    ps_buffer_release(&self->values);
+    ps_buffer_release(&self->sums);
     ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
     ps_late_rows_free(&self->rows);
@@ -150,14 +165,26 @@ static pspec_status create_rows(ps_sphere_state *self, size_t batch, ps_error *e
     return ps_late_rows_create(&self->rows, self->device, error);
 }
 
+static pspec_status create_buffers(ps_sphere_state *self, ps_error *error) {
+    const ps_sphere_bytes bytes = ps_sphere_bytes_of(&self->shape, ps_real_bytes(self->precision));
+    PS_TRY(ps_buffer_create(self->device, &self->grids, bytes.grids, "grids of the sphere", error));
+    PS_TRY(
+        ps_buffer_create(self->device, &self->scratch, bytes.scratch, "rows of transforms", error));
+    return ps_buffer_create(
+        self->device, &self->values, self->shape.at_once * bytes.values + bytes.gaps,
+        self->shape.route == PS_SPHERE_BY_CELLS ? "values on angles" : "values on rings", error);
+}
+
 static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
-    const bool only_even = self->problem.frequencies->degree_step == 2;
     PS_TRY(create_rows(self, batch, error));
     PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
-    return self->variant->create(self, only_even, error);
+    PS_TRY(ps_allocate(&self->own, 1, self->variant->own_bytes, "an engine", error));
+    PS_TRY(self->variant->create(self, error)); /* takes more for a while: before what follows */
+    PS_TRY(ps_sphere_powers_create(self, error));
+    return create_buffers(self, error);
 }
 
 static pspec_status create_route(void **state, const ps_problem *problem, ps_precision precision,
@@ -169,9 +196,11 @@ static pspec_status create_route(void **state, const ps_problem *problem, ps_pre
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
+    self->is_alone = ps_range_is_alone(device);
+    self->only_even = problem->frequencies->degree_step == 2;
     self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision, route);
     ps_sphere_shape_shrink(&self->shape, batch);
-    self->variant = ps_sphere_variant_of(&self->shape);
+    self->variant = variant_of(&self->shape);
     const pspec_status status = create_parts(self, batch, error);
     if (status != PSPEC_OK) {
         destroy(self);
@@ -197,21 +226,11 @@ static size_t get_stride(const void *state) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-static ps_batch part_of(const ps_batch *batch, size_t first, size_t most) {
-    const size_t rest = batch->num_patterns - first;
-    ps_batch some = *batch;
-    some.num_patterns = rest < most ? rest : most;
-    some.patterns += first;
-    some.scales = batch->scales != NULL ? batch->scales + first : NULL;
-    some.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
-    return some;
-}
-
 /* Values of at most at_once patterns. */
 static pspec_status make_values(ps_sphere_state *self, const ps_batch *batch, ps_error *error) {
     const size_t together = self->shape.together;
     for (size_t first = 0; first < batch->num_patterns; first += together) {
-        const ps_batch some = part_of(batch, first, together);
+        const ps_batch some = ps_batch_part(batch, first, together);
         PS_TRY(ps_batch_go_on(batch, error));
         PS_TRY(self->variant->make_values(self, first, &some, error));
     }
@@ -221,13 +240,12 @@ static pspec_status make_values(ps_sphere_state *self, const ps_batch *batch, ps
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     ps_sphere_state *self = state;
     const size_t at_once = self->shape.at_once;
-    const ps_buffer *powers = NULL;
     for (size_t first = 0; first < batch->num_patterns; first += at_once) {
-        const ps_batch some = part_of(batch, first, at_once);
+        const ps_batch some = ps_batch_part(batch, first, at_once);
         PS_TRY(make_values(self, &some, error));
-        PS_TRY(self->variant->sum(self, some.num_patterns, &powers, error));
-        PS_TRY(ps_late_rows_read(&self->rows, powers, first, some.num_patterns, some.scales, NULL,
-                                 error));
+        PS_TRY(ps_sphere_powers_sum(self, some.num_patterns, error));
+        PS_TRY(ps_late_rows_read(&self->rows, &self->sums, first, some.num_patterns, some.scales,
+                                 NULL, error));
     }
     *rows = ps_late_rows_give(&self->rows, batch->num_patterns);
     return PSPEC_OK;
@@ -251,12 +269,11 @@ static void write_coefficients(const ps_sphere_state *self, const double *from, 
                                double *out) {
     const size_t L = (size_t)self->shape.max_degree;
     const size_t pitch = self->shape.half_pitch;
-    const bool only_even = self->problem.frequencies->degree_step == 2;
     for (size_t m = 0; m <= L; m++) {
         for (size_t l = m; l <= L; l++) {
             const double *at = from + (m * 2 + (l - m) % 2) * 2 * pitch + (l - m) / 2;
             double *to = out + 2 * (m * (2 * L + 1 - m) / 2 + l);
-            const bool is_there = !only_even || l % 2 == 0;
+            const bool is_there = !self->only_even || l % 2 == 0;
             to[0] = is_there ? ldexp(at[0], exponent) : 0;
             to[1] = is_there ? -ldexp(at[pitch], exponent) : 0;
         }
@@ -277,7 +294,7 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
     PS_TRY(ps_batch_go_on(one, error));
     PS_TRY(ps_allocate(&host, ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch,
                        sizeof(double), "coefficients", error));
-    const pspec_status status = self->variant->keep(self, host, error);
+    const pspec_status status = ps_sphere_powers_keep(self, host, error);
     if (status == PSPEC_OK) {
         write_coefficients(self, host, exponent, out);
     }

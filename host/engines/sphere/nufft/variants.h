@@ -1,63 +1,48 @@
 /* The variants of sphere_nufft and sphere_grid, and the state that they have in common. Private to
- * sphere_nufft.c, which is both engines, and variants.c, which has what differs.
+ * sphere_nufft.c, which is both engines, and to rings.c and cells.c, which have what differs: how
+ * points on the device become values, and values powers or coefficients.
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_VARIANTS_H
 #define PS_ENGINES_SPHERE_NUFFT_VARIANTS_H
 
+#include "engines/feed.h"
 #include "engines/late_rows.h"
-#include "engines/sphere/nufft/places.h"
 #include "engines/sphere/nufft/shape.h"
-#include "engines/sphere/nufft/sphere_powers.h"
 #include "engines/sphere/nufft/tables.h"
 
-/* From points on the device to values on rings (kernels/sphere/nufft/orders.cl), and from these to
- * powers or coefficients (kernels/sphere/nufft/orders_sum.cl, of a set alone orders_sum_one.cl).
- */
+/* Directions on their way to the device, where they become places on a torus
+ * (kernels/sphere/nufft/orders_turns.cl). */
 
-typedef struct ps_sphere_stages {
+typedef struct ps_sphere_places {
     ps_device *device;
     ps_precision precision;
-    bool only_even;
     const ps_sphere_shape *shape;
-    const ps_sphere_places *points;
-    const ps_sphere_tables *tables;
-    ps_sphere_ring_tables rings;
-    ps_kernel *orders, *bands, *sum;        /* bands: of sorted points */
-    ps_buffer grids, rows, scratch, values; /* of orders.cl */
-    ps_buffer strip_turns, strip_weights, strips, strip_starts;
-    ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
-    ps_sphere_powers powers;
-} ps_sphere_stages;
+    size_t most_points; /* of all realizations together */
+    size_t num_points;  /* that are on the device */
+    unsigned lanes;
+    uint64_t shift;         /* of the angle from the pole, in units of 2^-64 turns */
+    bool has_unit_weights;  /* on the device */
+    ps_kernel *turn;        /* or sort, or keys where there is an order */
+    ps_nufft_order order;   /* of parts, on GPUs */
+    void *host_weights;     /* [most_points] float or double */
+    uint64_t *host_offsets; /* [together + 1], where there is an order of the parts */
+    ps_feed vectors;        /* [most_points][3] */
+    ps_buffer turns, weights, offsets;
+    ps_buffer keys, sorted, heights, starts; /* of kernels/sphere/nufft/orders_sort.cl */
+} ps_sphere_places;
 
-/* shape, points and tables are borrowed. */
-pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shape *shape,
-                                     const ps_sphere_places *points, const ps_sphere_tables *tables,
-                                     bool only_even, ps_precision precision, ps_device *device,
+/* shape is borrowed. */
+pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
+                                     ps_precision precision, ps_device *device,
                                      ps_error *error) PS_MUST_CHECK;
-void ps_sphere_stages_free(ps_sphere_stages *stages);
+void ps_sphere_places_free(ps_sphere_places *points);
 
-/* Values on rings, from first_value on, of the first num realizations whose points are on the
- * device. */
-pspec_status ps_sphere_stages_make_values(ps_sphere_stages *stages, size_t first_value, size_t num,
-                                          ps_error *error) PS_MUST_CHECK;
-/* The same of one realization whose sorted points come in chunks: the sums of all since is_first,
- * ... */
-pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first,
-                                         ps_error *error) PS_MUST_CHECK;
-/* ... and their values on rings. */
-pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t value,
-                                            ps_error *error) PS_MUST_CHECK;
-/* Sums |c_lm|^2 over m for these values: their powers are in powers.sums then. */
-pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num,
-                                  ps_error *error) PS_MUST_CHECK;
-/* Writes the conjugates of c_lm of a realization: [order][even, odd l - m][re, im][half_pitch]. */
-pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
+/* Makes the places of at most shape->together patterns, of shape->most_points points together. */
+pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
                                    ps_error *error) PS_MUST_CHECK;
 
-/* From points on the device to values on the angles of the grid
- * (kernels/sphere/nufft/grid_values.cl), and from these to powers or coefficients
- * (kernels/sphere/nufft/grid_sums.cl).
- */
+/* Work-groups of one item on CPUs, where lanes are vectors. */
+ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
 
 /* The table of sphere_grid on the device: what a cell of the grid counts in c_lm, for all degrees
  * and orders. */
@@ -78,65 +63,67 @@ void ps_sphere_grid_table_free(ps_sphere_grid_table *table);
 /* Additions and multiplications of making it. */
 double ps_sphere_grid_table_flops(const ps_sphere_shape *shape);
 
-typedef struct ps_sphere_grid_stages {
-    ps_device *device;
-    ps_precision precision;
-    bool only_even;
-    const ps_sphere_shape *shape;
-    const ps_sphere_places *points;
-    const ps_sphere_tables *tables;
-    ps_sphere_grid_table table;
-    ps_kernel *make, *sum;
-    ps_buffer grids, scratch, values;
-    ps_sphere_powers powers;
-} ps_sphere_grid_stages;
+/* A kernel of kernels/sphere/nufft. */
+typedef struct ps_sphere_source {
+    const char *file, *name;
+    bool sums_one; /* orders_sum_one.cl: in double precision, with sum_lanes */
+} ps_sphere_source;
 
-/* shape, points and tables are borrowed. */
-pspec_status ps_sphere_grid_stages_create(ps_sphere_grid_stages *out, const ps_sphere_shape *shape,
-                                          const ps_sphere_places *points,
-                                          const ps_sphere_tables *tables, bool only_even,
-                                          ps_precision precision, ps_device *device,
-                                          ps_error *error) PS_MUST_CHECK;
-void ps_sphere_grid_stages_free(ps_sphere_grid_stages *stages);
-
-/* These do what those of stages.h do for rings. */
-pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *stages, size_t first_value,
-                                        size_t num, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num,
-                                ps_error *error) PS_MUST_CHECK;
-pspec_status ps_sphere_grid_keep(ps_sphere_grid_stages *stages, double *coefficients,
-                                 ps_error *error) PS_MUST_CHECK;
-
+/* Launches a kernel of sums for the first num realizations. */
 typedef struct ps_sphere_state ps_sphere_state;
+typedef pspec_status ps_sphere_launch_sums(ps_sphere_state *state, ps_kernel *kernel,
+                                           const ps_buffer *to, size_t num, ps_error *error);
 
 typedef struct ps_sphere_variant {
     double kernels; /* programs, without the one of coefficients */
-    double (*count_table_flops)(const ps_sphere_shape *); /* once for all realizations */
-    pspec_status (*create)(ps_sphere_state *, bool only_even, ps_error *);
+    double (*count_table_flops)(const ps_sphere_shape *); /* once for all realizations; NULL: 0 */
+    size_t own_bytes; /* of ps_sphere_state.own, which begins as zeros */
+    pspec_status (*create)(ps_sphere_state *, ps_error *);
+    void (*free)(void *own); /* also what was created in part */
     /* Makes values of some realizations, no more than the shape's `together`, from first_value on.
      */
     pspec_status (*make_values)(ps_sphere_state *, size_t first_value, const ps_batch *some,
                                 ps_error *);
-    /* Powers of the first num values, and where they are; coefficients of the first one. */
-    pspec_status (*sum)(ps_sphere_state *, size_t num, const ps_buffer **powers, ps_error *);
-    pspec_status (*keep)(ps_sphere_state *, double *coefficients, ps_error *);
+    /* The kernels of sums of several sets, and of one alone, and what launches either. */
+    const ps_sphere_source *sources_of_sums[2];
+    ps_sphere_launch_sums *launch_sums;
     void (*describe)(const ps_sphere_state *, ps_text *);
-    void (*free)(ps_sphere_state *); /* also what was created in part, or not at all */
 } ps_sphere_variant;
 
-const ps_sphere_variant *ps_sphere_variant_of(const ps_sphere_shape *shape);
+/* By rings (rings.c), all points at once or sorted, and by cells (cells.c). */
+extern const ps_sphere_variant ps_sphere_rings, ps_sphere_sorted_rings, ps_sphere_cells;
 
 struct ps_sphere_state {
     ps_device *device;
     ps_problem problem;
     ps_precision precision;
+    bool only_even;
     ps_sphere_shape shape;
     const ps_sphere_variant *variant; /* of the shape */
     ps_sphere_places points;
     ps_sphere_tables tables;
-    ps_sphere_stages stages;           /* by rings, */
-    ps_sphere_grid_stages grid_stages; /* or by cells */
+    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
+    ps_kernel *sum, *fold;
+    ps_buffer sums;                   /* [group][realization][even, odd degrees][half_pitch] */
+    ps_buffer grids, scratch, values; /* values: on rings, or on the angles of the grid */
+    void *own;                        /* of the variant */
     ps_late_rows rows;
 };
+
+/* ---- from sums of orders to powers or coefficients (sphere_powers.c) ---------------------- */
+
+/* A kernel for this precision, these lanes and work-groups; keeps: with -DKEEP=1. */
+pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
+                                  const ps_sphere_source *source, bool keeps,
+                                  ps_error *error) PS_MUST_CHECK;
+
+/* The kernels of sums, and room for what they leave. */
+pspec_status ps_sphere_powers_create(ps_sphere_state *self, ps_error *error) PS_MUST_CHECK;
+/* Of the first num values makes powers in `sums`, [realization][even, odd degrees][half_pitch]. */
+pspec_status ps_sphere_powers_sum(ps_sphere_state *self, size_t num, ps_error *error) PS_MUST_CHECK;
+/* The conjugates of c_lm of the first to [order][even, odd l - m][re, im][half_pitch]. Kernel and
+ * room are there only as long as they are needed. */
+pspec_status ps_sphere_powers_keep(ps_sphere_state *self, double *coefficients,
+                                   ps_error *error) PS_MUST_CHECK;
 
 #endif
