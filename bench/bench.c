@@ -112,7 +112,7 @@ void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision 
             (pspec_pattern){dimension, num_points, job->points + r * num_points * dimension, NULL};
         job->scales[r] = 1 / (double)num_points;
     }
-    BENCH_TRY(engine->create(&job->state, &own, precision, job->batch, device, error));
+    BENCH_TRY(ps_engine_create(engine, &job->state, &own, precision, job->batch, device, error));
     ps_engine_slots(engine, job->state, own.frequencies->num, job->slots);
 }
 
@@ -181,7 +181,7 @@ double bench_job_error(bench_job *job) {
 }
 
 void bench_job_destroy(bench_job *job) {
-    job->engine->destroy(job->state);
+    ps_engine_destroy(job->engine, job->state);
     ps_frequencies_free(&job->frequencies);
     free(job->points);
     free(job->patterns);

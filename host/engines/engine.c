@@ -1,6 +1,9 @@
 #include "engines/engine.h"
 
+#include "base/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 /* Four right frequencies per work-item give 64 accumulators and 6.4 fused operations per number
  * loaded in torus/product.cl; not yet measured on a GPU. */
@@ -97,6 +100,30 @@ double ps_expected_power(const ps_problem *problem) {
 
 double ps_planned_points(const ps_problem *problem) {
     return (double)(problem->planned_points > 0 ? problem->planned_points : problem->num_points);
+}
+
+pspec_status ps_engine_create(const ps_engine *engine, void **state, const ps_problem *problem,
+                              ps_precision precision, size_t batch, ps_device *device,
+                              ps_error *error) {
+    *state = NULL;
+    PS_TRY(ps_allocate(state, 1, engine->state_bytes, "an engine", error));
+    const pspec_status status = engine->create(*state, problem, precision, batch, device, error);
+    if (status != PSPEC_OK) {
+        ps_engine_destroy(engine, *state);
+        *state = NULL;
+    }
+    return status;
+}
+
+void ps_engine_destroy(const ps_engine *engine, void *state) {
+    if (state != NULL) {
+        engine->destroy(state);
+        free(state);
+    }
+}
+
+size_t ps_engine_stride(const ps_engine *engine, const void *state, size_t num) {
+    return engine->get_stride != NULL ? engine->get_stride(state) : num;
 }
 
 void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots) {

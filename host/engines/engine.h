@@ -180,13 +180,14 @@ typedef struct ps_engine {
 
     /* All that the planner asks. limits is NULL without a device. */
     ps_survey (*survey)(const ps_problem *, const ps_device_limits *limits, ps_precision);
-    /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
-     * and outlive the state. */
-    pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,
-                           ps_device *, ps_error *);
+    size_t state_bytes;
+    /* Fills a state of zeros (ps_engine_create). batch: the largest number of patterns in one run.
+     * The problem's frequencies are enumerated and outlive the state. */
+    pspec_status (*create)(void *state, const ps_problem *, ps_precision, size_t batch, ps_device *,
+                           ps_error *);
     /* slots[i] is where in a row the power of frequency i stands; NULL: at i. */
     void (*get_slots)(const void *state, uint32_t *slots);
-    /* Entries in a row. */
+    /* Entries in a row; NULL: as many as frequencies. */
     size_t (*get_stride)(const void *state);
     /* The error of a survey again, for the problem that the state was made for and what was
      * measured since: effective power averaged over the frequencies (1: white noise), and
@@ -205,7 +206,7 @@ typedef struct ps_engine {
                                  ps_error *);
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
     void (*describe)(const void *state, ps_text *);
-    void (*destroy)(void *state); /* NULL allowed */
+    void (*destroy)(void *state); /* frees what a state has, also what was created in part */
 } ps_engine;
 
 /* Doubles of the coefficients: up to degree L (L + 1)(L + 2), on the torus two a frequency. */
@@ -227,7 +228,14 @@ extern const ps_engine *const ps_engines[];
 bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
                          const char **why_not);
 
-/* Where in a row of the engine the powers of the num frequencies stand. */
+/* A state of the engine; *state is NULL after a failure. */
+pspec_status ps_engine_create(const ps_engine *engine, void **state, const ps_problem *problem,
+                              ps_precision precision, size_t batch, ps_device *device,
+                              ps_error *error) PS_MUST_CHECK;
+void ps_engine_destroy(const ps_engine *engine, void *state); /* NULL allowed */
+
+/* Entries in a row of the engine, and where in it the powers of the num frequencies stand. */
+size_t ps_engine_stride(const ps_engine *engine, const void *state, size_t num);
 void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots);
 
 /* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width

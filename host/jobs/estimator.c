@@ -16,7 +16,7 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .bins = &self->bins,
         .num_frequencies = set->num,
         .slots = self->slots,
-        .stride = options->engine->get_stride(self->engine_state),
+        .stride = ps_engine_stride(options->engine, self->engine_state, set->num),
         .batch = self->batch,
         .expected = options->problem.num_realizations,
         .is_on_device = is_on_device,
@@ -90,7 +90,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     if (estimator == NULL) {
         return;
     }
-    estimator->options.engine->destroy(estimator->engine_state);
+    ps_engine_destroy(estimator->options.engine, estimator->engine_state);
     ps_accumulator_destroy(estimator->accumulator);
     ps_bins_free(&estimator->bins);
     free(estimator->slots);

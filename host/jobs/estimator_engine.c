@@ -6,11 +6,11 @@
 /* Makes the engine anew for self->batch realizations. */
 static pspec_status create_engine(ps_estimator *self, ps_error *error) {
     const ps_estimator_options *options = &self->options;
-    options->engine->destroy(self->engine_state);
+    ps_engine_destroy(options->engine, self->engine_state);
     self->engine_state = NULL;
     const ps_problem own = ps_engine_problem(options->engine, &options->problem);
-    return options->engine->create(&self->engine_state, &own, options->precision, self->batch,
-                                   self->device, error);
+    return ps_engine_create(options->engine, &self->engine_state, &own, options->precision,
+                            self->batch, self->device, error);
 }
 
 void ps_estimator_halve_batch(ps_estimator *self) {

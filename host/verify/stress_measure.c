@@ -78,7 +78,8 @@ static pspec_status prepare(measurement *self, ps_error *error) {
         PS_TRY(PS_NEW(&self->coefficients, ps_num_coefficients(sample->frequencies.max_frequency),
                       "coefficients", error));
     }
-    return self->engine->create(&self->state, &self->own, self->precision, 1, self->device, error);
+    return ps_engine_create(self->engine, &self->state, &self->own, self->precision, 1,
+                            self->device, error);
 }
 
 /* ---- comparing ----------------------------------------------------------------------------- */
@@ -176,7 +177,7 @@ pspec_status ps_stress_measure(const ps_stress_sample *sample, const ps_problem 
         }
         *bound = bound_of(&self);
     }
-    engine->destroy(self.state);
+    ps_engine_destroy(engine, self.state);
     free(self.powers);
     free(self.coefficients);
     return status;

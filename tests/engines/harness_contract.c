@@ -122,13 +122,14 @@ static bool is_meant(const contract_way *way) {
     if (is_gpu) {
         return strcmp(way->what->says, "gridded") == 0 || strcmp(way->what->says, "group=") == 0;
     }
-    assert_ok(way->engine->create(&state, &way->problem, way->precision, 1, way->device, error));
+    assert_ok(ps_engine_create(way->engine, &state, &way->problem, way->precision, 1, way->device,
+                               error));
     way->engine->describe(state, &text);
     if (strstr(ps_text_string(&text), way->what->says) == NULL) {
         CONTRACT_FAIL(way, "not '%s', but %s", way->what->says, ps_text_string(&text));
     }
     ps_text_free(&text);
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
     return true;
 }
 
@@ -180,8 +181,8 @@ size_t contract_walk(ps_device *device, const ps_engine *engine, contract_law *l
 
 void *contract_state(const contract_way *way) {
     void *state = NULL;
-    assert_ok(way->engine->create(&state, &way->problem, way->precision, CONTRACT_SETS, way->device,
-                                  error));
+    assert_ok(ps_engine_create(way->engine, &state, &way->problem, way->precision, CONTRACT_SETS,
+                               way->device, error));
     return state;
 }
 

@@ -128,7 +128,7 @@ static void errors_are_announced(const contract_way *way) {
                           set->num_points, off, bound);
         }
     }
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
 }
 
 /* ---- weights, scales, coefficients ------------------------------------------------------- */
@@ -156,9 +156,10 @@ static void weights_scale_exactly(const contract_way *way) {
     const ps_batch batch = {
         .num_patterns = NUM, .patterns = patterns, .scales = scales, .exponents = exponents};
     void *state = NULL;
-    assert_ok(way->engine->create(&state, &way->problem, way->precision, NUM, device, error));
+    assert_ok(
+        ps_engine_create(way->engine, &state, &way->problem, way->precision, NUM, device, error));
     test_run_batch(way->engine, state, &way->frequencies, device, &batch, q);
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
     for (size_t i = 0; i < way->frequencies.num; i++) {
         const size_t num = way->frequencies.num;
         assert_true(q[num + i] == q[i]);
@@ -191,7 +192,7 @@ static void coefficients_have_the_powers(const contract_way *way) {
                             way->expected + r * way->frequencies.num);
         free(c);
     }
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
 }
 
 /* ---- streams, stops, bad points ---------------------------------------------------------- */
@@ -209,7 +210,7 @@ static void blocks_change_no_bit(const contract_way *way) {
     if (stream == NULL) {
         return;
     }
-    assert_ok(way->engine->create(&state, &problem, way->precision, 1, device, error));
+    assert_ok(ps_engine_create(way->engine, &state, &problem, way->precision, 1, device, error));
     const size_t unit = stream->unit(state);
     if (unit > 0) {
         double *const powers = malloc(contract_row_bytes(way));
@@ -229,7 +230,7 @@ static void blocks_change_no_bit(const contract_way *way) {
         contract_check_rows(way, "blocks", 1, powers, expected);
         free(expected);
     }
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
 }
 
 static bool stop(void *payload) {
@@ -256,7 +257,7 @@ static void runs_stop(const contract_way *way) {
     batch.should_stop = NULL;
     test_run_batch(way->engine, state, &way->frequencies, device, &batch, found);
     contract_check_rows(way, "after a stop", CONTRACT_SETS, found, way->expected);
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
 }
 
 /* Coordinates outside of [0, 1) in the last set are found by the engines that look. */
@@ -269,13 +270,14 @@ static void points_are_checked(const contract_way *way) {
     if (!way->engine->checks_points) {
         return;
     }
-    assert_ok(way->engine->create(&state, &way->problem, way->precision, 2, device, error));
+    assert_ok(
+        ps_engine_create(way->engine, &state, &way->problem, way->precision, 2, device, error));
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         ps_rows rows = {0};
         x[way->what->dimension - 1] = bad[i];
         assert_int_equal(way->engine->run(state, &batch, &rows, NULL), PSPEC_ERROR_INPUT);
     }
-    way->engine->destroy(state);
+    ps_engine_destroy(way->engine, state);
 }
 
 /* ---- who is asked ------------------------------------------------------------------------ */

@@ -156,14 +156,14 @@ double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_
     for (size_t r = 0; r < num_patterns; r++) {
         scales[r] = 1;
     }
-    assert_ok(engine->create(&state, problem, precision, batch, device, error));
+    assert_ok(ps_engine_create(engine, &state, problem, precision, batch, device, error));
     for (size_t done = 0; done < num_patterns; done += batch) {
         const size_t count = num_patterns - done < batch ? num_patterns - done : batch;
         const ps_batch some = {
             .num_patterns = count, .patterns = patterns + done, .scales = scales + done};
         test_run_batch(engine, state, frequencies, device, &some, powers + done * frequencies->num);
     }
-    engine->destroy(state);
+    ps_engine_destroy(engine, state);
     free(scales);
     return powers;
 }
@@ -192,9 +192,9 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
 double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
                          ps_device *device, double mean_power) {
     void *state = NULL;
-    assert_ok(engine->create(&state, problem, precision, 1, device, error));
+    assert_ok(ps_engine_create(engine, &state, problem, precision, 1, device, error));
     const double found = engine->error_of_state(state, mean_power, problem->weight_share);
-    engine->destroy(state);
+    ps_engine_destroy(engine, state);
     return found;
 }
 

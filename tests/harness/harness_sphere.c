@@ -51,10 +51,10 @@ double *test_coefficients(const ps_engine *engine, ps_precision precision, ps_de
     double *out = calloc((max_degree + 1) * (max_degree + 2), sizeof(double));
     void *state = NULL;
     assert_non_null(out);
-    assert_ok(engine->create(&state, &problem, precision, 1, device, error));
+    assert_ok(ps_engine_create(engine, &state, &problem, precision, 1, device, error));
     assert_ok(engine->coefficients(state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL,
                                    out, error));
-    engine->destroy(state);
+    ps_engine_destroy(engine, state);
     return out;
 }
 

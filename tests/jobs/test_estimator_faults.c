@@ -112,20 +112,19 @@ static void first_bad_pattern(void **state) {
 enum { MOST_BATCH = 3 };
 
 /* torus_direct on a device that refuses memory for more than MOST_BATCH realizations. */
-static pspec_status create_small(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create_small(void *state, const ps_problem *problem, ps_precision precision,
                                  size_t batch, ps_device *on, ps_error *error) {
-    *state = NULL;
     return batch > MOST_BATCH ? ps_fail(error, PSPEC_ERROR_MEMORY, "refused")
                               : ps_torus_direct.create(state, problem, precision, batch, on, error);
 }
 
-static pspec_status refuse(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status refuse(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *on, ps_error *error) {
+    (void)state;
     (void)problem;
     (void)precision;
     (void)batch;
     (void)on;
-    *state = NULL;
     return ps_fail(error, PSPEC_ERROR_MEMORY, "refused");
 }
 

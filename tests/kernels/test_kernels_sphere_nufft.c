@@ -89,7 +89,8 @@ static void check_case(const ps_engine *engine, const sphere_case *what) {
                             .patterns = patterns,
                             .scales = scales,
                             .exponents = exponents};
-    assert_ok(engine->create(&state, &problem, what->precision, REALIZATIONS, device, error));
+    assert_ok(
+        ps_engine_create(engine, &state, &problem, what->precision, REALIZATIONS, device, error));
     assert_ok(engine->run(state, &batch, &rows, error));
     assert_ok(ps_rows_wait(&rows, error));
     for (size_t r = 0; r < REALIZATIONS; r++) {
@@ -103,7 +104,7 @@ static void check_case(const ps_engine *engine, const sphere_case *what) {
         free((double *)patterns[r].points);
         free((double *)patterns[r].weights);
     }
-    engine->destroy(state);
+    ps_engine_destroy(engine, state);
     ps_frequencies_free(&degrees);
     free(zeros);
 }

@@ -58,7 +58,6 @@ void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re
 
 typedef struct host_direct {
     const ps_frequencies *frequencies;
-    size_t batch;
     double *power; /* [batch][number of frequencies] */
 } host_direct;
 
@@ -98,42 +97,20 @@ static double error_of_state(const void *state, double mean_power, double weight
 }
 
 static void destroy(void *state) {
-    host_direct *self = state;
-    if (self != NULL) {
-        free(self->power);
-        free(self);
-    }
+    free(((host_direct *)state)->power);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
+    host_direct *const self = state;
+    size_t num_powers = 0;
     (void)precision;
     (void)device;
-    void *memory = NULL;
-    size_t num_powers = 0;
-    *state = NULL;
-    host_direct *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     self->frequencies = problem->frequencies;
-    self->batch = batch;
-    pspec_status status = PSPEC_OK;
-    if (!ps_size_multiply(batch, problem->frequencies->num, &num_powers)) {
-        status = ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu powers are too many",
+    return ps_size_multiply(batch, problem->frequencies->num, &num_powers)
+               ? PS_NEW(&self->power, num_powers, "the powers of a batch", error)
+               : ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu powers are too many",
                          batch, problem->frequencies->num);
-    } else {
-        status = ps_allocate(&memory, num_powers, sizeof(double), "the powers of a batch", error);
-    }
-    if (status != PSPEC_OK) {
-        destroy(self);
-        return status;
-    }
-    self->power = memory;
-    *state = self;
-    return PSPEC_OK;
-}
-
-static size_t get_stride(const void *state) {
-    return ((const host_direct *)state)->frequencies->num;
 }
 
 pspec_status ps_host_power(const pspec_pattern *pattern, const ps_frequencies *set, size_t i,
@@ -256,8 +233,8 @@ const ps_engine ps_host_direct = {
     .has_precision = {false, false, true},
     .survey = survey,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(host_direct),
     .create = create,
-    .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,
     .describe = describe,

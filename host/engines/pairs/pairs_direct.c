@@ -29,7 +29,6 @@ typedef struct pairs_direct {
     ps_problem problem;
     ps_precision precision;
     run_layout layout;
-    size_t batch;
     ps_pairs_points points;
     ps_pairs_degrees degrees;
     ps_kernel *kernel;
@@ -107,13 +106,9 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     pairs_direct *self = state;
-    if (self == NULL) {
-        return;
-    }
     ps_pairs_points_free(&self->points);
     ps_pairs_degrees_free(&self->degrees);
     ps_buffer_release(&self->partials);
-    free(self);
 }
 
 static pspec_status create_kernel(pairs_direct *self, const ps_problem *problem,
@@ -123,36 +118,22 @@ static pspec_status create_kernel(pairs_direct *self, const ps_problem *problem,
                          error);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    *state = NULL;
-    pairs_direct *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
-    pspec_status status = PSPEC_OK;
+    pairs_direct *const self = state;
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
-    self->batch = batch;
     self->layout = make_layout(problem, ps_device_get_limits(device), precision);
     const unsigned lanes = self->layout.lanes;
-    PS_TRY_OUT(status, ps_pairs_points_create(&self->points, problem->num_points, batch, precision,
-                                              lanes, device, error));
-    PS_TRY_OUT(status, ps_pairs_degrees_create(&self->degrees, problem, precision, lanes, batch,
-                                               device, error));
-    PS_TRY_OUT(status, create_kernel(self, problem, precision, error));
-    PS_TRY_OUT(status, ps_buffer_create(device, &self->partials,
-                                        batch * self->layout.slab * self->degrees.row_bytes,
-                                        "sums of runs of pairs", error));
-    *state = self;
-out:
-    if (status != PSPEC_OK) {
-        destroy(self);
-    }
-    return status;
-}
-
-static size_t get_stride(const void *state) {
-    return ((const pairs_direct *)state)->degrees.frequencies->num;
+    PS_TRY(ps_pairs_points_create(&self->points, problem->num_points, batch, precision, lanes,
+                                  device, error));
+    PS_TRY(
+        ps_pairs_degrees_create(&self->degrees, problem, precision, lanes, batch, device, error));
+    PS_TRY(create_kernel(self, problem, precision, error));
+    return ps_buffer_create(device, &self->partials,
+                            batch * self->layout.slab * self->degrees.row_bytes,
+                            "sums of runs of pairs", error);
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
@@ -205,8 +186,8 @@ const ps_engine ps_pairs_direct = {
     .has_precision = {true, true, false},
     .survey = survey,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(pairs_direct),
     .create = create,
-    .get_stride = get_stride,
     .run = run,
     .describe = describe,
     .destroy = destroy,

@@ -170,9 +170,6 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     pairs_histogram *self = state;
-    if (self == NULL) {
-        return;
-    }
     ps_pairs_points_free(&self->points);
     ps_pairs_degrees_free(&self->degrees);
     ps_buffer_release(&self->scale);
@@ -182,7 +179,6 @@ static void destroy(void *state) {
     ps_buffer_release(&self->moments);
     ps_buffer_release(&self->weights);
     ps_buffer_release(&self->node_partials);
-    free(self);
 }
 
 static pspec_status create_kernels(pairs_histogram *self, const ps_problem *problem,
@@ -231,34 +227,21 @@ static pspec_status create_buffers(pairs_histogram *self, size_t batch, ps_error
                             "sums of runs of nodes", error);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    *state = NULL;
-    pairs_histogram *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
-    pspec_status status = PSPEC_OK;
+    pairs_histogram *const self = state;
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
     self->layout = make_layout(problem, ps_device_get_limits(device), precision);
     self->bound = ps_pairs_bins_bound(problem->frequencies->max_frequency, self->layout.num_bins);
-    PS_TRY_OUT(status, ps_pairs_points_create(&self->points, problem->num_points, batch, precision,
-                                              self->layout.lanes, device, error));
-    PS_TRY_OUT(status, ps_pairs_degrees_create(&self->degrees, problem, precision,
-                                               self->layout.lanes, batch, device, error));
-    PS_TRY_OUT(status, create_kernels(self, problem, error));
-    PS_TRY_OUT(status, upload_tables(self, error));
-    PS_TRY_OUT(status, create_buffers(self, batch, error));
-    *state = self;
-out:
-    if (status != PSPEC_OK) {
-        destroy(self);
-    }
-    return status;
-}
-
-static size_t get_stride(const void *state) {
-    return ((const pairs_histogram *)state)->degrees.frequencies->num;
+    PS_TRY(ps_pairs_points_create(&self->points, problem->num_points, batch, precision,
+                                  self->layout.lanes, device, error));
+    PS_TRY(ps_pairs_degrees_create(&self->degrees, problem, precision, self->layout.lanes, batch,
+                                   device, error));
+    PS_TRY(create_kernels(self, problem, error));
+    PS_TRY(upload_tables(self, error));
+    return create_buffers(self, batch, error);
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
@@ -345,8 +328,8 @@ const ps_engine ps_pairs_histogram = {
     .has_precision = {true, true, false},
     .survey = survey,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(pairs_histogram),
     .create = create,
-    .get_stride = get_stride,
     .run = run,
     .describe = describe,
     .destroy = destroy,

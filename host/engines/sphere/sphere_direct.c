@@ -78,9 +78,6 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     sphere_direct *self = state;
-    if (self == NULL) {
-        return;
-    }
     ps_sphere_points_free(&self->points);
     free(self->constants);
     free(self->host_table);
@@ -91,7 +88,6 @@ static void destroy(void *state) {
     ps_buffer_release(&self->blocks);
     ps_buffer_release(&self->sums);
     ps_buffer_release(&self->powers);
-    free(self);
 }
 
 static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
@@ -162,33 +158,20 @@ static pspec_status create_rows(sphere_direct *self, ps_error *error) {
     return ps_late_rows_create(&self->rows, self->device, error);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    *state = NULL;
-    sphere_direct *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
-    pspec_status status = PSPEC_OK;
+    sphere_direct *const self = state;
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_sphere_layout_make(problem, ps_device_get_limits(device), precision);
     self->table_pass = SIZE_MAX;
-    PS_TRY_OUT(status, ps_sphere_points_create(&self->points, &self->layout, batch, device, error));
-    PS_TRY_OUT(status, create_kernels(self, error));
-    PS_TRY_OUT(status, allocate_on_host(self, error));
-    PS_TRY_OUT(status, create_buffers(self, error));
-    PS_TRY_OUT(status, create_rows(self, error));
-    *state = self;
-out:
-    if (status != PSPEC_OK) {
-        destroy(self);
-    }
-    return status;
-}
-
-static size_t get_stride(const void *state) {
-    return ((const sphere_direct *)state)->problem.frequencies->num;
+    PS_TRY(ps_sphere_points_create(&self->points, &self->layout, batch, device, error));
+    PS_TRY(create_kernels(self, error));
+    PS_TRY(allocate_on_host(self, error));
+    PS_TRY(create_buffers(self, error));
+    return create_rows(self, error);
 }
 
 /* ---- a pass of orders -------------------------------------------------------------------- */
@@ -372,8 +355,8 @@ const ps_engine ps_sphere_direct = {
     .has_precision = {true, true, false},
     .survey = survey,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(sphere_direct),
     .create = create,
-    .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,
     .describe = describe,

@@ -141,16 +141,12 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     torus_direct *self = state;
-    if (self == NULL) {
-        return;
-    }
     ps_split_free(&self->split);
     ps_torus_points_free(&self->points);
     ps_torus_sums_free(&self->sums);
     ps_torus_product_free(&self->product);
     ps_buffer_release(&self->scales);
     ps_buffer_release(&self->power);
-    free(self);
 }
 
 /* Left and right factors in one list; the left ones fill whole tiles, padded with zeros. */
@@ -198,11 +194,9 @@ static pspec_status create_rows(torus_direct *self, ps_error *error) {
                             "scales", error);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    *state = NULL;
-    torus_direct *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
+    torus_direct *const self = state;
     self->device = device;
     self->frequencies = problem->frequencies;
     self->precision = precision;
@@ -210,21 +204,11 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->batch = batch;
     self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
     self->layout.group = self->layout.group < batch ? self->layout.group : batch;
-    pspec_status status = ps_torus_points_create(&self->points, problem->frequencies->dimension,
-                                                 batch, self->layout.table_points, precision,
-                                                 self->layout.is_grid, device, error);
-    if (status == PSPEC_OK) {
-        status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
-    }
-    if (status == PSPEC_OK) {
-        status = create_rows(self, error);
-    }
-    if (status != PSPEC_OK) {
-        destroy(self);
-        return status;
-    }
-    *state = self;
-    return PSPEC_OK;
+    PS_TRY(ps_torus_points_create(&self->points, problem->frequencies->dimension, batch,
+                                  self->layout.table_points, precision, self->layout.is_grid,
+                                  device, error));
+    PS_TRY(self->layout.is_grid ? create_grid(self, error) : create_list(self, error));
+    return create_rows(self, error);
 }
 
 static void get_slots(const void *state, uint32_t *slots) {
@@ -373,6 +357,7 @@ const ps_engine ps_torus_direct = {
     .checks_points = true,
     .survey = survey,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(torus_direct),
     .create = create,
     .get_slots = get_slots,
     .get_stride = get_stride,

@@ -50,8 +50,8 @@ static pspec_status start(work *self, const ps_frequencies *frequencies, ps_erro
     PS_TRY(make_plan(self, &problem, &plan, error));
     PS_TRY(ps_plan_require(&plan, &problem, error));
     self->engine = plan.chosen->engine;
-    PS_TRY(self->engine->create(&self->state, &problem, plan.chosen->precision, 1,
-                                self->way->device, error));
+    PS_TRY(ps_engine_create(self->engine, &self->state, &problem, plan.chosen->precision, 1,
+                            self->way->device, error));
     PS_TRY(PS_NEW(&self->slots, frequencies->num, "slots", error));
     ps_engine_slots(self->engine, self->state, frequencies->num, self->slots);
     return PSPEC_OK;
@@ -120,7 +120,7 @@ pspec_status ps_point_powers(const ps_integrand *integrand, const ps_frequencies
     status = multiply(integrand, frequencies, scale, powers, error);
 out:
     if (self.engine != NULL) {
-        self.engine->destroy(self.state);
+        ps_engine_destroy(self.engine, self.state);
     }
     free(self.slots);
     free(self.row);

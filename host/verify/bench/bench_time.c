@@ -143,11 +143,11 @@ pspec_status ps_bench_measure_round(ps_bench_sets *sets, const ps_problem *probl
                    .payload = options->payload};
     PS_TRY(make_sets(sets, self.num, error));
     self.batch = candidate->batch < self.num ? candidate->batch : self.num;
-    pspec_status status =
-        self.engine->create(&self.state, &own, candidate->precision, self.batch, device, error);
+    pspec_status status = ps_engine_create(self.engine, &self.state, &own, candidate->precision,
+                                           self.batch, device, error);
     if (status == PSPEC_OK) {
         status = run_round(&self, out, error);
     }
-    self.engine->destroy(self.state);
+    ps_engine_destroy(self.engine, self.state);
     return status;
 }

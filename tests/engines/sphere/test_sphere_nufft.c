@@ -67,10 +67,10 @@ static double *run_coefficients(const ps_problem *problem, ps_precision precisio
     const size_t L = (size_t)problem->frequencies->max_frequency;
     double *found = calloc((L + 1) * (L + 2), sizeof(double));
     void *state = NULL;
-    assert_ok(engine->create(&state, problem, precision, 1, device, error));
+    assert_ok(ps_engine_create(engine, &state, problem, precision, 1, device, error));
     assert_ok(engine->coefficients(state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL,
                                    found, error));
-    engine->destroy(state);
+    ps_engine_destroy(engine, state);
     return found;
 }
 

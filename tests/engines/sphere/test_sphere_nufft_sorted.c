@@ -27,10 +27,10 @@ static double *coefficients_of(const ps_problem *problem, ps_precision precision
                                const pspec_pattern *pattern) {
     double *found = calloc((DEGREE + 1) * (DEGREE + 2), sizeof(double));
     void *state = NULL;
-    assert_ok(ps_sphere_nufft.create(&state, problem, precision, 1, device, error));
+    assert_ok(ps_engine_create(&ps_sphere_nufft, &state, problem, precision, 1, device, error));
     assert_ok(ps_sphere_nufft.coefficients(
         state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL, found, error));
-    ps_sphere_nufft.destroy(state);
+    ps_engine_destroy(&ps_sphere_nufft, state);
     return found;
 }
 

@@ -41,7 +41,7 @@ static void measure(const ps_problem *problem, ps_precision precision, size_t nu
     const size_t L = (size_t)problem->frequencies->max_frequency;
     double *found = calloc((L + 1) * (L + 2), sizeof(double));
     void *state = NULL;
-    assert_ok(engine->create(&state, problem, precision, 1, device, error));
+    assert_ok(ps_engine_create(engine, &state, problem, precision, 1, device, error));
     for (size_t i = 0; i < num; i++) {
         double power = 0;
         assert_ok(engine->coefficients(
@@ -50,7 +50,7 @@ static void measure(const ps_problem *problem, ps_precision precision, size_t nu
             test_sphere_error(found, expected[i], (int32_t)L, 1, &patterns[i], &power);
         slack[i] = fmin(slack[i], engine->error_of_state(state, power, 0) / error);
     }
-    engine->destroy(state);
+    ps_engine_destroy(engine, state);
     free(found);
 }
 

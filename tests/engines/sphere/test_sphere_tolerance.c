@@ -125,14 +125,14 @@ static void check_candidate(sweep *self, const ps_problem *problem, const ps_can
     if (smallest->num_runs == 0) {
         *smallest = (record){candidate->engine->name, candidate->precision, 0, HUGE_VAL};
     }
-    assert_ok(candidate->engine->create(&state, problem, candidate->precision, candidate->batch,
-                                        device, error));
+    assert_ok(ps_engine_create(candidate->engine, &state, problem, candidate->precision,
+                               candidate->batch, device, error));
     for (size_t s = 0; s < SHAPES; s++) {
         if (only == NULL || only == &self->samples[s]) {
             check_sample(self, &self->samples[s], problem, candidate, state, smallest);
         }
     }
-    candidate->engine->destroy(state);
+    ps_engine_destroy(candidate->engine, state);
 }
 
 /* ---- plans ------------------------------------------------------------------------------- */

@@ -119,8 +119,8 @@ static double created_for(const ps_problem *problem, uint64_t num_realizations) 
     void *engine = NULL;
     planned.num_realizations = num_realizations;
     bytes_created = 0;
-    assert_ok(ps_torus_nufft.create(&engine, &planned, PS_SINGLE, 1, device, error));
-    ps_torus_nufft.destroy(engine);
+    assert_ok(ps_engine_create(&ps_torus_nufft, &engine, &planned, PS_SINGLE, 1, device, error));
+    ps_engine_destroy(&ps_torus_nufft, engine);
     return bytes_created;
 }
 

@@ -155,11 +155,12 @@ static void sweep_tolerances(tried *self, const sweep *at) {
         double *found = test_run_engine_to(self->engine, self->precision, tolerance, device,
                                            &at->grid, at->patterns, TEST_SHAPES, TEST_SHAPES);
         void *state = NULL;
-        assert_ok(self->engine->create(&state, &problem, self->precision, 1, device, error));
+        assert_ok(
+            ps_engine_create(self->engine, &state, &problem, self->precision, 1, device, error));
         for (size_t s = 0; s < TEST_SHAPES; s++) {
             check_shape(self, at, s, tolerance, found + s * at->grid.num, state);
         }
-        self->engine->destroy(state);
+        ps_engine_destroy(self->engine, state);
         free(found);
         before = tolerance;
     }

@@ -125,9 +125,6 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     ps_sphere_state *self = state;
-    if (self == NULL) {
-        return;
-    }
     if (self->own != NULL) {
         self->variant->free(self->own);
     }
@@ -139,7 +136,6 @@ static void destroy(void *state) {
     ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
     ps_late_rows_free(&self->rows);
-    free(self);
 }
 
 static void make_row(const void *engine, const void *sums, double scale, double square,
@@ -187,12 +183,9 @@ static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *
     return create_buffers(self, error);
 }
 
-static pspec_status create_route(void **state, const ps_problem *problem, ps_precision precision,
-                                 size_t batch, ps_device *device, ps_sphere_route route,
-                                 ps_error *error) {
-    *state = NULL;
-    ps_sphere_state *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
+static pspec_status create_route(ps_sphere_state *self, const ps_problem *problem,
+                                 ps_precision precision, size_t batch, ps_device *device,
+                                 ps_sphere_route route, ps_error *error) {
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
@@ -201,27 +194,17 @@ static pspec_status create_route(void **state, const ps_problem *problem, ps_pre
     self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision, route);
     ps_sphere_shape_shrink(&self->shape, batch);
     self->variant = variant_of(&self->shape);
-    const pspec_status status = create_parts(self, batch, error);
-    if (status != PSPEC_OK) {
-        destroy(self);
-        return status;
-    }
-    *state = self;
-    return PSPEC_OK;
+    return create_parts(self, batch, error);
 }
 
-static pspec_status create_rings(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create_rings(void *state, const ps_problem *problem, ps_precision precision,
                                  size_t batch, ps_device *device, ps_error *error) {
     return create_route(state, problem, precision, batch, device, PS_SPHERE_BY_RINGS, error);
 }
 
-static pspec_status create_cells(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create_cells(void *state, const ps_problem *problem, ps_precision precision,
                                  size_t batch, ps_device *device, ps_error *error) {
     return create_route(state, problem, precision, batch, device, PS_SPHERE_BY_CELLS, error);
-}
-
-static size_t get_stride(const void *state) {
-    return ((const ps_sphere_state *)state)->problem.frequencies->num;
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
@@ -331,8 +314,8 @@ const ps_engine ps_sphere_nufft = {
     .has_precision = {true, true, false},
     .survey = survey_rings,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(ps_sphere_state),
     .create = create_rings,
-    .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,
     .describe = describe_rings,
@@ -348,8 +331,8 @@ const ps_engine ps_sphere_grid = {
     .has_precision = {true, true, false},
     .survey = survey_cells,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(ps_sphere_state),
     .create = create_cells,
-    .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,
     .describe = describe_cells,

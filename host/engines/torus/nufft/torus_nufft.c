@@ -93,9 +93,6 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     ps_nufft_state *self = state;
-    if (self == NULL) {
-        return;
-    }
     ps_buffer_release(&self->means);
     ps_buffer_release(&self->scales);
     ps_buffer_release(&self->power);
@@ -108,7 +105,6 @@ static void destroy(void *state) {
     ps_nufft_places_free(&self->places);
     free(self->own);
     free(self->means_of_parts);
-    free(self);
 }
 
 static pspec_status create_buffers(ps_nufft_state *self, size_t rows, ps_error *error) {
@@ -139,11 +135,9 @@ static pspec_status create_parts(ps_nufft_state *self, const ps_problem *problem
     return launcher->create(self, error);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    *state = NULL;
-    ps_nufft_state *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "an engine", error));
+    ps_nufft_state *const self = state;
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
@@ -151,13 +145,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
     ps_nufft_layout_shrink(&self->layout, batch);
     self->launcher = self->layout.choice.variant->launcher;
-    const pspec_status status = create_parts(self, problem, error);
-    if (status != PSPEC_OK) {
-        destroy(self);
-        return status;
-    }
-    *state = self;
-    return PSPEC_OK;
+    return create_parts(self, problem, error);
 }
 
 static void get_slots(const void *state, uint32_t *slots) {
@@ -354,6 +342,7 @@ const ps_engine ps_torus_nufft = {
     .checks_points = true,
     .survey = survey,
     .error_of_state = error_of_state,
+    .state_bytes = sizeof(ps_nufft_state),
     .create = create,
     .get_slots = get_slots,
     .get_stride = get_stride,
