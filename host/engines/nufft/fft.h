@@ -43,6 +43,10 @@ typedef struct ps_fft_plan {
     ps_buffer radices, twiddles, position;
 } ps_fft_plan;
 
+/* Arguments of kernels that transform by the plan. */
+#define PS_FFT_TABLES(plan)                                                                        \
+    PS_BUFFER((plan).radices), PS_BUFFER((plan).twiddles), PS_BUFFER((plan).position)
+
 pspec_status ps_fft_plan_create(ps_fft_plan *out, uint32_t length, ps_precision precision,
                                 ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_fft_plan_free(ps_fft_plan *plan);

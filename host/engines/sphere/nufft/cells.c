@@ -59,8 +59,7 @@ static pspec_status make_values(ps_sphere_state *self, size_t first_value, const
     return PS_LAUNCH(self->device, of(self)->make, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(self->points.turns), PS_BUFFER(self->points.weights),
                      PS_BUFFER(self->points.offsets), PS_BUFFER(plan->coefficients),
-                     PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
-                     PS_BUFFER(tables->halves.position), PS_BUFFER(tables->around_gains),
+                     PS_FFT_TABLES(tables->halves), PS_BUFFER(tables->around_gains),
                      PS_BUFFER(of(self)->table.begins), PS_BUFFER(self->grids),
                      PS_BUFFER(self->values), PS_BUFFER(self->scratch), PS_LOCAL(local.windows),
                      PS_LOCAL(local.cells));

@@ -119,18 +119,16 @@ static pspec_status run_steps(ps_sphere_state *self, some_realizations some, uns
     const double transforms = (double)num * shape->pairs * 4.0 * shape->lanes;
     const ps_range range = ps_sphere_group_range(self->device, self->is_alone, slots * shares,
                                                  transforms * ps_fft_flops(shape->axis.n));
-    return PS_LAUNCH(
-        self->device, own->orders, &range, error, PS_STRUCT(numbers), PS_BUFFER(self->points.turns),
-        PS_BUFFER(self->points.weights), PS_BUFFER(self->points.offsets),
-        PS_BUFFER(tables->plan.coefficients), PS_BUFFER(tables->halves.radices),
-        PS_BUFFER(tables->halves.twiddles), PS_BUFFER(tables->halves.position),
-        PS_BUFFER(own->tables.transforms.radices), PS_BUFFER(own->tables.transforms.twiddles),
-        PS_BUFFER(own->tables.transforms.position), PS_BUFFER(own->tables.turns),
-        PS_BUFFER(own->tables.ring_turns), PS_BUFFER(tables->around_gains),
-        PS_BUFFER(own->tables.along_gains), PS_BUFFER(own->strip_turns),
-        PS_BUFFER(own->strip_weights), PS_BUFFER(own->strips), PS_BUFFER(own->strip_starts),
-        PS_BUFFER(self->grids), PS_BUFFER(own->rows), PS_BUFFER(self->values),
-        PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+    return PS_LAUNCH(self->device, own->orders, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->points.turns), PS_BUFFER(self->points.weights),
+                     PS_BUFFER(self->points.offsets), PS_BUFFER(tables->plan.coefficients),
+                     PS_FFT_TABLES(tables->halves), PS_FFT_TABLES(own->tables.transforms),
+                     PS_BUFFER(own->tables.turns), PS_BUFFER(own->tables.ring_turns),
+                     PS_BUFFER(tables->around_gains), PS_BUFFER(own->tables.along_gains),
+                     PS_BUFFER(own->strip_turns), PS_BUFFER(own->strip_weights),
+                     PS_BUFFER(own->strips), PS_BUFFER(own->strip_starts), PS_BUFFER(self->grids),
+                     PS_BUFFER(own->rows), PS_BUFFER(self->values), PS_BUFFER(self->scratch),
+                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
 /* All steps in one go where there is a realization for every work-group; else slot by slot, each

@@ -249,8 +249,7 @@ static pspec_status transform_columns(ps_nufft_state *self, extent columns, exte
                                    .num_tiles = (uint32_t)tiles.num};
     return PS_LAUNCH(self->device, of(self)->first, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(*high), PS_BUFFER(*low), PS_BUFFER(self->means),
-                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
-                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains),
+                     PS_FFT_TABLES(plan->fft), PS_BUFFER(plan->gains),
                      PS_BUFFER(of(self)->tile_rows), PS_LOCAL(cells_bytes(self, plan)));
 }
 
@@ -282,8 +281,7 @@ static pspec_status finish_tiles(ps_nufft_state *self, extent tiles, const ps_nu
                                     .transform = ps_nufft_transform_numbers(plan),
                                     .first_row = (uint32_t)target->realization};
     return PS_LAUNCH(self->device, of(self)->tile, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(of(self)->tile_rows), PS_BUFFER(plan->fft.radices),
-                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+                     PS_BUFFER(of(self)->tile_rows), PS_FFT_TABLES(plan->fft),
                      PS_BUFFER(plan->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
                      PS_LOCAL(cells_bytes(self, plan)));
 }
@@ -296,8 +294,7 @@ static pspec_status finish_rows(ps_nufft_state *self, extent tiles, const ps_nuf
     const ps_range rows = transform_range(self, along, tiles.num * across->axis.n);
     const ps_range columns = transform_range(self, across, tiles.num * kept);
     PS_TRY(PS_LAUNCH(self->device, of(self)->rows, &rows, error, PS_BUFFER(of(self)->tile_rows),
-                     PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
-                     PS_BUFFER(along->fft.position), PS_BUFFER(of(self)->transformed),
+                     PS_FFT_TABLES(along->fft), PS_BUFFER(of(self)->transformed),
                      PS_U32(across->axis.n), PS_U32(along->axis.n),
                      PS_U32(along->axis.max_frequency), PS_LOCAL(cells_bytes(self, along))));
     const powers_numbers numbers = {.stride = self->layout.stride,
@@ -306,8 +303,7 @@ static pspec_status finish_rows(ps_nufft_state *self, extent tiles, const ps_nuf
                                     .first_row = (uint32_t)target->realization,
                                     .column_K = (uint32_t)along->axis.max_frequency};
     return PS_LAUNCH(self->device, of(self)->columns, &columns, error, PS_STRUCT(numbers),
-                     PS_BUFFER(of(self)->transformed), PS_BUFFER(across->fft.radices),
-                     PS_BUFFER(across->fft.twiddles), PS_BUFFER(across->fft.position),
+                     PS_BUFFER(of(self)->transformed), PS_FFT_TABLES(across->fft),
                      PS_BUFFER(across->gains), PS_BUFFER(along->gains), PS_BUFFER(*target->scales),
                      PS_BUFFER(*target->power), PS_LOCAL(cells_bytes(self, across)));
 }

@@ -37,11 +37,6 @@ static void free_own(void *own) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* The arguments of an axis, as kernels/nufft/strips.cl has them. */
-#define STRIPS_AXIS(plan)                                                                          \
-    PS_BUFFER((plan)->fft.radices), PS_BUFFER((plan)->fft.twiddles),                               \
-        PS_BUFFER((plan)->fft.position), PS_BUFFER((plan)->gains)
-
 /* Work-groups: no more than there are cores. One that goes on to another realization has its tiles
  * in the last cache still, 0.82 to 0.93 of the time of one for each (K = 256 and 512). */
 static size_t num_groups(const ps_nufft_state *self, size_t num_realizations) {
@@ -90,7 +85,8 @@ static pspec_status run(ps_nufft_state *self, size_t num_realizations,
         self->device, of(self)->kernel, &range, error, PS_STRUCT(numbers),
         PS_BUFFER(places->places), PS_BUFFER(places->sorted), PS_BUFFER(places->heights),
         PS_BUFFER(places->starts), PS_BUFFER(across->coefficients), PS_BUFFER(along->coefficients),
-        STRIPS_AXIS(across), STRIPS_AXIS(along), PS_BUFFER(self->means), PS_BUFFER(*target->scales),
+        PS_FFT_TABLES(across->fft), PS_BUFFER(across->gains), PS_FFT_TABLES(along->fft),
+        PS_BUFFER(along->gains), PS_BUFFER(self->means), PS_BUFFER(*target->scales),
         PS_BUFFER(*target->power), PS_BUFFER(of(self)->strips), PS_BUFFER(of(self)->tiles),
         PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }

@@ -83,10 +83,6 @@ static size_t transform_bytes(const lines *self, const ps_nufft_axis *axis) {
     return (size_t)axis->n * 2 * self->layout->lanes * self->layout->real_bytes;
 }
 
-/* The transform of an axis, as kernels/nufft/lines.cl has it. */
-#define LINE_TRANSFORM(plan)                                                                       \
-    PS_BUFFER((plan)->fft.radices), PS_BUFFER((plan)->fft.twiddles), PS_BUFFER((plan)->fft.position)
-
 static pspec_status make_line_powers(lines *self, size_t num_realizations,
                                      const ps_nufft_target *target, ps_error *error) {
     const ps_nufft_plan *plan = &self->plans[0];
@@ -94,7 +90,7 @@ static pspec_status make_line_powers(lines *self, size_t num_realizations,
     const ps_range range = range_of(self, groups, &plan->axis);
     const line_numbers numbers = numbers_of(self, plan, num_realizations, target);
     return PS_LAUNCH(self->device, self->powers, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->lines), LINE_TRANSFORM(plan), PS_BUFFER(plan->gains),
+                     PS_BUFFER(self->lines), PS_FFT_TABLES(plan->fft), PS_BUFFER(plan->gains),
                      PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
                      PS_LOCAL(transform_bytes(self, &plan->axis)));
 }
@@ -107,7 +103,7 @@ static pspec_status make_line_rows(lines *self, size_t num_realizations,
     const ps_range range = range_of(self, groups * num_rows, &along->axis);
     const line_numbers numbers = numbers_of(self, along, num_realizations, target);
     return PS_LAUNCH(self->device, self->rows, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->lines), LINE_TRANSFORM(along), PS_BUFFER(self->grid),
+                     PS_BUFFER(self->lines), PS_FFT_TABLES(along->fft), PS_BUFFER(self->grid),
                      PS_U32(num_rows), PS_LOCAL(transform_bytes(self, &along->axis)));
 }
 
@@ -120,7 +116,7 @@ static pspec_status make_line_columns(lines *self, size_t num_realizations,
     const ps_range range = range_of(self, groups * (last_K + 1), &across->axis);
     const line_numbers numbers = numbers_of(self, across, num_realizations, target);
     return PS_LAUNCH(self->device, self->columns, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->grid), LINE_TRANSFORM(across), PS_BUFFER(across->gains),
+                     PS_BUFFER(self->grid), PS_FFT_TABLES(across->fft), PS_BUFFER(across->gains),
                      PS_BUFFER(along->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
                      PS_U32(last_K), PS_LOCAL(transform_bytes(self, &across->axis)));
 }
@@ -250,10 +246,9 @@ static pspec_status make_tiles(ps_nufft_state *self, size_t num_realizations,
     return PS_LAUNCH(
         self->device, of(self)->tile, &range, error, PS_STRUCT(numbers), PS_BUFFER(places->places),
         PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(plan->coefficients),
-        PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
-        PS_BUFFER(plan->gains), PS_BUFFER(self->means), PS_BUFFER(of(self)->pattern),
-        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_BUFFER(of(self)->lines.lines),
-        LOCAL_ARGUMENTS(self, &plan->axis));
+        PS_FFT_TABLES(plan->fft), PS_BUFFER(plan->gains), PS_BUFFER(self->means),
+        PS_BUFFER(of(self)->pattern), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+        PS_BUFFER(of(self)->lines.lines), LOCAL_ARGUMENTS(self, &plan->axis));
 }
 
 static pspec_status make_rows(ps_nufft_state *self, size_t num_realizations,
@@ -270,13 +265,12 @@ static pspec_status make_rows(ps_nufft_state *self, size_t num_realizations,
                                   .group = (uint32_t)self->layout.group,
                                   .K = (uint32_t)along->axis.max_frequency,
                                   .first_row = (uint32_t)target->realization};
-    return PS_LAUNCH(
-        self->device, of(self)->rows, &range, error, PS_STRUCT(numbers), PS_BUFFER(places->places),
-        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(places->starts),
-        PS_BUFFER(across->coefficients), PS_BUFFER(along->coefficients),
-        PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
-        PS_BUFFER(along->fft.position), PS_BUFFER(self->means), PS_BUFFER(of(self)->grid),
-        PS_BUFFER(of(self)->lines.lines), LOCAL_ARGUMENTS(self, &along->axis));
+    return PS_LAUNCH(self->device, of(self)->rows, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(places->places), PS_BUFFER(places->sorted),
+                     PS_BUFFER(places->heights), PS_BUFFER(places->starts),
+                     PS_BUFFER(across->coefficients), PS_BUFFER(along->coefficients),
+                     PS_FFT_TABLES(along->fft), PS_BUFFER(self->means), PS_BUFFER(of(self)->grid),
+                     PS_BUFFER(of(self)->lines.lines), LOCAL_ARGUMENTS(self, &along->axis));
 }
 
 static pspec_status make_columns(ps_nufft_state *self, size_t num_realizations,
@@ -291,8 +285,7 @@ static pspec_status make_columns(ps_nufft_state *self, size_t num_realizations,
                                     .first_row = (uint32_t)target->realization,
                                     .column_K = (uint32_t)along->axis.max_frequency};
     return PS_LAUNCH(self->device, of(self)->columns, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(of(self)->grid), PS_BUFFER(across->fft.radices),
-                     PS_BUFFER(across->fft.twiddles), PS_BUFFER(across->fft.position),
+                     PS_BUFFER(of(self)->grid), PS_FFT_TABLES(across->fft),
                      PS_BUFFER(across->gains), PS_BUFFER(along->gains), PS_BUFFER(*target->scales),
                      PS_BUFFER(*target->power), PS_LOCAL(row_bytes(self, &across->axis)));
 }

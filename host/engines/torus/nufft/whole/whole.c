@@ -142,10 +142,6 @@ static void free_own(void *own) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* The arguments of a transform, as kernels/nufft/whole.cl has them. */
-#define WHOLE_TRANSFORM(fft)                                                                       \
-    PS_BUFFER((fft)->radices), PS_BUFFER((fft)->twiddles), PS_BUFFER((fft)->position)
-
 static ps_range range_of(const ps_nufft_state *self, size_t num_realizations, size_t num_points) {
     const ps_nufft_choice *choice = &self->layout.choice;
     const double lanes = self->layout.lanes;
@@ -206,8 +202,8 @@ static pspec_status run(ps_nufft_state *self, size_t num_realizations,
     return PS_LAUNCH(self->device, own->kernel, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(own->points.points), PS_BUFFER(own->points.weights),
                      PS_BUFFER(own->points.offsets), PS_BUFFER(across->coefficients),
-                     PS_BUFFER(along->coefficients), WHOLE_TRANSFORM(&own->transforms[0]),
-                     WHOLE_TRANSFORM(&own->transforms[1]), PS_BUFFER(own->lane_turns),
+                     PS_BUFFER(along->coefficients), PS_FFT_TABLES(own->transforms[0]),
+                     PS_FFT_TABLES(own->transforms[1]), PS_BUFFER(own->lane_turns),
                      PS_BUFFER(own->tile_turns), PS_BUFFER(own->gains), PS_BUFFER(self->means),
                      PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_BUFFER(own->grids),
                      PS_BUFFER(own->rows), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
