@@ -7,7 +7,6 @@
 #include "engines/error_units.h"
 #include "engines/host/host_degree.h"
 #include "engines/engine.h"
-#include "engines/pairs/pairs_histogram.h"
 
 #include <math.h>
 #include <stdio.h>

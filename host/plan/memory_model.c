@@ -122,15 +122,3 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     add_weighted(&sum, work, problem, rows, real_bytes);
     return sum;
 }
-
-double ps_memory_of_coefficients(const ps_engine *engine, ps_precision precision,
-                                 const ps_problem *problem, const ps_device_limits *limits,
-                                 ps_harmonics harmonics) {
-    const ps_device_limits *used = engine->needs_device ? limits : NULL;
-    ps_problem with = *problem;
-    ps_problem without = *problem;
-    with.harmonics = harmonics;
-    without.harmonics = PS_NO_HARMONICS;
-    return coefficient_bytes(&with) + engine->survey(&with, used, precision).work.fixed_bytes -
-           engine->survey(&without, used, precision).work.fixed_bytes;
-}

@@ -25,10 +25,4 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
                           const ps_problem *problem, const ps_work *work,
                           const ps_device_limits *limits, size_t batch);
 
-/* Bytes on the device and on the host that coefficients take besides what a batch has, with the
- * array that they are written to. */
-double ps_memory_of_coefficients(const ps_engine *engine, ps_precision precision,
-                                 const ps_problem *problem, const ps_device_limits *limits,
-                                 ps_harmonics harmonics);
-
 #endif

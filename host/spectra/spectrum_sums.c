@@ -117,8 +117,9 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
 /* By the enumerators. */
 static const char *const normalizations[] = {"power", "effective", "pairs", "integral"};
 
-pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
-                                           const char *which, ps_error *error) {
+/* Are both answers to the same question? `which` names b in the sentence. */
+static pspec_status require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
+                                 const char *which, ps_error *error) {
     PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
     if (a->normalization != b->normalization) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has the normalization %s instead of %s", which,
@@ -153,7 +154,7 @@ static double find_larger(double a, double b) {
 
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) {
-    PS_TRY(ps_spectrum_sums_require_same(sums, other, which, error));
+    PS_TRY(require_same(sums, other, which, error));
     if (sums->num_equal > 0 || other->num_equal > 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, or what it is merged with, is of a deterministic set, one realization "

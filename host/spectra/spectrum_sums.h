@@ -32,11 +32,6 @@ pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies
                                      ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_sums_free(ps_spectrum_sums *sums);
 
-/* Are both answers to the same question? If not, PSPEC_ERROR_INPUT with the difference; which names
- * b in the sentence. */
-pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
-                                           const char *which, ps_error *error) PS_MUST_CHECK;
-
 /* Adds the realizations of other after those of sums. Different questions, and deterministic sets,
  * which are all equal, are PSPEC_ERROR_INPUT; which names other in the sentence. */
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,

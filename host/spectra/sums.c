@@ -16,10 +16,6 @@ void ps_sums_add(ps_sums *sums, double x) {
     pair_add_square(&sums->square, &sums->square_low, x);
 }
 
-void ps_sums_add_to_mean(ps_sums *sums, double x) {
-    pair_add(&sums->sum, &sums->sum_low, x);
-}
-
 /* (high, low) of the exact product of two doubles. */
 static void multiply(double a, double b, double *high, double *low) {
     *high = a * b;
@@ -130,7 +126,7 @@ void ps_running_sums_add(ps_running_sums *sums, const double *values, const uint
         ps_sums *open = &sums->rows[i];
         *open = is_first ? no_sums(sums) : *open;
         if (sums->mean_only) {
-            ps_sums_add_to_mean(open, value);
+            pair_add(&open->sum, &open->sum_low, value);
         } else {
             ps_sums_add(open, value);
         }

@@ -15,10 +15,9 @@ typedef struct ps_sums {
 } ps_sums;
 
 void ps_sums_add(ps_sums *sums, double x);
-/* For means alone: the squares stay as they are. Begun as PS_SUMS_MEAN_ONLY, sums have a standard
- * error of nan, and so have those that they are merged with. */
+/* Of means alone, whose squares stay as they are: the standard error is nan, and so is that of what
+ * they are merged with. */
 #define PS_SUMS_MEAN_ONLY ((ps_sums){.square = NAN, .square_low = NAN})
-void ps_sums_add_to_mean(ps_sums *sums, double x);
 /* Adds the sums of factor * x: those of other realizations whose powers had another unit. With
  * factor 1 (or a power of two), to the pair's last digit what adding the x one by one gives. */
 void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor);

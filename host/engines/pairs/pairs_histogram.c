@@ -1,6 +1,6 @@
 /* The engine: runs of pairs in slabs, each run into a histogram of its own, all added up; then
  * weights of nodes from the moments of the bins, and Legendre sums over the nodes. */
-#include "engines/pairs/pairs_histogram.h"
+#include "engines/engine.h"
 
 #include "base/memory.h"
 #include "base/round.h"
@@ -151,12 +151,6 @@ static ps_survey survey(const ps_problem *problem, const ps_device_limits *limit
     result.work = work_of(&layout, problem);
     result.error = error_of(&layout, problem, precision, ps_expected_power(problem));
     return result;
-}
-
-double ps_pairs_histogram_error(const ps_problem *problem, const ps_device_limits *limits,
-                                ps_precision precision, double mean_power) {
-    const histogram_layout layout = make_layout(problem, limits, precision);
-    return error_of(&layout, problem, precision, mean_power);
 }
 
 static double error_of_state(const void *state, double mean_power, double weight_share) {

@@ -55,9 +55,10 @@ static pspec_status allocate(ps_ccvt *c, ps_error *error) {
     return ps_ccvt_grid_create(&c->grid, c->space->room, c->num, error);
 }
 
-/* Two orders of all points while they are sorted, 16 bytes each (ccvt_start.c), and a grid of four
- * cells a site. */
-double ps_ccvt_bytes(const ps_ccvt_space *space, size_t num, size_t capacity) {
+/* What ps_ccvt_make allocates, 56 and 64 bytes of a background point and more of few sites: two
+ * orders of all points while they are sorted, 16 bytes each (ccvt_start.c), and a
+ * grid of four cells a site. */
+static double bytes_of(const ps_ccvt_space *space, size_t num, size_t capacity) {
     const size_t order = 16;
     const size_t grid = 24;
     const size_t place = space->room.axes * sizeof(double);
@@ -303,7 +304,7 @@ static const ps_ccvt_space *space_of(const ps_sampler_request *request) {
 static double work_bytes(const ps_sampler_request *request) {
     size_t capacity = 0;
     return read_capacity(request, &capacity, NULL) == PSPEC_OK
-               ? ps_ccvt_bytes(space_of(request), request->num_points, capacity)
+               ? bytes_of(space_of(request), request->num_points, capacity)
                : 0;
 }
 

@@ -126,9 +126,6 @@ pspec_status ps_ccvt_run(ps_ccvt *ccvt, ps_error *error) PS_MUST_CHECK;
 /* Sites as points [num][axes]. outcome may be NULL. */
 void ps_ccvt_give(const ps_ccvt *ccvt, double *points, ps_ccvt_outcome *outcome);
 
-/* What ps_ccvt_make allocates, 56 and 64 bytes of a background point and more of few sites. */
-double ps_ccvt_bytes(const ps_ccvt_space *space, size_t num, size_t capacity);
-
 /* All of it. outcome may be NULL. */
 pspec_status ps_ccvt_make(const ps_ccvt_space *space, size_t num, size_t capacity,
                           ps_random *random, const ps_watch *watch, double *points,

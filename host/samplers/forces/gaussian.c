@@ -17,7 +17,8 @@ static const double LENGTH_IN_SPACE = 0.1;
 /* After so many halvings no step was short enough: rounding alone is left of forces. */
 enum { PLANE = 2, SPACE = 3, MOST_HALVINGS = 50 };
 
-pspec_status ps_gaussian_check(size_t num, unsigned dimension, double sigma, ps_error *error) {
+/* Refuses what cannot be made with a sentence. */
+static pspec_status check(size_t num, unsigned dimension, double sigma, ps_error *error) {
     if (!(sigma >= PS_GAUSSIAN_LEAST_SIGMA && sigma <= PS_GAUSSIAN_MOST_SIGMA)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sigma = %g: it is from %g to %g",
                        sigma, PS_GAUSSIAN_LEAST_SIGMA, PS_GAUSSIAN_MOST_SIGMA);
@@ -54,7 +55,7 @@ pspec_status ps_gaussian_begin(ps_gaussian *g, size_t num, unsigned dimension, d
     *g = (ps_gaussian){.unit = ps_gaussian_unit(num, dimension),
                        .length = step_length(dimension, sigma),
                        .watch = watch};
-    PS_TRY(ps_gaussian_check(num, dimension, sigma, error));
+    PS_TRY(check(num, dimension, sigma, error));
     PS_TRY(allocate(g, num, dimension, sigma, error));
     if (device != NULL) {
         PS_TRY(ps_gaussian_device_create(&g->on_device, device, &g->sums, error));
@@ -140,7 +141,7 @@ pspec_status ps_gaussian_make(size_t num, unsigned dimension, double sigma, ps_r
                               ps_device *device, const ps_watch *watch, double *points,
                               ps_error *error) {
     ps_gaussian g;
-    PS_TRY(ps_gaussian_check(num, dimension, sigma, error));
+    PS_TRY(check(num, dimension, sigma, error));
     ps_random_fill_uniform(random, points, num * dimension);
     pspec_status status =
         ps_gaussian_begin(&g, num, dimension, sigma, points, device, watch, error);

@@ -64,10 +64,6 @@ pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
                                        ps_error *error) PS_MUST_CHECK;
 void ps_gaussian_device_destroy(ps_gaussian_device *d);
 
-/* s->sums of s->points, which are sorted. */
-pspec_status ps_gaussian_device_sum(ps_gaussian_device *d, const ps_gaussian_sums *s,
-                                    const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
-
 /* Widths in units of N^(-1/d). Below the first, Gaussians of neighbours hardly meet; above the
  * second, what is left of the energy is lost in its rounding. */
 #define PS_GAUSSIAN_LEAST_SIGMA 0.5
@@ -89,10 +85,6 @@ typedef struct ps_gaussian {
     unsigned steps, halvings;
     const ps_watch *watch;
 } ps_gaussian;
-
-/* Refuses what cannot be made with a sentence. */
-pspec_status ps_gaussian_check(size_t num, unsigned dimension, double sigma,
-                               ps_error *error) PS_MUST_CHECK;
 
 /* From points [num][dimension] as they are; device is borrowed, and NULL for the host, which has
  * the same bits. What it holds is freed by destroy, also after a failure. */

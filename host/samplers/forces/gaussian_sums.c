@@ -119,36 +119,6 @@ static void sum_points(const ps_gaussian_sums *s, size_t first, size_t end) {
     }
 }
 
-/* Every pair was counted twice, and every point with itself. */
-static double gather(const ps_gaussian_sums *s, double *force) {
-    double sum = 0;
-    for (size_t i = 0; i < s->num; i++) {
-        sum += s->sums[s->place[i]] - 1;
-        for (unsigned axis = 0; axis < s->dimension; axis++) {
-            force[i * s->dimension + axis] = s->sums[(1 + axis) * s->stride + s->place[i]];
-        }
-    }
-    return sum / 2;
-}
-
-pspec_status ps_gaussian_sums_find(ps_gaussian_sums *s, const double *x, const ps_watch *watch,
-                                   double *energy, double *force, ps_error *error) {
-    sort(s, x);
-    if (s->device != NULL) {
-        PS_TRY(ps_gaussian_device_sum(s->device, s, watch, error));
-    }
-    for (size_t first = 0; first < s->num && s->device == NULL; first += POINTS_AT_A_TIME) {
-        const size_t left = s->num - first;
-        if (first > 0) {
-            PS_TRY(ps_watch_tell(watch, "sampler: gaussian-blue-noise, points of a step", first,
-                                 s->num, NULL, error));
-        }
-        sum_points(s, first, first + (left < POINTS_AT_A_TIME ? left : POINTS_AT_A_TIME));
-    }
-    *energy = gather(s, force);
-    return PSPEC_OK;
-}
-
 /* ---- on a device ----------------------------------------------------------------------------- */
 
 /* Operations of a pair, pairs of a point at sigma = 1, and points of a launch, between two of which
@@ -192,9 +162,10 @@ static pspec_status launch(ps_gaussian_device *d, const ps_gaussian_sums *s, siz
                      PS_BUFFER(d->begins), PS_BUFFER(d->sums));
 }
 
-/* Rounded up, a launch may make some sums of the next, which are the same. */
-pspec_status ps_gaussian_device_sum(ps_gaussian_device *d, const ps_gaussian_sums *s,
-                                    const ps_watch *watch, ps_error *error) {
+/* s->sums of s->points, which are sorted. Rounded up, a launch may make some sums of the next, which
+ * are the same. */
+static pspec_status sum_on_device(ps_gaussian_device *d, const ps_gaussian_sums *s,
+                                  const ps_watch *watch, ps_error *error) {
     PS_TRY(ps_buffer_write(d->device, &d->points, 0, s->points, d->points.bytes, error));
     PS_TRY(ps_buffer_write(d->device, &d->begins, 0, s->begins, d->begins.bytes, error));
     for (size_t first = 0; first < s->num; first += POINTS_AT_ONCE) {
@@ -207,4 +178,36 @@ pspec_status ps_gaussian_device_sum(ps_gaussian_device *d, const ps_gaussian_sum
         }
     }
     return ps_buffer_read(d->device, &d->sums, 0, s->sums, d->sums.bytes, error);
+}
+
+/* ---- all ------------------------------------------------------------------------------------- */
+
+/* Every pair was counted twice, and every point with itself. */
+static double gather(const ps_gaussian_sums *s, double *force) {
+    double sum = 0;
+    for (size_t i = 0; i < s->num; i++) {
+        sum += s->sums[s->place[i]] - 1;
+        for (unsigned axis = 0; axis < s->dimension; axis++) {
+            force[i * s->dimension + axis] = s->sums[(1 + axis) * s->stride + s->place[i]];
+        }
+    }
+    return sum / 2;
+}
+
+pspec_status ps_gaussian_sums_find(ps_gaussian_sums *s, const double *x, const ps_watch *watch,
+                                   double *energy, double *force, ps_error *error) {
+    sort(s, x);
+    if (s->device != NULL) {
+        PS_TRY(sum_on_device(s->device, s, watch, error));
+    }
+    for (size_t first = 0; first < s->num && s->device == NULL; first += POINTS_AT_A_TIME) {
+        const size_t left = s->num - first;
+        if (first > 0) {
+            PS_TRY(ps_watch_tell(watch, "sampler: gaussian-blue-noise, points of a step", first,
+                                 s->num, NULL, error));
+        }
+        sum_points(s, first, first + (left < POINTS_AT_A_TIME ? left : POINTS_AT_A_TIME));
+    }
+    *energy = gather(s, force);
+    return PSPEC_OK;
 }

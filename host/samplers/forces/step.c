@@ -118,12 +118,6 @@ static pspec_status run(search *s, ps_step_outcome *outcome, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Points, forces and the best; counts, a table and four distributions. */
-double ps_step_bytes(size_t num) {
-    const size_t numbers = 3 * AXES + 6;
-    return ps_step_pairs_bytes(num, num) + (double)(numbers * num * sizeof(double));
-}
-
 pspec_status ps_step_make(size_t num, ps_step_options options, ps_random *random, ps_device *device,
                           const ps_watch *watch, double *points, ps_step_outcome *outcome,
                           ps_error *error) {
@@ -183,8 +177,10 @@ static double seconds(const ps_sampler_request *request) {
     return rounds * (1e-4 + num * (num / 2 * 2.5e-9 + 0.2e-6));
 }
 
+/* Points, forces and the best; counts, a table and four distributions; on the device and here. */
 static double work_bytes(const ps_sampler_request *request) {
-    return ps_step_bytes(request->num_points);
+    const size_t num = request->num_points, numbers = 3 * AXES + 6;
+    return ps_step_pairs_bytes(num, num) + (double)(numbers * num * sizeof(double));
 }
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,

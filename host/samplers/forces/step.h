@@ -68,9 +68,6 @@ typedef struct ps_step_outcome {
     double first, last; /* distance of the distribution from that of a step spectrum */
 } ps_step_outcome;
 
-/* What ps_step_make takes of memory, that of the device included. */
-double ps_step_bytes(size_t num);
-
 /* Points [num][2], from uniform random ones, by the device, which has double precision. outcome may
  * be NULL. */
 pspec_status ps_step_make(size_t num, ps_step_options options, ps_random *random, ps_device *device,

@@ -33,7 +33,7 @@ static size_t count_families(const ps_frequencies *box) {
 }
 
 /* Shifts go from -2q to 2q. */
-size_t ps_shift_side(int32_t reach) {
+static size_t side_of(int32_t reach) {
     const size_t least = 4 * (size_t)reach + 1;
     size_t side = 1;
     while (side < least) {
@@ -46,7 +46,7 @@ size_t ps_shift_side(int32_t reach) {
 static pspec_status begin_family(ps_shift_family *out, unsigned axes, int32_t reach,
                                  ps_error *error) {
     *out = (ps_shift_family){
-        .axes = axes, .dimension = count_bits(axes), .reach = reach, .side = ps_shift_side(reach)};
+        .axes = axes, .dimension = count_bits(axes), .reach = reach, .side = side_of(reach)};
     PS_TRY(ps_frequencies_lattice(&out->shifts, out->dimension, 2 * reach, false, error));
     out->num = out->shifts.num;
     return PSPEC_OK;
@@ -92,11 +92,13 @@ size_t ps_shift_families_sums(const ps_frequencies *box) {
 
 /* ---- grids ------------------------------------------------------------------------------- */
 
-double ps_shift_family_cells(const ps_shift_family *family) {
+/* Numbers of a grid of side^dimension; it may be too many to index. */
+static double count_cells(const ps_shift_family *family) {
     return pow((double)family->side, family->dimension);
 }
 
-size_t ps_shift_family_cell(const ps_shift_family *family, const int32_t *k, int sign) {
+/* The place of k in the grid, which is 0 but on the axes; sign -1: that of -k. */
+static size_t find_cell(const ps_shift_family *family, const int32_t *k, int sign) {
     size_t cell = 0;
     for (unsigned axis = 0; family->axes >> axis != 0; axis++) {
         if ((family->axes >> axis & 1) != 0) {
@@ -142,8 +144,9 @@ static pspec_status allocate(ps_shift_family *family, ps_error *error) {
     return PS_NEW(&family->members, half.num, "amplitudes to multiply", error);
 }
 
-pspec_status ps_shift_family_fill(ps_shift_family *family, const ps_frequencies *box,
-                                  ps_error *error) {
+/* The members, from a box that is enumerated. */
+static pspec_status fill_members(ps_shift_family *family, const ps_frequencies *box,
+                                 ps_error *error) {
     PS_TRY(ps_frequencies_enumerate(&family->shifts, error));
     PS_TRY(allocate(family, error));
     for (size_t i = 0; i < box->num; i++) {
@@ -151,8 +154,8 @@ pspec_status ps_shift_family_fill(ps_shift_family *family, const ps_frequencies 
         if (is_member(family, k, box->dimension)) {
             family->members[family->num_members++] =
                 (ps_shift_member){.frequency = i,
-                                  .cell = ps_shift_family_cell(family, k, 1),
-                                  .opposite = ps_shift_family_cell(family, k, -1),
+                                  .cell = find_cell(family, k, 1),
+                                  .opposite = find_cell(family, k, -1),
                                   .weight = find_weight(family, k, box->dimension)};
         }
     }
@@ -170,7 +173,7 @@ struct ps_shift_products {
 double ps_shift_products_cells(const ps_frequencies *box) {
     double cells = 0;
     for (int32_t reach = box->max_frequency / 2; reach > 0; reach /= 2) {
-        const double side = (double)ps_shift_side(reach);
+        const double side = (double)side_of(reach);
         cells += pow(1 + side, box->dimension) - 1;
     }
     return cells / PS_SHIFT_SETS;
@@ -199,7 +202,7 @@ pspec_status ps_shift_products_create(ps_shift_products **out, const ps_frequenc
     self->num_sums = ps_shift_families_sums(box);
     PS_TRY(ps_shift_families_list(&self->families, &self->num_families, box, error));
     for (size_t i = 0; i < self->num_families; i++) {
-        PS_TRY(ps_shift_family_fill(&self->families[i], box, error));
+        PS_TRY(fill_members(&self->families[i], box, error));
     }
     return allocate_grid(self, error);
 }
@@ -280,8 +283,8 @@ static void pick(const ps_shift_products *self, const ps_shift_family *family, s
     int32_t h[PS_MAX_DIMENSION];
     for (size_t i = 0; i < family->num; i++) {
         ps_shift_family_shift(family, i, h);
-        const double *const there = self->grid + 2 * ps_shift_family_cell(family, h, 1);
-        const double *const opposite = self->grid + 2 * ps_shift_family_cell(family, h, -1);
+        const double *const there = self->grid + 2 * find_cell(family, h, 1);
+        const double *const opposite = self->grid + 2 * find_cell(family, h, -1);
         double *const first = out + 2 * (family->first + i);
         first[0] = (there[0] + opposite[0]) / 2;
         first[1] = (there[1] - opposite[1]) / 2;
@@ -297,7 +300,7 @@ void ps_shift_products_run(ps_shift_products *self, size_t num_sets, const doubl
                            size_t stride, double *out, double *norms) {
     for (size_t f = 0; f < self->num_families; f++) {
         const ps_shift_family *const family = &self->families[f];
-        const size_t cells = (size_t)ps_shift_family_cells(family);
+        const size_t cells = (size_t)count_cells(family);
         double sum = 0;
         memset(self->grid, 0, 2 * cells * sizeof *self->grid);
         for (size_t r = 0; r < num_sets; r++) {

@@ -49,21 +49,13 @@ typedef struct ps_shift_family {
  * for ps_shift_families_free, also after an error. */
 pspec_status ps_shift_families_list(ps_shift_family **out, size_t *num, const ps_frequencies *box,
                                     ps_error *error) PS_MUST_CHECK;
-/* The members, from a box that is enumerated. */
-pspec_status ps_shift_family_fill(ps_shift_family *family, const ps_frequencies *box,
-                                  ps_error *error) PS_MUST_CHECK;
 void ps_shift_families_free(ps_shift_family *families, size_t num);
 
-/* Numbers of a grid of side^dimension; it may be too many to index. */
-double ps_shift_family_cells(const ps_shift_family *family);
 /* Shift number i: |h_i| <= 2q on the axes, 0 on the others. */
 void ps_shift_family_shift(const ps_shift_family *family, size_t i, int32_t out[PS_MAX_DIMENSION]);
-/* The place of k in the grid, which is 0 but on the axes; sign -1: that of -k. */
-size_t ps_shift_family_cell(const ps_shift_family *family, const int32_t *k, int sign);
 
-/* Without a list: sums of all families of a box, and the side of the grid of a reach. */
+/* Without a list: sums of all families of a box. */
 size_t ps_shift_families_sums(const ps_frequencies *box);
-size_t ps_shift_side(int32_t reach);
 
 typedef struct ps_shift_products ps_shift_products;
 

@@ -5,7 +5,6 @@
 #include "engines/pairs/pairs_bins.h"
 #include "engines/host/host_pairs.h"
 #include "engines/engine.h"
-#include "engines/pairs/pairs_histogram.h"
 
 #include <math.h>
 #include <stdio.h>

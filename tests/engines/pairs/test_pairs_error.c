@@ -6,7 +6,6 @@
 
 #include "engines/error_units.h"
 #include "engines/engine.h"
-#include "engines/pairs/pairs_histogram.h"
 #include "math/pi.h"
 
 #include <math.h>

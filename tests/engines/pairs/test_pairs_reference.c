@@ -4,7 +4,6 @@
 #include "harness_pairs.h"
 
 #include "engines/engine.h"
-#include "engines/pairs/pairs_histogram.h"
 #include "engines/pairs/pairs_zonal.h"
 #include "math/pi.h"
 
