@@ -5,7 +5,7 @@
 #define BENCH_H
 
 #include "engines/engine.h"
-#include "verify/bench/device_peaks.h"
+#include "verify/bench/bench.h"
 
 #include <stddef.h>
 #include <stdint.h>

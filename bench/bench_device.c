@@ -154,7 +154,7 @@ int main(int argc, char **argv) {
     }
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
-    ps_device_peaks peaks;
+    ps_figures peaks;
     BENCH_TRY(ps_device_peaks_measure(device, &peaks, error));
     printf("# device: %s (%s, driver %s), %u compute units\n", limits->name, limits->version,
            limits->driver, limits->compute_units);

@@ -6,7 +6,7 @@
 #include "cycles.h"
 
 #include "bench.h"
-#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/cost.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/engine.h"

@@ -1,4 +1,4 @@
-#include "rules/equal_error.h"
+#include "rules/truncation.h"
 
 #include "base/memory.h"
 #include "rules/worst_case_error.h"

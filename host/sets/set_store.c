@@ -1,4 +1,4 @@
-#include "sets/set_store.h"
+#include "sets/sets.h"
 
 #include "base/memory.h"
 #include "store/cache_folder.h"

@@ -1,4 +1,4 @@
-#include "spectra/ring_statistics.h"
+#include "spectra/spectrum.h"
 
 #include <math.h>
 

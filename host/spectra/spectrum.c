@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "base/workers.h"
-#include "spectra/ring_statistics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,14 +29,11 @@ static void describe_some(void *payload, unsigned index, unsigned count) {
     }
 }
 
-double ps_pattern_mean_points(const ps_pattern_totals *totals) {
-    return (totals->points.sum + totals->points.sum_low) / (double)totals->num_realizations;
-}
-
 double ps_spectrum_factor(pspec_normalization normalization, const ps_pattern_totals *totals,
                           double reference_points) {
+    const double points = totals->points.sum + totals->points.sum_low;
     return normalization == PSPEC_NORMALIZATION_INTEGRAL
-               ? ps_pattern_mean_points(totals) / reference_points
+               ? points / (double)totals->num_realizations / reference_points
                : 1;
 }
 

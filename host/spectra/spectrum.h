@@ -38,8 +38,6 @@ typedef struct ps_pattern_totals {
     size_t smallest_points, largest_points;
 } ps_pattern_totals;
 
-double ps_pattern_mean_points(const ps_pattern_totals *totals);
-
 /* mean(N) / N_ref under the normalization of integrals, else 1. */
 double ps_spectrum_factor(pspec_normalization normalization, const ps_pattern_totals *totals,
                           double reference_points);
@@ -68,5 +66,22 @@ size_t ps_spectrum_place(const ps_frequencies *set, size_t i);
  * caller. */
 pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc, double **array,
                               size_t *num_entries, ps_error *error) PS_MUST_CHECK;
+
+/* What is said about one ring or shell besides its mean: anisotropy, and the standard error where
+ * only a random subset of its frequencies was computed.
+ */
+
+/* Anisotropy of one ring: 10 log10(s^2 / P^2), s^2 the sample variance of the averaged periodogram
+ * over the ring's half-lattice frequencies, P their mean. nan when there are fewer than two of them
+ * or P is 0. */
+double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t num_members);
+
+/* Standard error of the mean over a subset, as an estimate of the mean over the ring's
+ * num_frequencies half-lattice frequencies: standard_error, that over the realizations, and the
+ * error of the choice. With one realization (standard_error nan) the second alone, about the mean
+ * over the ring of this realization. A complete ring has standard_error. The formula and why:
+ * docs/user/conventions.md. */
+double ps_subset_standard_error(const ps_mean *powers, const uint32_t *members, size_t num_members,
+                                uint64_t num_frequencies, double standard_error);
 
 #endif

@@ -1,4 +1,4 @@
-#include "verify/suite.h"
+#include "verify/stress.h"
 
 #include "base/text.h"
 

@@ -8,7 +8,7 @@
  */
 #include "faults.h"
 
-#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/choice.h"
 #include "jobs/source.h"
 
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 #include "harness_sphere.h"
 
 #include "engines/host/host_degree.h"
-#include "engines/sphere/sphere_table.h"
+#include "engines/sphere/sphere_layout.h"
 #include "math/pi.h"
 
 #include <float.h>

@@ -4,7 +4,7 @@
 
 #include "engines/host/host_degree.h"
 #include "engines/sphere/sphere_points.h"
-#include "engines/sphere/sphere_table.h"
+#include "engines/sphere/sphere_layout.h"
 #include "math/pi.h"
 #include "sphere/sums.h"
 

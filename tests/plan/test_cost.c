@@ -2,7 +2,7 @@
  */
 #include "harness_plan.h"
 
-#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/cost.h"
 #include "engines/engine.h"
 #include "plan/cost_model.h"

@@ -3,8 +3,7 @@
 #include "harness_plan.h"
 
 #include "device/kind.h"
-#include "engines/torus/nufft/choose.h"
-#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/variant.h"
 #include "plan/cost_model.h"

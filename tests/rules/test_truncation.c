@@ -2,7 +2,6 @@
  * docs/mathematics/quadrature.md#truncation and Table 1 of Marques et al. */
 #include "harness.h"
 
-#include "rules/equal_error.h"
 #include "rules/truncation.h"
 
 #include <math.h>

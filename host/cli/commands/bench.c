@@ -16,7 +16,7 @@ typedef struct answer {
     const ps_request *arguments;
     const ps_answer_hooks *hooks;
     ps_device *device;
-    ps_device_peaks peaks;
+    ps_figures peaks;
     ps_bench_rows rows;
     ps_table *table;
     ps_table_stream *stream;
@@ -71,7 +71,7 @@ static ps_cell rate(double value) {
     return value > 0 ? PS_NUMBER(value) : PS_MISSING;
 }
 
-static pspec_status add_device(const answer *shown, const ps_device_peaks *peaks, ps_error *error) {
+static pspec_status add_device(const answer *shown, const ps_figures *peaks, ps_error *error) {
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
@@ -173,13 +173,9 @@ static pspec_status run_cases(answer *shown, const ps_suite_options *options,
 static pspec_status add_figures(answer *shown, const ps_figures *figures, const char *path,
                                 ps_error *error) {
     static const char *const columns[] = {"engine", "precision", "seconds_over_predicted"};
-    const ps_device_peaks peaks = {{figures->flops[0], figures->flops[1]},
-                                   figures->copied_bytes,
-                                   figures->sent_bytes,
-                                   figures->launches};
     PS_TRY(ps_table_create(&shown->table, "bench", columns, sizeof columns / sizeof columns[0],
                            error));
-    PS_TRY(add_device(shown, &peaks, error));
+    PS_TRY(add_device(shown, figures, error));
     PS_TRY(ps_table_add_meta(shown->table, "date", PS_TEXT(figures->date), error));
     PS_TRY(ps_table_add_meta(shown->table, "file", PS_TEXT(path), error));
     for (size_t i = 0; i < figures->num_engines; i++) {

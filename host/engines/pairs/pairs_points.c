@@ -1,4 +1,4 @@
-#include "engines/pairs/pairs_points.h"
+#include "engines/pairs/pairs_degrees.h"
 
 #include "base/memory.h"
 #include "base/round.h"

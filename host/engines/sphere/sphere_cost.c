@@ -2,7 +2,6 @@
 
 #include "base/round.h"
 #include "device/kind.h"
-#include "engines/sphere/sphere_table.h"
 
 #include <math.h>
 

@@ -8,7 +8,6 @@
 #include "engines/late_rows.h"
 #include "engines/sphere/sphere_layout.h"
 #include "engines/sphere/sphere_points.h"
-#include "engines/sphere/sphere_table.h"
 #include "math/pi.h"
 #include "sphere/sums.h"
 

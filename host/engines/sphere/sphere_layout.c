@@ -1,7 +1,6 @@
 #include "engines/sphere/sphere_layout.h"
 
 #include "base/round.h"
-#include "engines/sphere/sphere_table.h"
 
 #include <math.h>
 

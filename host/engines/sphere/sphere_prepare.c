@@ -5,7 +5,7 @@
 #include "sphere/layout.h"
 
 #include "engines/sphere/sphere_points.h"
-#include "engines/sphere/sphere_table.h"
+#include "engines/sphere/sphere_layout.h"
 
 /* The only file of the host that sees the names of the kernels. */
 _Static_assert(PS_SPHERE_ARRAYS == NUM_ARRAYS && (int)PS_SPHERE_DEGREES == DEGREES &&

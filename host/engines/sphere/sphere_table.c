@@ -1,4 +1,4 @@
-#include "engines/sphere/sphere_table.h"
+#include "engines/sphere/sphere_layout.h"
 
 #include "base/round.h"
 

@@ -6,7 +6,6 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/torus/torus_coefficients.h"
-#include "engines/torus/torus_error.h"
 #include "engines/torus/torus_layout.h"
 #include "engines/torus/torus_points.h"
 #include "engines/torus/torus_product.h"

@@ -1,4 +1,4 @@
-#include "engines/torus/torus_error.h"
+#include "engines/torus/torus_layout.h"
 
 #include "math/pi.h"
 #include "torus/product.h"

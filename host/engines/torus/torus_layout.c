@@ -3,7 +3,6 @@
 #include "base/round.h"
 #include "device/kind.h"
 #include "device/reals.h"
-#include "engines/torus/torus_error.h"
 #include "engines/torus/torus_split.h"
 #include "torus/product.h"
 

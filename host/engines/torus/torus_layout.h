@@ -44,4 +44,9 @@ size_t ps_torus_shared_bytes(const ps_torus_layout *layout);
 ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
 
+/* ps_survey.error for sets of num_points at most, whose mean effective power is as given. by_units:
+ * products are those of kernels/torus/product_units.cl. */
+double ps_torus_error(const ps_frequencies *frequencies, ps_precision precision, bool by_units,
+                      double num_points, double mean_power);
+
 #endif

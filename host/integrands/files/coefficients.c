@@ -3,8 +3,7 @@
 #define PRECISION 64
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"
-#include "integrands/files/sphere_series.h"
-#include "integrands/files/torus_series.h"
+#include "integrands/files/series.h"
 #include "integrands/integrand_kind.h"
 #include "integrands/sphere_series.h"
 #include "integrands/torus_series.h"

@@ -1,5 +1,5 @@
 #define PRECISION 64
-#include "integrands/files/sphere_series.h"
+#include "integrands/files/series.h"
 
 #include "base/memory.h"
 #include "integrands/files/coefficient_file.h"

@@ -4,13 +4,83 @@
 #include "integrands/half_plane.h"
 
 #include "integrands/integrand_kind.h"
-#include "math/polygon.h"
 #include "base/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static const ps_polygon CELL = {4, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+/* ---- polygons ---------------------------------------------------------------------------- */
+
+enum { MOST_CORNERS = 16 }; /* of two that a square was cut to: 5 each, and 10 in common */
+
+/* Convex, counter-clockwise. */
+typedef struct polygon {
+    unsigned num; /* 0: empty */
+    double corners[MOST_CORNERS][2];
+} polygon;
+
+static double area_of(const polygon *self) {
+    double twice = 0;
+    for (unsigned i = 1; i + 1 < self->num; i++) { /* triangles with the first corner */
+        const double *const origin = self->corners[0];
+        const double *const a = self->corners[i];
+        const double *const b = self->corners[i + 1];
+        twice += (a[0] - origin[0]) * (b[1] - origin[1]) - (a[1] - origin[1]) * (b[0] - origin[0]);
+    }
+    return twice / 2;
+}
+
+static polygon move_polygon(const polygon *self, double dx, double dy) {
+    polygon moved = *self;
+    for (unsigned i = 0; i < moved.num; i++) {
+        moved.corners[i][0] += dx;
+        moved.corners[i][1] += dy;
+    }
+    return moved;
+}
+
+static void append(polygon *self, double x, double y) {
+    if (self->num < MOST_CORNERS) {
+        self->corners[self->num][0] = x;
+        self->corners[self->num][1] = y;
+        self->num++;
+    }
+}
+
+/* The part where nx x + ny y <= offset: one corner more at most. */
+static polygon clip_polygon(const polygon *self, double nx, double ny, double offset) {
+    polygon part = {0};
+    for (unsigned i = 0; i < self->num; i++) {
+        const double *const a = self->corners[i];
+        const double *const b = self->corners[(i + 1) % self->num];
+        const double above_a = nx * a[0] + ny * a[1] - offset;
+        const double above_b = nx * b[0] + ny * b[1] - offset;
+        if (above_a <= 0) {
+            append(&part, a[0], a[1]);
+        }
+        if ((above_a < 0 && above_b > 0) || (above_a > 0 && above_b < 0)) {
+            const double share = above_a / (above_a - above_b);
+            append(&part, a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
+        }
+    }
+    return part;
+}
+
+static polygon intersect_polygon(const polygon *a, const polygon *b) {
+    polygon part = *a;
+    for (unsigned i = 0; i < b->num; i++) {
+        const double *const from = b->corners[i];
+        const double *const to = b->corners[(i + 1) % b->num];
+        const double nx = to[1] - from[1]; /* outwards */
+        const double ny = from[0] - to[0];
+        part = clip_polygon(&part, nx, ny, nx * from[0] + ny * from[1]);
+    }
+    return part;
+}
+
+/* ---- the integrand ----------------------------------------------------------------------- */
+
+static const polygon CELL = {4, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
 static pspec_status create(ps_integrand *self, const char *const *values, ps_error *error) {
     const double farthest = 2; /* a line further away misses the cell */
@@ -24,18 +94,18 @@ static pspec_status create(ps_integrand *self, const char *const *values, ps_err
     if (strcmp(values[1], "middle") != 0) {
         PS_TRY(ps_integrand_number(self, "offset", values[1], -farthest, farthest, offset, error));
     }
-    ps_polygon *part = NULL;
+    polygon *part = NULL;
     PS_TRY(PS_NEW(&part, 1, "a half-plane", error));
     self->own = part;
-    *part = ps_polygon_clip(&CELL, n[0], n[1], *offset);
-    const double area = ps_polygon_area(part);
+    *part = clip_polygon(&CELL, n[0], n[1], *offset);
+    const double area = area_of(part);
     return area > 0 && area < 1 ? PSPEC_OK
                                 : ps_integrand_fail(self, "offset", values[1],
                                                     "the line misses the cell [0,1)^2", error);
 }
 
 static double integral(const ps_integrand *self) {
-    return ps_polygon_area(self->own);
+    return area_of(self->own);
 }
 
 static double energy(const ps_integrand *self) {
@@ -49,7 +119,7 @@ static double sinc(double x) {
 
 /* f_k = i/(2 pi |k|^2) sum_edges (k_x dy - k_y dx) exp(-2 pi i k.m) sinc(k.(b - a)), m the middle
  * of the edge from a to b. */
-static double power(const ps_polygon *part, double kx, double ky) {
+static double power(const polygon *part, double kx, double ky) {
     double real_part = 0;
     double imaginary = 0;
     for (unsigned i = 0; i < part->num; i++) {
@@ -76,15 +146,15 @@ static pspec_status powers(const ps_integrand *self, const int32_t *vectors, siz
 }
 
 typedef struct overlaps {
-    const ps_polygon *part;
+    const polygon *part;
     double sum;
 } overlaps;
 
 static void add_overlap(void *payload, const double *image) {
     overlaps *const self = payload;
-    const ps_polygon moved = ps_polygon_move(self->part, image[0], image[1]);
-    const ps_polygon common = ps_polygon_intersect(self->part, &moved);
-    self->sum += ps_polygon_area(&common);
+    const polygon moved = move_polygon(self->part, image[0], image[1]);
+    const polygon common = intersect_polygon(self->part, &moved);
+    self->sum += area_of(&common);
 }
 
 static double correlation(const ps_integrand *self, const double *x) {

@@ -1,7 +1,6 @@
 #include "jobs/quadrature/truncation_job.h"
 
 #include "base/memory.h"
-#include "rules/equal_error.h"
 #include "rules/truncation.h"
 #include "jobs/quadrature/quadrature_phases.h"
 #include "jobs/spectrum/power_phases.h"

@@ -271,14 +271,8 @@ static void take_means(bench *self) {
 
 pspec_status ps_bench_calibrate(const ps_suite_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) {
-    ps_device_peaks peaks;
     bench *self = NULL;
-    PS_TRY(ps_device_peaks_measure(device, &peaks, error));
-    *figures = (ps_figures){.is_measured = true,
-                            .flops = {peaks.flops[PS_SINGLE], peaks.flops[PS_DOUBLE]},
-                            .copied_bytes = peaks.copied_bytes,
-                            .sent_bytes = peaks.sent_bytes,
-                            .launches = peaks.launches};
+    PS_TRY(ps_device_peaks_measure(device, figures, error));
     PS_TRY(PS_NEW(&self, 1, "a calibration", error));
     *self = (bench){.options = options,
                     .device = device,

@@ -11,8 +11,32 @@
 #ifndef PS_VERIFY_BENCH_BENCH_H
 #define PS_VERIFY_BENCH_BENCH_H
 
-#include "verify/bench/device_peaks.h"
 #include "verify/stress.h"
+
+/* The peaks of a device, measured by small kernels of ours (kernels/probe): fused operations,
+ * copied and sent bytes, launches. Nothing but disturbance makes these slower, so the best of some
+ * runs is taken. */
+
+/* The peak of fused multiply-adds. On a shared machine it changes from second to second, so that
+ * whoever compares may measure it again beside every run. */
+typedef struct ps_peak {
+    ps_device *device;
+    ps_kernel *kernel;
+    ps_buffer result;
+    ps_range range;
+} ps_peak;
+
+/* Builds the kernel and touches the memory. Destroyed also after a failure. */
+pspec_status ps_peak_create(ps_peak *peak, ps_device *device, ps_precision precision,
+                            ps_error *error) PS_MUST_CHECK;
+/* One run, of about ten milliseconds on a CPU. */
+pspec_status ps_peak_run(const ps_peak *peak, double *flops_per_second,
+                         ps_error *error) PS_MUST_CHECK;
+void ps_peak_destroy(ps_peak *peak);
+
+/* A copy that differs is PSPEC_ERROR_DEVICE. *peaks becomes figures without engines. */
+pspec_status ps_device_peaks_measure(ps_device *device, ps_figures *peaks,
+                                     ps_error *error) PS_MUST_CHECK;
 
 /* num_checked of a case are the frequencies that its errors are of; on a GPU its realizations are
  * GPU_REALIZATIONS times as many. */

@@ -1,4 +1,4 @@
-#include "verify/bench/device_peaks.h"
+#include "verify/bench/bench.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -137,7 +137,7 @@ static pspec_status send(const copy *self, ps_error *error) {
     return ps_buffer_write(self->device, &self->from, 0, self->block, self->block_bytes, error);
 }
 
-static pspec_status measure_memory(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
+static pspec_status measure_memory(ps_device *device, ps_figures *peaks, ps_error *error) {
     const size_t most = 32 << 20;
     copy self = {.device = device};
     double best = 0;
@@ -175,8 +175,8 @@ static pspec_status measure_flops(ps_device *device, ps_precision precision, dou
     return status;
 }
 
-pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
-    *peaks = (ps_device_peaks){0};
+pspec_status ps_device_peaks_measure(ps_device *device, ps_figures *peaks, ps_error *error) {
+    *peaks = (ps_figures){.is_measured = true};
     PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
     if (ps_device_get_limits(device)->has_fp64) {
         PS_TRY(measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error));

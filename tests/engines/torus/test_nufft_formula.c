@@ -4,7 +4,7 @@
  * are made up, in numbers that can be worked out by hand. */
 #include "harness.h"
 
-#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "harness_plan.h"
 
-#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/engine.h"

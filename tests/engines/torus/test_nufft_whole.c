@@ -3,7 +3,7 @@
  */
 #include "harness_shapes.h"
 
-#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/engine.h"
 #include "engines/torus/nufft/variant.h"

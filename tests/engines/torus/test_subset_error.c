@@ -10,7 +10,7 @@
 #include "frequencies/frequency_sample.h"
 #include "math/pi.h"
 #include "spectra/bins.h"
-#include "spectra/ring_statistics.h"
+#include "spectra/spectrum.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -51,4 +51,30 @@ ps_nufft_choice ps_nufft_choice_of_axes(const ps_problem *problem, unsigned firs
 uint32_t ps_nufft_tiled(const ps_nufft_choice *choice);
 uint32_t ps_nufft_base(const ps_nufft_choice *choice);
 
+/* Expected error of a choice for sets of a mean power (ps_survey.error). */
+double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
+                      ps_precision precision, double mean_power);
+
+/* The same of one axis of a choice, as if it were alone and tiles were made of it: what its window
+ * is chosen by. */
+double ps_nufft_error_of_axis(const ps_nufft_choice *whole, const ps_nufft_axis *axis,
+                              const ps_problem *problem, ps_precision precision, double mean_power);
+
+/* The frequencies of a problem, of both signs. */
+double ps_nufft_modes(const ps_problem *problem);
+
+/* Which choice a problem gets: a search over variants, lengths and windows by their cost. A
+ * function of the problem, the precision and the kind of device alone.
+ */
+
+/* The cheapest that keeps the tolerance; the most exact one when none does. num_axes == 0: rows
+ * would be too long for any local memory. limits: lanes, and whether local memory is apart, as on
+ * GPUs; NULL: it is not. */
+ps_nufft_choice ps_nufft_choose(const ps_problem *problem, const ps_device_limits *limits,
+                                ps_precision precision);
+/* The same among these variants, ended by NULL. */
+ps_nufft_choice ps_nufft_choose_among(const ps_nufft_variant *const *variants,
+                                      const ps_problem *problem, const ps_device_limits *limits,
+                                      ps_precision precision);
+
 #endif

@@ -1,8 +1,7 @@
-#include "engines/torus/nufft/choose.h"
 
 #include "base/round.h"
 #include "engines/torus/nufft/cost.h"
-#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/nufft/fft.h"
 #include "engines/torus/nufft/variant.h"
 

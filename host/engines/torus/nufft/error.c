@@ -1,7 +1,7 @@
 /* The error formula of torus_nufft: docs/engines/torus_nufft.md has the reasons. All errors are in
  * units of the root of sum w^2; constants were measured, and are held, by
  * tests/engines/torus/test_tolerance_sweep.c and tests/engines/torus/test_tolerance_regular.c. */
-#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/choice.h"
 
 #include "engines/nufft/grid_axis.h"
 #include "engines/torus/nufft/variant.h"

@@ -1,7 +1,7 @@
 #include "engines/torus/nufft/layout.h"
 
 #include "device/reals.h"
-#include "engines/torus/nufft/choose.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/variant.h"
 
 ps_nufft_layout ps_nufft_layout_of(const ps_nufft_choice *choice, const ps_problem *problem,

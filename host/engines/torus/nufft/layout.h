@@ -145,4 +145,7 @@ ps_nufft_layout ps_nufft_layout_of(const ps_nufft_choice *choice, const ps_probl
  * was planned. */
 void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch);
 
+/* Of frequency k in a row of tiles. */
+uint32_t ps_nufft_tile_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
+
 #endif

@@ -1,4 +1,4 @@
-#include "engines/torus/nufft/slots.h"
+#include "engines/torus/nufft/layout.h"
 
 /* Of frequency 0 of axis 0, kernels/nufft/lines.cl. */
 static uint32_t slot_at_zero(const ps_nufft_layout *layout, const int32_t *k) {

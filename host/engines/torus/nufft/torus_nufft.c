@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
-#include "engines/torus/nufft/error.h"
+#include "engines/torus/nufft/choice.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>

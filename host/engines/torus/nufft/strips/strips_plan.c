@@ -4,7 +4,7 @@
 #include "device/reals.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/torus/nufft/measure.h"
-#include "engines/torus/nufft/slots.h"
+#include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>

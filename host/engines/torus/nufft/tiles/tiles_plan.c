@@ -3,7 +3,7 @@
 #include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/torus/nufft/measure.h"
-#include "engines/torus/nufft/slots.h"
+#include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/variant.h"
 
 #include <math.h>
