@@ -12,13 +12,15 @@ bool ps_host_is_big_endian(void) {
     return first == 0;
 }
 
-static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes) {
-    for (size_t i = 0; i < count; i++) {
-        unsigned char *const element = bytes + i * element_bytes;
-        for (size_t j = 0; j < element_bytes / 2; j++) {
+/* From the order of a file to that of this machine, or back. */
+static void order_bytes(ps_element_type type, unsigned char *bytes, size_t count) {
+    const size_t last = type.num_bytes - 1;
+    for (size_t i = 0; type.is_big_endian != ps_host_is_big_endian() && i < count; i++) {
+        unsigned char *const element = bytes + i * type.num_bytes;
+        for (size_t j = 0; j < type.num_bytes / 2; j++) {
             const unsigned char kept = element[j];
-            element[j] = element[element_bytes - 1 - j];
-            element[element_bytes - 1 - j] = kept;
+            element[j] = element[last - j];
+            element[last - j] = kept;
         }
     }
 }
@@ -37,6 +39,7 @@ static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes)
     PS_WIDE(size_t, name, (const unsigned char *restrict raw, double *restrict out, size_t count), \
             (raw, out, count))
 
+DEFINE_WIDEN(widen_double, double)
 DEFINE_WIDEN(widen_float, float)
 DEFINE_WIDEN(widen_int8, int8_t)
 DEFINE_WIDEN(widen_int16, int16_t)
@@ -69,10 +72,10 @@ static size_t widen_half(const unsigned char *raw, double *out, size_t count) {
     return count;
 }
 
-/* By kind and the logarithm of the bytes; doubles are not widened. */
+/* By kind and the logarithm of the bytes. */
 typedef size_t widener(const unsigned char *raw, double *out, size_t count);
 static widener *const wideners[][4] = {
-    [PS_ELEMENT_FLOAT] = {NULL, widen_half, widen_float, NULL},
+    [PS_ELEMENT_FLOAT] = {NULL, widen_half, widen_float, widen_double},
     [PS_ELEMENT_SIGNED] = {widen_int8, widen_int16, widen_int32, widen_int64},
     [PS_ELEMENT_UNSIGNED] = {widen_uint8, widen_uint16, widen_uint32, widen_uint64}};
 
@@ -100,9 +103,7 @@ static pspec_status read_step(ps_input *input, ps_element_type type, double *out
                        input->name);
     }
     *count = num_bytes / type.num_bytes;
-    if (type.is_big_endian != ps_host_is_big_endian()) {
-        swap_bytes(target, *count, type.num_bytes);
-    }
+    order_bytes(type, target, *count);
     if (!is_double) {
         widen(type, raw, out, *count);
     }
@@ -119,8 +120,18 @@ pspec_status ps_elements_read(ps_input *input, ps_element_type type, double *out
     return PSPEC_OK;
 }
 
+double ps_element_number(ps_element_type type, const unsigned char *bytes) {
+    unsigned char own[sizeof(double)];
+    double value = 0;
+    memcpy(own, bytes, type.num_bytes);
+    order_bytes(type, own, 1);
+    widen(type, own, &value, 1);
+    return value;
+}
+
 void ps_elements_write(ps_output_file *file, const double *values, size_t count) {
     enum { BLOCK = 4096 };
+    static const ps_element_type float64 = {PS_ELEMENT_FLOAT, sizeof(double), false};
     double block[BLOCK];
     if (!ps_host_is_big_endian()) {
         ps_output_write(file, values, sizeof *values, count);
@@ -129,7 +140,7 @@ void ps_elements_write(ps_output_file *file, const double *values, size_t count)
     for (size_t first = 0; first < count; first += BLOCK) {
         const size_t num = count - first < BLOCK ? count - first : BLOCK;
         memcpy(block, values + first, num * sizeof *block);
-        swap_bytes((unsigned char *)block, num, sizeof *block);
+        order_bytes(float64, (unsigned char *)block, num);
         ps_output_write(file, block, sizeof *block, num);
     }
 }

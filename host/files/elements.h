@@ -20,6 +20,9 @@ typedef struct ps_element_type {
 
 bool ps_host_is_big_endian(void);
 
+/* The number that the bytes of one element are. */
+double ps_element_number(ps_element_type type, const unsigned char *bytes);
+
 /* Reads count elements as doubles; whole numbers beyond 2^53 may be rounded. *num_read is smaller
  * only at the end of the input. */
 pspec_status ps_elements_read(ps_input *input, ps_element_type type, double *out, size_t count,

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "files/bytes.h"
 #include "files/output_file.h"
 #include "files/text_lines.h"
 
@@ -187,8 +188,7 @@ static pspec_status read_header_text(ps_input *input, char **text, ps_error *err
                        input->name);
     }
     PS_TRY(read_exactly(input, length_bytes, version == 1 ? 2 : 4, error));
-    const size_t length = length_bytes[0] + ((size_t)length_bytes[1] << 8) +
-                          ((size_t)length_bytes[2] << 16) + ((size_t)length_bytes[3] << 24);
+    const size_t length = (size_t)ps_bytes_number(length_bytes, sizeof length_bytes);
     if (length > MAX_HEADER_BYTES) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: an NPY header of %zu bytes; at most %d are read", input->name, length,
@@ -282,8 +282,7 @@ size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, un
     text[length++] = '\n';
     memcpy(out, magic, MAGIC_BYTES);
     memcpy(out + MAGIC_BYTES, (const char[]){1, 0}, 2);
-    out[MAGIC_BYTES + 2] = (char)(length & 0xff);
-    out[MAGIC_BYTES + 3] = (char)(length >> 8);
+    ps_bytes_put(out + MAGIC_BYTES + 2, length, 2);
     return BEFORE_TEXT + length;
 }
 

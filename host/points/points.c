@@ -304,9 +304,10 @@ const char *ps_points_chosen(const ps_point_reader *reader) {
 
 void ps_points_close(ps_point_reader *reader) {
     if (reader != NULL) {
-        if (reader->format != NULL) {
+        if (reader->state != NULL && reader->format->close != NULL) {
             reader->format->close(reader);
         }
+        free(reader->state);
         ps_input_close(&reader->input);
         free(reader->staging);
         free(reader);

@@ -40,9 +40,10 @@ typedef struct ps_point_format {
     const char *name;
     const char *endings[3]; /* of file names; the first one is that of files that are written */
     const char *magic;      /* first bytes that tell the format, NULL: none */
-    /* Reading. open sets reader->columns and what else it knows; it need not clean up: close is
-     * called in every case and frees reader->state, which may be NULL. A read that cannot go on
-     * after some rows returns these and fails at the next call, so that errors come in order. */
+    /* Reading. open sets reader->columns and what else it knows; it need not clean up: where there
+     * is a reader->state, close (NULL: nothing) frees in every case what it holds. A read that
+     * cannot go on after some rows returns these and fails at the next call, so that errors come in
+     * order. */
     pspec_status (*open)(ps_point_reader *reader, ps_error *error);
     pspec_status (*read)(ps_point_reader *reader, ps_rows_read *out, ps_error *error);
     void (*close)(ps_point_reader *reader);
@@ -50,9 +51,9 @@ typedef struct ps_point_format {
      * first row. */
     pspec_status (*read_header)(ps_point_reader *reader, ps_error *error);
     /* Writing (all NULL: it is only read); errors of the stream show when the caller checks it.
-     * begin writes the header with the counts known so far, always of the same length, and is
-     * called again at the end when they were not. begin_set is called for every set (NULL:
-     * nothing), write for rows of it. */
+     * begin (NULL: nothing) writes the header with the counts known so far, always of the same
+     * length, and is called again at the end when they were not. begin_set (NULL: nothing) is
+     * called for every set, write for rows of it. */
     unsigned abilities;      /* of ps_format_ability */
     unsigned only_dimension; /* of the torus; 0: any */
     uint64_t max_count;      /* of sets, and of points of a set; 0: any */
@@ -119,7 +120,6 @@ extern const ps_point_format ps_format_tokens;
 extern const ps_point_format ps_format_memory;
 
 /* How points_npy.c writes openquad. */
-void ps_openquad_begin(ps_point_writer *writer);
 void ps_openquad_write(ps_point_writer *writer, const double *rows, size_t num_rows);
 pspec_status ps_openquad_finish(ps_point_writer *writer, ps_error *error) PS_MUST_CHECK;
 

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "points/points_format.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { VECTOR_NUMBERS = 3 };
@@ -110,9 +109,5 @@ static pspec_status read_memory(ps_point_reader *reader, ps_rows_read *out, ps_e
     return PSPEC_OK;
 }
 
-static void close_memory(ps_point_reader *reader) {
-    free(reader->state);
-}
-
 const ps_point_format ps_format_memory = {
-    .name = "memory", .open = open_memory, .read = read_memory, .close = close_memory};
+    .name = "memory", .open = open_memory, .read = read_memory};

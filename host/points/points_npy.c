@@ -193,12 +193,9 @@ static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
 }
 
 static void close_npy(ps_point_reader *reader) {
-    npy_state *const state = reader->state;
-    if (state != NULL) {
-        free(state->block);
-        free(state->cache);
-        free(state);
-    }
+    const npy_state *const state = reader->state;
+    free(state->block);
+    free(state->cache);
 }
 
 /* ---- Fortran order: set fastest, then point, then column --------------------------------- */
@@ -388,6 +385,5 @@ const ps_point_format ps_format_openquad = {.name = "openquad",
                                             .read = read_npy,
                                             .close = close_npy,
                                             .abilities = PS_HOLDS_WEIGHTS | PS_HOLDS_ANGLES,
-                                            .begin = ps_openquad_begin,
                                             .write = ps_openquad_write,
                                             .finish = ps_openquad_finish};

@@ -4,10 +4,6 @@
 #include "points/points_format.h"
 
 /* Columns are written one after the other, so the set is kept until it is complete. */
-void ps_openquad_begin(ps_point_writer *writer) {
-    (void)writer;
-}
-
 void ps_openquad_write(ps_point_writer *writer, const double *rows, size_t num_rows) {
     ps_text_append_bytes(&writer->kept, (const char *)rows,
                          num_rows * writer->columns * sizeof *rows);

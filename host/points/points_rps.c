@@ -2,11 +2,11 @@
  * pspec. Nothing in the file tells the number of points of a set (points_per_set) or the dimension
  * (2). */
 #include "base/memory.h"
+#include "files/bytes.h"
 #include "files/elements.h"
 #include "points/points_format.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const ps_element_type float32 = {PS_ELEMENT_FLOAT, sizeof(float), false};
@@ -66,15 +66,7 @@ static pspec_status read_rps(ps_point_reader *reader, ps_rows_read *out, ps_erro
     return PSPEC_OK;
 }
 
-static void close_rps(ps_point_reader *reader) {
-    (void)reader; /* no state */
-}
-
 /* ---- writing ----------------------------------------------------------------------------- */
-
-static void begin_rps(ps_point_writer *writer) {
-    (void)writer; /* no header */
-}
 
 /* The nearest float below 1: rounding up would leave the torus. */
 static float narrow(double value) {
@@ -93,9 +85,7 @@ static void write_rps(ps_point_writer *writer, const double *rows, size_t num_ro
             const double rounding = fabs((double)value - rows[first + i]);
             uint32_t bits = 0;
             memcpy(&bits, &value, sizeof bits);
-            for (unsigned byte = 0; byte < sizeof bits; byte++) {
-                block[i * sizeof bits + byte] = (unsigned char)(bits >> (8 * byte));
-            }
+            ps_bytes_put(block + i * sizeof bits, bits, sizeof bits);
             writer->num_rounded += rounding > 0;
             writer->largest_rounding = fmax(writer->largest_rounding, rounding);
         }
@@ -107,7 +97,5 @@ const ps_point_format ps_format_rps = {.name = "rps",
                                        .endings = {".rps", ".binary"},
                                        .open = open_rps,
                                        .read = read_rps,
-                                       .close = close_rps,
                                        .abilities = PS_HOLDS_SETS | PS_HOLDS_TORUS | PS_EQUAL_SETS,
-                                       .begin = begin_rps,
                                        .write = write_rps};

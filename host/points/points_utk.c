@@ -2,14 +2,22 @@
  * points, dimension), then the values set by set, point by point. Whole numbers are values like any
  * other, not scaled to [0,1). */
 #include "base/memory.h"
+#include "files/bytes.h"
 #include "files/elements.h"
 #include "points/points_format.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
-enum { HEADER_BYTES = 20, TYPE_DOUBLE = 5 };
+enum {
+    TYPE = 4, /* places in the header */
+    SETS = 8,
+    POINTS = 12,
+    DIMENSION = 16,
+    COUNT_BYTES = 4,
+    HEADER_BYTES = 20,
+    TYPE_DOUBLE = 5
+};
 static const char magic[] = "UTK!";
 
 /* In the order of the type codes of UTK. */
@@ -22,10 +30,6 @@ typedef struct utk_state {
     uint32_t num_sets, num_points, dimension;
     unsigned long first_sum, sum; /* CRC-32 of the values of the first set, and of this one */
 } utk_state;
-
-static uint32_t read_u32(const unsigned char *bytes) {
-    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
 
 /* The size of the file, where it is known, must be what the header says. */
 static pspec_status check_size(ps_point_reader *reader, ps_error *error) {
@@ -60,7 +64,6 @@ static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     utk_state *const state = reader->state;
     unsigned char header[HEADER_BYTES];
     size_t count = 0;
-    enum { TYPE = 4, SETS = 8, POINTS = 12, DIMENSION = 16 };
     PS_TRY(ps_input_read(&reader->input, header, HEADER_BYTES, &count, error));
     if (count < HEADER_BYTES || memcmp(header, magic, sizeof magic - 1) != 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s does not begin with the header of UTK binary",
@@ -72,9 +75,9 @@ static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
                        header[TYPE], TYPE_DOUBLE);
     }
     state->type = types[header[TYPE]];
-    state->num_sets = read_u32(header + SETS);
-    state->num_points = read_u32(header + POINTS);
-    state->dimension = read_u32(header + DIMENSION);
+    state->num_sets = (uint32_t)ps_bytes_number(header + SETS, COUNT_BYTES);
+    state->num_points = (uint32_t)ps_bytes_number(header + POINTS, COUNT_BYTES);
+    state->dimension = (uint32_t)ps_bytes_number(header + DIMENSION, COUNT_BYTES);
     return PSPEC_OK;
 }
 
@@ -97,10 +100,6 @@ static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
     }
     reader->columns = state->dimension;
     return check_size(reader, error);
-}
-
-static void close_utk(ps_point_reader *reader) {
-    free(reader->state);
 }
 
 /* After the last set of an input whose size is not known. */
@@ -156,19 +155,13 @@ static pspec_status read_utk(ps_point_reader *reader, ps_rows_read *out, ps_erro
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-static void write_u32(unsigned char *bytes, size_t value) {
-    for (unsigned byte = 0; byte < 4; byte++) {
-        bytes[byte] = (unsigned char)(value >> (8 * byte));
-    }
-}
-
 static void begin_utk(ps_point_writer *writer) {
     unsigned char header[HEADER_BYTES] = {0};
     memcpy(header, magic, sizeof magic - 1);
-    header[4] = TYPE_DOUBLE;
-    write_u32(header + 8, writer->shape.num_sets);
-    write_u32(header + 12, writer->shape.num_points);
-    write_u32(header + 16, writer->columns);
+    header[TYPE] = TYPE_DOUBLE;
+    ps_bytes_put(header + SETS, writer->shape.num_sets, COUNT_BYTES);
+    ps_bytes_put(header + POINTS, writer->shape.num_points, COUNT_BYTES);
+    ps_bytes_put(header + DIMENSION, writer->columns, COUNT_BYTES);
     ps_output_write(writer->file, header, 1, sizeof header);
 }
 
@@ -181,7 +174,6 @@ const ps_point_format ps_format_utk_binary = {.name = "utk-binary",
                                               .magic = magic,
                                               .open = open_utk,
                                               .read = read_utk,
-                                              .close = close_utk,
                                               .abilities = PS_HOLDS_SETS | PS_HOLDS_TORUS |
                                                            PS_HOLDS_VECTORS | PS_NEEDS_COUNTS,
                                               .max_count = UINT32_MAX,

@@ -77,7 +77,9 @@ static pspec_status open_output(ps_point_writer *writer, const char *path, ps_er
     if (writer->completes_header) {
         PS_TRY(ps_output_make_seekable(writer->file, error));
     }
-    writer->format->begin(writer);
+    if (writer->format->begin != NULL) {
+        writer->format->begin(writer);
+    }
     return PSPEC_OK;
 }
 

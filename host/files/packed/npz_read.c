@@ -1,6 +1,7 @@
 /* NPZ files that pointspec wrote, read back. Sizes, names and checksums are taken from the records
  * before arrays; all the rest of the file is made again from them, and must be what is there. */
 #include "base/memory.h"
+#include "files/bytes.h"
 #include "files/descriptor.h"
 #include "files/packed/npz_records.h"
 
@@ -30,15 +31,6 @@ static pspec_status fail_at(const ps_npz_file *file, uint64_t position, ps_error
                    "\"%s\" is no NPZ file of pointspec, or damaged or cut off: it has other bytes "
                    "than pointspec writes from byte %llu on",
                    file->name, (unsigned long long)position + 1);
-}
-
-/* The lowest byte first. */
-static uint64_t number_at(const char *bytes, unsigned num_bytes) {
-    uint64_t value = 0;
-    while (num_bytes > 0) {
-        value = value << 8 | (unsigned char)bytes[--num_bytes];
-    }
-    return value;
 }
 
 /* These bytes stand there; the text is emptied. */
@@ -118,18 +110,18 @@ static bool take_record(ps_npz_member *out, const ps_npz_file *file, uint64_t po
     if (left < PS_NPZ_LOCAL_BYTES) {
         return false;
     }
-    const size_t name_bytes = (size_t)number_at(local + PS_NPZ_LOCAL_NAME_BYTES, 2);
-    const size_t extra_bytes = (size_t)number_at(local + PS_NPZ_LOCAL_EXTRA_BYTES, 2);
+    const size_t name_bytes = (size_t)ps_bytes_number(local + PS_NPZ_LOCAL_NAME_BYTES, 2);
+    const size_t extra_bytes = (size_t)ps_bytes_number(local + PS_NPZ_LOCAL_EXTRA_BYTES, 2);
     const char *const extra = local + PS_NPZ_LOCAL_BYTES + name_bytes;
     if (left - PS_NPZ_LOCAL_BYTES < name_bytes + extra_bytes || name_bytes <= ending) {
         return false;
     }
     *out = (ps_npz_member){.name = local + PS_NPZ_LOCAL_BYTES,
                            .name_bytes = name_bytes - ending,
-                           .crc = (uint32_t)number_at(local + PS_NPZ_LOCAL_CRC, 4),
+                           .crc = (uint32_t)ps_bytes_number(local + PS_NPZ_LOCAL_CRC, 4),
                            .size = extra_bytes == PS_NPZ_EXTRA_BYTES
-                                       ? number_at(extra + PS_NPZ_EXTRA_SIZE, 8)
-                                       : number_at(local + PS_NPZ_LOCAL_SIZE, 4)};
+                                       ? ps_bytes_number(extra + PS_NPZ_EXTRA_SIZE, 8)
+                                       : ps_bytes_number(local + PS_NPZ_LOCAL_SIZE, 4)};
     return memchr(out->name, '\0', out->name_bytes) == NULL;
 }
 
@@ -142,7 +134,7 @@ static pspec_status take_member(ps_npz_file *file, ps_npz_records *made, ps_erro
     if (!take_record(&one, file, position)) {
         return fail_at(file, position, error);
     }
-    if (number_at(file->bytes + position + PS_NPZ_LOCAL_METHOD, 2) != PS_NPZ_STORED) {
+    if (ps_bytes_number(file->bytes + position + PS_NPZ_LOCAL_METHOD, 2) != PS_NPZ_STORED) {
         return fail_npz(file, "is compressed, and pointspec reads NPZ files that it wrote", error);
     }
     PS_TRY(ps_grow(&memory, &file->capacity, file->num + 1, sizeof *file->arrays, "arrays", error));

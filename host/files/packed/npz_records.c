@@ -1,6 +1,7 @@
 #include "files/packed/npz_records.h"
 
 #include "base/memory.h"
+#include "files/bytes.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,6 +12,7 @@ enum {
     FIRST_DAY = 1 << 5 | 1, /* January 1, 1980, as MS-DOS counts */
     EXTRA_ZIP64 = 1,
     BOTH_SIZES = 16, /* bytes of them there */
+    MOST_PUT = 10,   /* bytes of a number, or of several that are 0 */
     END64_BYTES = 44 /* of the record of the large directory, behind its size */
 };
 #define NOT_HERE UINT32_MAX /* the value stands in a ZIP64 field */
@@ -19,12 +21,10 @@ static const char ending[] = PS_NPZ_ENDING;
 
 /* ---- records ------------------------------------------------------------------------------- */
 
-/* The lowest byte first. */
 static void put(ps_text *out, uint64_t value, unsigned num_bytes) {
-    for (; num_bytes > 0; num_bytes--, value >>= 8) {
-        const char byte = (char)(unsigned char)(value & 0xff);
-        ps_text_append_bytes(out, &byte, 1);
-    }
+    char bytes[MOST_PUT];
+    ps_bytes_put(bytes, value, num_bytes);
+    ps_text_append_bytes(out, bytes, num_bytes);
 }
 
 static bool is_large(const ps_npz_records *records, uint64_t value) {

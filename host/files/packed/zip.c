@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "files/bytes.h"
 #include "files/descriptor.h"
 #include "files/packed/gzip.h"
 
@@ -75,20 +76,12 @@ typedef struct archive {
 
 /* ---- bytes ------------------------------------------------------------------------------- */
 
-static uint64_t number_at(const unsigned char *bytes, unsigned num_bytes) {
-    uint64_t value = 0;
-    for (unsigned i = num_bytes; i-- > 0;) {
-        value = value << 8 | bytes[i];
-    }
-    return value;
-}
-
 static uint16_t half_at(const unsigned char *bytes) {
-    return (uint16_t)number_at(bytes, sizeof(uint16_t));
+    return (uint16_t)ps_bytes_number(bytes, sizeof(uint16_t));
 }
 
 static uint32_t word_at(const unsigned char *bytes) {
-    return (uint32_t)number_at(bytes, sizeof(uint32_t));
+    return (uint32_t)ps_bytes_number(bytes, sizeof(uint32_t));
 }
 
 static pspec_status fail_damaged(const archive *whole, const char *what) {
@@ -134,13 +127,13 @@ static pspec_status find_end64(archive *whole, uint64_t end) {
     if (!begins(locator, "PK\6\7")) {
         return PSPEC_OK;
     }
-    PS_TRY(read_at(whole, number_at(locator + LOCATOR_OFFSET, 8), record, sizeof record));
+    PS_TRY(read_at(whole, ps_bytes_number(locator + LOCATOR_OFFSET, 8), record, sizeof record));
     if (!begins(record, "PK\6\6")) {
         return fail_damaged(whole, "its zip64 directory is not where it should be");
     }
-    whole->num_entries = number_at(record + END64_ENTRIES, 8);
-    whole->directory_bytes = number_at(record + END64_SIZE, 8);
-    whole->directory_offset = number_at(record + END64_OFFSET, 8);
+    whole->num_entries = ps_bytes_number(record + END64_ENTRIES, 8);
+    whole->directory_bytes = ps_bytes_number(record + END64_SIZE, 8);
+    whole->directory_offset = ps_bytes_number(record + END64_OFFSET, 8);
     return PSPEC_OK;
 }
 
@@ -195,7 +188,7 @@ static bool take_zip64(entry *out, const unsigned char *fields, size_t num_bytes
             if (num_bytes < sizeof(uint64_t)) {
                 return false;
             }
-            *wanted[i].value = number_at(fields, sizeof(uint64_t));
+            *wanted[i].value = ps_bytes_number(fields, sizeof(uint64_t));
             fields += sizeof(uint64_t);
             num_bytes -= sizeof(uint64_t);
         }

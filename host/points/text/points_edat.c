@@ -206,6 +206,5 @@ const ps_point_format ps_format_edat = {.name = "edat",
                                         .close = ps_text_close,
                                         .abilities =
                                             PS_HOLDS_SETS | PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS,
-                                        .begin = ps_text_begin,
                                         .begin_set = begin_set,
                                         .write = ps_text_write_rows};

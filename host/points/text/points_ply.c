@@ -5,8 +5,6 @@
 #include "points/text/points_frames.h"
 #include "points/text/text_fields.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LINE_BYTES = 512, NAMES_BYTES = 2048, MOST_LINES = 10000, BLOCK_BYTES = 1 << 16 };
@@ -166,28 +164,6 @@ static pspec_status open_ply(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
-static double decode(const unsigned char *bytes, ps_element_type type, bool is_big_endian) {
-    enum { BITS = 8, WORD = 8 };
-    uint64_t bits = 0;
-    for (unsigned i = 0; i < type.num_bytes; i++) {
-        const unsigned place = is_big_endian ? type.num_bytes - 1 - i : i;
-        bits |= (uint64_t)bytes[i] << (BITS * place);
-    }
-    if (type.kind == PS_ELEMENT_FLOAT && type.num_bytes == WORD) {
-        double value = 0;
-        memcpy(&value, &bits, sizeof value);
-        return value;
-    }
-    if (type.kind == PS_ELEMENT_FLOAT) {
-        const uint32_t half = (uint32_t)bits;
-        float value = 0;
-        memcpy(&value, &half, sizeof value);
-        return value;
-    }
-    const uint64_t sign = UINT64_C(1) << (BITS * type.num_bytes - 1);
-    return type.kind == PS_ELEMENT_SIGNED ? (double)(int64_t)((bits ^ sign) - sign) : (double)bits;
-}
-
 /* The numbers of a vertex that are read; false: --select does not take it. */
 static bool take_vertex(const ply_state *state, const unsigned char *bytes, double *row) {
     const ps_row_filter *const filter = &state->text.filter;
@@ -197,8 +173,9 @@ static bool take_vertex(const ply_state *state, const unsigned char *bytes, doub
         if (place < 0 && !is_filter) {
             continue;
         }
-        const ps_element_type type = state->types[j];
-        const double value = decode(bytes + state->offsets[j], type, state->is_big_endian);
+        ps_element_type type = state->types[j];
+        type.is_big_endian = state->is_big_endian;
+        const double value = ps_element_number(type, bytes + state->offsets[j]);
         const bool is_single = type.kind == PS_ELEMENT_FLOAT && type.num_bytes == sizeof(float);
         if (is_filter && !ps_row_filter_takes_number(filter, value, is_single)) {
             return false;

@@ -8,7 +8,6 @@
 #include "points/text/points_text.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Numbers of a read: enough that several threads are worth while, 2 MiB. */
@@ -130,11 +129,8 @@ static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
 
 void ps_text_close(ps_point_reader *reader) {
     ps_text_state *const state = reader->state;
-    if (state != NULL) {
-        ps_lines_close(&state->lines);
-        ps_row_parser_free(&state->parser);
-        free(state);
-    }
+    ps_lines_close(&state->lines);
+    ps_row_parser_free(&state->parser);
 }
 
 /* ---- read -------------------------------------------------------------------------------- */
@@ -324,10 +320,6 @@ void ps_text_begin_set(ps_point_writer *writer) {
     }
 }
 
-void ps_text_begin(ps_point_writer *writer) {
-    (void)writer; /* no header */
-}
-
 /* ---- the formats ------------------------------------------------------------------------- */
 
 enum {
@@ -340,7 +332,6 @@ const ps_point_format ps_format_utk_text = {.name = "utk-text",
                                             .read = ps_text_read,
                                             .close = ps_text_close,
                                             .abilities = ANY_POINTS,
-                                            .begin = ps_text_begin,
                                             .begin_set = ps_text_begin_set,
                                             .write = write_utk};
 
@@ -350,6 +341,5 @@ const ps_point_format ps_format_csv = {.name = "csv",
                                        .read = ps_text_read,
                                        .close = ps_text_close,
                                        .abilities = ANY_POINTS,
-                                       .begin = ps_text_begin,
-                                       .begin_set = ps_text_begin_set,
+                                        .begin_set = ps_text_begin_set,
                                        .write = write_csv};

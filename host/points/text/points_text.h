@@ -76,8 +76,7 @@ pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHE
  * vertices, their normals or materials. */
 pspec_status ps_obj_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
 
-/* No header, and '#' between sets. */
-void ps_text_begin(ps_point_writer *writer);
+/* '#' between sets. */
 void ps_text_begin_set(ps_point_writer *writer);
 /* Rows of numbers between blanks, shortest digits. */
 void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_rows);
