@@ -70,9 +70,8 @@ enum { NUM_ARRAY_FILES = sizeof array_files / sizeof array_files[0] };
 
 /* Weights may be lines of text, too. */
 static pspec_status write_array(const char *path, const ps_npy_array *array, ps_error *error) {
-    return array->rank == 1 && !array->is_complex
-               ? ps_write_weights(path, array->data, array->num, error)
-               : ps_npy_write_array(path, array, error);
+    return array->rank == 1 && !array->is_complex ? ps_write_weights(path, array, error)
+                                                  : ps_npy_write_array(path, array, error);
 }
 
 static pspec_status write_arrays(const ps_table *table, const ps_request *request,

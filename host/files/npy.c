@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/bytes.h"
-#include "files/output_file.h"
 #include "files/text_lines.h"
 
 #include <errno.h>
@@ -286,24 +285,10 @@ size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, un
     return BEFORE_TEXT + length;
 }
 
-void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
+void ps_npy_write_header(ps_output_file *file, const char *element, unsigned rank,
+                         const size_t *shape) {
     char header[PS_NPY_HEADER_BYTES];
-    fwrite(header, 1, ps_npy_make_header(header, "f8", rank, shape), stream);
-}
-
-pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,
-                          ps_error *error) {
-    size_t count = 1;
-    for (unsigned axis = 0; axis < rank; axis++) {
-        if (!ps_size_multiply(count, shape[axis], &count)) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: the array is too large", path);
-        }
-    }
-    ps_output_file *file = NULL;
-    PS_TRY(ps_output_open(&file, path, error));
-    ps_npy_write_header(ps_output_stream(file), rank, shape);
-    ps_output_write(file, data, sizeof *data, count);
-    return ps_output_commit(&file, error);
+    ps_output_write(file, header, 1, ps_npy_make_header(header, element, rank, shape));
 }
 
 pspec_status ps_npy_check_name(const char *option, const char *path, ps_error *error) {

@@ -1,11 +1,8 @@
-/* NPY arrays (format 1.0 of NumPy): writing float64 arrays, and the header parser that readers use.
- */
+/* NPY arrays (format 1.0 of NumPy): their header, and its parser that readers use. */
 #ifndef PS_FILES_NPY_H
 #define PS_FILES_NPY_H
 
 #include "files/elements.h"
-
-#include <stdio.h>
 
 enum { PS_NPY_MAX_RANK = 8 };
 
@@ -36,12 +33,9 @@ pspec_status ps_npy_check_end(ps_input *input, ps_error *error) PS_MUST_CHECK;
 enum { PS_NPY_HEADER_BYTES = 384 }; /* 8 extents of 20 digits, words, and blanks up to 64 bytes */
 size_t ps_npy_make_header(char out[PS_NPY_HEADER_BYTES], const char *element, unsigned rank,
                           const size_t *shape);
-/* Writes the header of a float64 array in C order and in the byte order of this machine, so that
- * the elements follow by fwrite. Write errors show at commit. */
-void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape);
-/* Writes a whole float64 array to path through ps_output_file. */
-pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,
-                          ps_error *error) PS_MUST_CHECK;
+/* Writes it, so that the elements follow. Write errors show at commit. */
+void ps_npy_write_header(ps_output_file *file, const char *element, unsigned rank,
+                         const size_t *shape);
 
 /* Does the path end in .npy, as the only format does that the option writes? */
 pspec_status ps_npy_check_name(const char *option, const char *path, ps_error *error) PS_MUST_CHECK;

@@ -1,7 +1,6 @@
 #include "files/npy_array.h"
 
 #include "base/memory.h"
-#include "files/output_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -118,12 +117,9 @@ size_t ps_npy_num_doubles(const ps_npy_array *array) {
 }
 
 pspec_status ps_npy_write_array(const char *path, const ps_npy_array *array, ps_error *error) {
-    char header[PS_NPY_HEADER_BYTES];
     ps_output_file *file = NULL;
     PS_TRY(ps_output_open(&file, path, error));
-    ps_output_write(
-        file, header, 1,
-        ps_npy_make_header(header, array->is_complex ? "c16" : "f8", array->rank, array->shape));
+    ps_npy_write_header(file, array->is_complex ? "c16" : "f8", array->rank, array->shape);
     ps_output_write(file, array->data, sizeof *array->data, ps_npy_num_doubles(array));
     return ps_output_commit(&file, error);
 }

@@ -361,7 +361,7 @@ static pspec_status read_npy(ps_point_reader *reader, ps_rows_read *out, ps_erro
 
 static void begin_npy(ps_point_writer *writer) {
     const size_t shape[] = {writer->shape.num_sets, writer->shape.num_points, writer->columns};
-    ps_npy_write_header(ps_output_stream(writer->file), 3, shape);
+    ps_npy_write_header(writer->file, "f8", 3, shape);
 }
 
 static void write_npy(ps_point_writer *writer, const double *rows, size_t num_rows) {

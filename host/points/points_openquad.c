@@ -13,7 +13,7 @@ pspec_status ps_openquad_finish(ps_point_writer *writer, ps_error *error) {
     PS_TRY(ps_text_check(&writer->kept, error));
     const size_t num = writer->kept.length / sizeof(double) / writer->columns;
     const size_t shape[] = {writer->columns, num};
-    ps_npy_write_header(ps_output_stream(writer->file), 2, shape);
+    ps_npy_write_header(writer->file, "f8", 2, shape);
     for (unsigned column = 0; column < writer->columns; column++) {
         for (size_t i = 0; i < num; i++) {
             ps_output_write(writer->file,

@@ -321,7 +321,7 @@ static pspec_status write_npy(const ps_table *table, const char *path, ps_error 
     PS_TRY_OUT(status, to_numbers(table, &numbers, error));
     PS_TRY_OUT(status, ps_output_open(&file, path, error));
     PS_TRY_OUT(status, open_names(&names, path, error));
-    ps_npy_write_header(ps_output_stream(file), 2, shape);
+    ps_npy_write_header(file, "f8", 2, shape);
     ps_output_write(file, numbers, sizeof *numbers, shape[0] * shape[1]);
     ps_table_write_json(table, false, ps_output_stream(names));
     PS_TRY_OUT(status, ps_output_check(file, error));

@@ -1,6 +1,6 @@
 /* Questions of the library: arrays that the caller gives are those of files, and arrays that a
  * program writes to files are in the answer. */
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "harness_public.h"
 
 #include <stdio.h>
@@ -150,9 +150,8 @@ static int make_folder(void **state) {
     write_numbers("w.txt", N, 1, weights);
     write_numbers("k.txt", 6, 2, (const double[]){1, 0, 0, 1, 12, -5});
     write_numbers("zonal.txt", 6, 2, (const double[]){-1, 0, 0, 0, 1, 1.0 / 3});
-    assert_int_equal(ps_npy_write("pixels.npy", 2, (const size_t[]){2, 2},
-                                  (const double[]){0.1, 1, 2.5, -3}, &error),
-                     PSPEC_OK);
+    const ps_npy_array pixels = {2, {2, 2}, 4, false, (double[]){0.1, 1, 2.5, -3}};
+    assert_int_equal(ps_npy_write_array("pixels.npy", &pixels, &error), PSPEC_OK);
     return 0;
 }
 

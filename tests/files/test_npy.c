@@ -1,6 +1,6 @@
 /* Arrays that are written, alone and in archives: the bytes that NumPy reads. */
 #include "files/input_file.h"
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "files/packed/npz.h"
 #include "test_folder.h"
 
@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 static void writes_what_numpy_reads(void **state) {
-    static const double data[] = {0.5, 0.25, 0.125, -1};
+    static double data[] = {0.5, 0.25, 0.125, -1};
     const size_t shapes[][3] = {{4}, {2, 2}, {1, 2, 2}};
     static const char *const texts[] = {"'shape': (4,), }", "'shape': (2, 2), }",
                                         "'shape': (1, 2, 2), }"};
@@ -24,7 +24,9 @@ static void writes_what_numpy_reads(void **state) {
         ps_error error = {0};
         size_t length = 0;
         test_path(*state, "array.npy", path);
-        assert_int_equal(ps_npy_write(path, rank, shapes[rank - 1], data, &error), PSPEC_OK);
+        ps_npy_array array = {.rank = rank, .num = 4, .data = data};
+        memcpy(array.shape, shapes[rank - 1], rank * sizeof *array.shape);
+        assert_int_equal(ps_npy_write_array(path, &array, &error), PSPEC_OK);
         char *const file = test_read_file(path, &length);
         assert_memory_equal(file, "\x93NUMPY\x01\0", 8);
         const size_t header = 10 + (size_t)(unsigned char)file[8] + 256 * (size_t)file[9];

@@ -1,7 +1,7 @@
 /* Files that appear when complete: names, permissions, refusals, full disks. */
 #define _XOPEN_SOURCE 700 /* symlink, mkfifo, realpath as glibc has them */
 
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "files/output_file.h"
 #include "test_folder.h"
 
@@ -212,11 +212,11 @@ static int write_beyond_limit(const char *path) {
     enum { NUM_VALUES = 100000 };
     static double values[NUM_VALUES];
     const struct rlimit limit = {100000, 100000};
-    const size_t shape = NUM_VALUES;
+    const ps_npy_array array = {1, {NUM_VALUES}, NUM_VALUES, false, values};
     signal(SIGXFSZ, SIG_IGN);
     ps_error error = {0};
     const bool is_set = setrlimit(RLIMIT_FSIZE, &limit) == 0;
-    const pspec_status status = ps_npy_write(path, 1, &shape, values, &error);
+    const pspec_status status = ps_npy_write_array(path, &array, &error);
     const bool is_named = strstr(error.message, "big.npy: File too large") != NULL;
     return is_set && status == PSPEC_ERROR_IO && is_named ? 0 : 1;
 }

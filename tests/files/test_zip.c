@@ -1,7 +1,7 @@
 /* Arrays of zip archives: as numpy writes them, as streams write them, and damaged. */
 #include "harness_points.h"
 
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "points/lists/weight_list.h"
 
 #include <setjmp.h>
@@ -256,12 +256,12 @@ static void check_weights(void **state, bytes weights, const style *packed) {
 /* As numpy.savez writes them, and as text that somebody put there. */
 static void reads_weights(void **state) {
     static unsigned char text[] = "0.5\n2\n";
-    static const double values[] = {0.5, 2};
-    const size_t shape[] = {2};
+    static double values[] = {0.5, 2};
+    const ps_npy_array weights = {1, {2}, 2, false, values};
     char path[TEST_PATH_BYTES];
     bytes array = {0};
     ps_error error = {0};
-    assert_int_equal(ps_npy_write(test_path(*state, "w.npy", path), 1, shape, values, &error),
+    assert_int_equal(ps_npy_write_array(test_path(*state, "w.npy", path), &weights, &error),
                      PSPEC_OK);
     array.data = (unsigned char *)test_read_file(path, &array.num);
     assert_non_null(array.data);

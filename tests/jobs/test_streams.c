@@ -4,7 +4,7 @@
 #include "harness_estimator.h"
 
 #include "engines/engine.h"
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "jobs/spectrum/power_job.h"
 #include "points/points.h"
 
@@ -127,8 +127,8 @@ static void weights_of_a_file(void **state) {
     for (size_t j = 0; j < NUM_POINTS; j++) {
         weights[j] = (test_uniform(&random) - 0.25) * (double)(NUM_POINTS - j);
     }
-    const size_t shape[] = {NUM_POINTS};
-    assert_ok(ps_npy_write(test_path(folder, "alone.npy", name), 1, shape, weights, error));
+    const ps_npy_array alone = {1, {NUM_POINTS}, NUM_POINTS, false, weights};
+    assert_ok(ps_npy_write_array(test_path(folder, "alone.npy", name), &alone, error));
     weights_path = name;
     write_sets("points.npy", 2, NUM_POINTS, false);
     compare(false);

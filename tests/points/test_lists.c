@@ -1,5 +1,5 @@
 /* Lists of frequencies and of weights. */
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "points/lists/frequency_list.h"
 #include "points/lists/weight_list.h"
 #include "test_folder.h"
@@ -84,11 +84,11 @@ static void reads_weights(void **state) {
     assert_int_equal(num_weights, 4);
     assert_true(weights[0] == 1 && weights[1] == -2.5 && weights[2] == 3e-3 && weights[3] == 4);
     free(weights);
-    const double values[] = {1, -1e300, 0.5};
-    const size_t num_values = 3;
-    assert_int_equal(ps_npy_write(path, 1, &num_values, values, &error), PSPEC_OK);
+    double values[] = {1, -1e300, 0.5};
+    const ps_npy_array array = {1, {3}, 3, false, values};
+    assert_int_equal(ps_npy_write_array(path, &array, &error), PSPEC_OK);
     assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error), PSPEC_OK);
-    assert_int_equal(num_weights, num_values);
+    assert_int_equal(num_weights, array.num);
     assert_memory_equal(weights, values, sizeof values);
     free(weights);
 }
@@ -148,13 +148,14 @@ static void refuses_bad_weights(void **state) {
             fail_msg("%s: \"%s\", expected \"%s\"", cases[i][0], error.message, cases[i][1]);
         }
     }
-    const double values[] = {1, (double)NAN};
-    const size_t shape[] = {1, 2};
-    assert_int_equal(ps_npy_write(path, 2, shape, values, &error), PSPEC_OK);
+    double values[] = {1, (double)NAN};
+    ps_npy_array array = {2, {1, 2}, 2, false, values};
+    assert_int_equal(ps_npy_write_array(path, &array, &error), PSPEC_OK);
     assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error),
                      PSPEC_ERROR_INPUT);
     assert_non_null(strstr(error.message, "an array with 2 axes; weights have one"));
-    assert_int_equal(ps_npy_write(path, 1, shape + 1, values, &error), PSPEC_OK);
+    array = (ps_npy_array){1, {2}, 2, false, values};
+    assert_int_equal(ps_npy_write_array(path, &array, &error), PSPEC_OK);
     assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error),
                      PSPEC_ERROR_INPUT);
     assert_non_null(strstr(error.message, "weight 2 is nan, not a finite number"));

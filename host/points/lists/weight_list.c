@@ -1,8 +1,6 @@
 #include "points/lists/weight_list.h"
 
 #include "files/decimal.h"
-#include "files/npy.h"
-#include "files/output_file.h"
 #include "files/text_lines.h"
 #include "points/lists/number_list.h"
 #include "points/text/text_fields.h"
@@ -154,16 +152,15 @@ pspec_status ps_weights_check_name(const char *path, ps_error *error) {
                          "\"%s\": weights are written to .npy or .txt, not %s", path, ending);
 }
 
-pspec_status ps_write_weights(const char *path, const double *weights, size_t num_weights,
-                              ps_error *error) {
+pspec_status ps_write_weights(const char *path, const ps_npy_array *weights, ps_error *error) {
     ps_output_file *file = NULL;
     char text[PS_DECIMAL_BYTES + 1];
     if (strcmp(ps_output_ending(path), ".npy") == 0) {
-        return ps_npy_write(path, 1, &num_weights, weights, error);
+        return ps_npy_write_array(path, weights, error);
     }
     PS_TRY(ps_output_open(&file, path, error));
-    for (size_t j = 0; j < num_weights; j++) {
-        const size_t length = ps_decimal_format(text, weights[j]);
+    for (size_t j = 0; j < weights->num; j++) {
+        const size_t length = ps_decimal_format(text, weights->data[j]);
         text[length] = '\n';
         ps_output_write(file, text, 1, length + 1);
     }
