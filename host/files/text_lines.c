@@ -212,7 +212,7 @@ const char *ps_row_parse(const char *text, char separator, size_t num_columns, d
     return *text == '\n' ? text : NULL;
 }
 
-size_t ps_line_count_numbers(const char *line, bool are_whole) {
+size_t ps_line_numbers(const char *line, bool are_whole, size_t most, double *row) {
     size_t num = 0;
     double value = 0;
     for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
@@ -220,6 +220,9 @@ size_t ps_line_count_numbers(const char *line, bool are_whole) {
         if (length == 0 || ps_decimal_parse(line, &value) != line + length ||
             (are_whole && strspn(line, "0123456789") != length)) {
             return 0;
+        }
+        if (num < most) {
+            row[num] = value;
         }
         num++;
         line += length;

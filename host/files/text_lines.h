@@ -69,9 +69,9 @@ bool ps_token_is_not_finite(const char *token, size_t length);
  * else. */
 const char *ps_row_parse(const char *text, char separator, size_t num_columns, double *row);
 
-/* Numbers between blanks of a line that has nothing else, or 0; are_whole: these have only digits.
- */
-size_t ps_line_count_numbers(const char *line, bool are_whole);
+/* Counts the numbers between blanks of a line that has nothing else, 0: it has; the first `most` of
+ * them go to row. are_whole: these have only digits. */
+size_t ps_line_numbers(const char *line, bool are_whole, size_t most, double *row);
 
 /* Counts the columns of the line at cursor; a token that is no number is an error. */
 pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_columns,

@@ -6,37 +6,22 @@
 
 #include <string.h>
 
-/* The first line as counts: one whole number ("N") or two ("N d"). */
-static unsigned count_header(const char *line, double *counts) {
-    enum { MOST_COUNTS = 2 };
-    unsigned num = 0;
-    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
-        const size_t length = ps_token_length(line);
-        if (num == MOST_COUNTS || length == 0 || strspn(line, "0123456789") != length) {
-            return 0;
-        }
-        ps_decimal_parse(line, &counts[num]);
-        if (counts[num++] < 1) {
-            return 0;
-        }
-        line += length;
-    }
-    return num;
-}
-
 /* A header is "N" before rows of other length, or "N d" before rows of d numbers. "256 2" could be
  * a point itself, but not one of the torus, unless it is to be wrapped. */
 static pspec_status detect_counts(ps_point_reader *reader, const char *second, ps_error *error) {
     ps_text_state *const state = reader->state;
-    double counts[2] = {0};
-    double row[PS_MAX_COLUMNS];
-    const unsigned num = count_header(state->lines.cursor, counts);
-    const unsigned columns = ps_text_parse_line(second, row);
+    double counts[2] = {1, 1};
+    const size_t num = ps_line_numbers(state->lines.cursor, true, 2, counts);
+    const size_t columns = ps_line_numbers(second, false, 0, NULL);
+    if (counts[0] < 1 || counts[1] < 1 || columns > PS_MAX_COLUMNS) {
+        return PSPEC_OK;
+    }
     if (num == 1 && columns >= 2) {
         reader->format = &ps_format_psa_text;
-    } else if (num == 2 && counts[1] == columns && (columns != 2 || !reader->options.wrap)) {
+    } else if (num == 2 && counts[1] == (double)columns &&
+               (columns != 2 || !reader->options.wrap)) {
         reader->format = &ps_format_gbn;
-    } else if (num == 2 && counts[1] == columns) {
+    } else if (num == 2 && counts[1] == (double)columns) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: is the first line a point to be wrapped, or a count and a dimension? "
                        "--input-format utk-text or gbn",
@@ -58,9 +43,9 @@ static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
     const ps_point_options *const options = &reader->options;
     const char *const line = ((ps_text_state *)reader->state)->lines.cursor;
     const bool may_be_sphere = options->domain != PS_DOMAIN_TORUS;
-    const size_t num = ps_line_count_numbers(line, false);
+    double row[VECTOR + 1] = {0};
+    const size_t num = ps_line_numbers(line, false, VECTOR + 1, row);
     const size_t told = ps_columns_told(options);
-    double row[PS_MAX_COLUMNS] = {0};
     if (options->column_names != NULL) {
         return PSPEC_OK; /* columns that are chosen are those of a line */
     }
@@ -69,7 +54,6 @@ static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
         return PSPEC_OK;
     }
     const bool is_vector = may_be_sphere && num == VECTOR + 1 &&
-                           ps_text_parse_line(line, row) == num &&
                            (options->normalize_vectors || ps_is_unit_vector(row));
     if (num < SEVERAL || is_vector) {
         return PSPEC_OK;
@@ -104,8 +88,8 @@ static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, p
     if (is_alone) {
         return detect_tokens(reader, error);
     }
-    const bool has_one_a_line = ps_line_count_numbers(state->lines.cursor, false) == 1 &&
-                                ps_line_count_numbers(second, false) == 1;
+    const bool has_one_a_line = ps_line_numbers(state->lines.cursor, false, 0, NULL) == 1 &&
+                                ps_line_numbers(second, false, 0, NULL) == 1;
     if (has_one_a_line && ps_columns_told(&reader->options) > 1) {
         reader->format = &ps_format_tokens;
         return PSPEC_OK;

@@ -9,9 +9,9 @@
 #include <string.h>
 
 typedef struct edat_header {
-    unsigned lower_columns, upper_columns; /* 0: the line has no numbers */
+    size_t lower_columns, upper_columns; /* 0: the line has no numbers */
     bool has_toricity;
-    double lower[PS_MAX_COLUMNS], upper[PS_MAX_COLUMNS], toricity;
+    double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION], toricity;
 } edat_header;
 
 /* The three lines at the cursor, which stays. */
@@ -19,18 +19,16 @@ static pspec_status peek_header(ps_point_reader *reader, edat_header *out, ps_er
     ps_text_state *const state = reader->state;
     const char *third = NULL;
     const char *second = NULL;
-    double row[PS_MAX_COLUMNS];
     *out = (edat_header){0};
     PS_TRY(ps_lines_peek(&state->lines, 2, &third, error));
     PS_TRY(ps_lines_peek(&state->lines, 1, &second, error));
-    out->lower_columns = ps_text_parse_line(state->lines.cursor, out->lower);
+    out->lower_columns = ps_line_numbers(state->lines.cursor, false, PS_MAX_DIMENSION, out->lower);
     if (second != NULL) {
-        out->upper_columns = ps_text_parse_line(second, out->upper);
+        out->upper_columns = ps_line_numbers(second, false, PS_MAX_DIMENSION, out->upper);
     }
-    if (third != NULL && ps_text_parse_line(third, row) == 1) {
+    if (third != NULL && ps_line_numbers(third, false, 1, &out->toricity) == 1) {
         third = ps_skip_blanks(third);
         out->has_toricity = ps_token_length(third) == 1 && (*third == '0' || *third == '1');
-        out->toricity = row[0];
     }
     return PSPEC_OK;
 }
@@ -120,7 +118,7 @@ static pspec_status check_header(const ps_point_reader *reader, const edat_heade
     return state->num_corners == 0 || header->lower_columns == state->num_corners
                ? PSPEC_OK
                : ps_text_fail(reader, error, "a domain of dimension %u after one of %u",
-                              header->lower_columns, state->num_corners);
+                              (unsigned)header->lower_columns, state->num_corners);
 }
 
 /* Points must follow. */
@@ -132,8 +130,7 @@ static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     ps_line_kind kind = PS_LINE_NONE;
     PS_TRY(peek_header(reader, &header, error));
     PS_TRY(check_header(reader, &header, error));
-    state->num_corners = header.lower_columns;
-    box->num_axes = header.lower_columns;
+    state->num_corners = box->num_axes = (unsigned)header.lower_columns;
     memcpy(box->low, header.lower, sizeof box->low);
     memcpy(box->high, header.upper, sizeof box->high);
     for (int i = 0; i < LINES; i++) {

@@ -26,6 +26,10 @@ static const char *line_at(first_lines *self, size_t index) {
     return line != NULL ? ps_skip_blanks(line) : "\n";
 }
 
+static size_t count_numbers(const char *text, bool are_whole) {
+    return ps_line_numbers(text, are_whole, 0, NULL);
+}
+
 static bool is_one_word(const char *text) {
     return !ps_ends_line(text) && ps_ends_line(ps_skip_blanks(text + ps_token_length(text)));
 }
@@ -95,8 +99,8 @@ static bool is_gromacs_atom(const char *text) {
 /* A title, unless it began with a mark and was passed over, the number of atoms, the first of them.
  */
 static bool is_gromacs(first_lines *lines) {
-    const size_t count = ps_line_count_numbers(line_at(lines, 0), true) == 1 ? 0 : 1;
-    return ps_line_count_numbers(line_at(lines, count), true) == 1 &&
+    const size_t count = count_numbers(line_at(lines, 0), true) == 1 ? 0 : 1;
+    return count_numbers(line_at(lines, count), true) == 1 &&
            is_gromacs_atom(line_at(lines, count + 1));
 }
 
@@ -104,16 +108,16 @@ static bool is_gromacs(first_lines *lines) {
  * dynamics", "Direct" or "Cartesian". */
 static bool is_poscar(first_lines *lines) {
     enum { AXES = 3 };
-    size_t next = ps_line_count_numbers(line_at(lines, 0), false) == 1 ? 0 : 1;
-    bool is_it = ps_line_count_numbers(line_at(lines, next++), false) == 1;
+    size_t next = count_numbers(line_at(lines, 0), false) == 1 ? 0 : 1;
+    bool is_it = count_numbers(line_at(lines, next++), false) == 1;
     for (int axis = 0; is_it && axis < AXES; axis++) {
-        is_it = ps_line_count_numbers(line_at(lines, next++), false) == AXES;
+        is_it = count_numbers(line_at(lines, next++), false) == AXES;
     }
     if (!is_it) {
         return false;
     }
     next += isalpha((unsigned char)*line_at(lines, next)) != 0;
-    is_it = ps_line_count_numbers(line_at(lines, next++), true) > 0;
+    is_it = count_numbers(line_at(lines, next++), true) > 0;
     next += is_it && tolower((unsigned char)*line_at(lines, next)) == 's';
     return is_it && strchr("DdCcKk", *line_at(lines, next)) != NULL;
 }

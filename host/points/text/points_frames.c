@@ -22,13 +22,13 @@ pspec_status ps_frame_count(ps_point_reader *reader, const char *otherwise, uint
                             ps_error *error) {
     const double most = 1e15; /* counts in doubles are exact */
     const char *line = NULL;
-    double row[PS_MAX_COLUMNS];
+    double value = 0;
     PS_TRY(ps_frame_line(reader, &line, error));
-    if (ps_text_parse_line(line, row) != 1 || !(row[0] >= 1 && row[0] <= most) ||
-        row[0] != floor(row[0])) {
+    if (ps_line_numbers(line, false, 1, &value) != 1 || !(value >= 1 && value <= most) ||
+        value != floor(value)) {
         return ps_text_fail(reader, error, "%s", otherwise);
     }
-    *count = (uint64_t)row[0];
+    *count = (uint64_t)value;
     ps_lines_skip(&((ps_text_state *)reader->state)->lines);
     return PSPEC_OK;
 }

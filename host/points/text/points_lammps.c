@@ -17,13 +17,13 @@ static bool has_word(const char *line, const char *word) {
 }
 
 static pspec_status read_bounds(ps_point_reader *reader, ps_error *error) {
-    enum { AXES = 3 };
+    enum { AXES = 3, BOUNDS = 2 };
     ps_text_state *const state = reader->state;
     for (int axis = 0; axis < AXES; axis++) {
         const char *line = NULL;
-        double row[PS_MAX_COLUMNS];
+        double row[BOUNDS];
         PS_TRY(ps_frame_line(reader, &line, error));
-        if (ps_text_parse_line(line, row) != 2 || !(row[1] > row[0]) ||
+        if (ps_line_numbers(line, false, BOUNDS, row) != BOUNDS || !(row[1] > row[0]) ||
             !isfinite(row[1] - row[0])) {
             return ps_text_fail(reader, error,
                                 "two bounds of the box should be here, the lower one first");

@@ -69,14 +69,18 @@ static pspec_status check_columns(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
-static void set_columns(ps_point_reader *reader, unsigned columns, const char *name) {
-    ps_text_state *const state = reader->state;
-    ps_text_set_columns(reader, columns);
-    reader->own_columns = name;
+/* Past the line, where nothing more stands in it. */
+static void leave_line(ps_text_state *state) {
     state->is_in_line = !ps_ends_line(ps_skip_blanks(state->lines.cursor));
     if (!state->is_in_line) {
-        ps_lines_skip(&state->lines); /* the rest of the line of the count */
+        ps_lines_skip(&state->lines);
     }
+}
+
+static void set_columns(ps_point_reader *reader, unsigned columns, const char *name) {
+    ps_text_set_columns(reader, columns);
+    reader->own_columns = name;
+    leave_line(reader->state); /* that of the count */
 }
 
 static pspec_status open_psa(ps_point_reader *reader, ps_error *error) {
@@ -103,84 +107,38 @@ static pspec_status open_gbn(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status fail_short(const ps_point_reader *reader, size_t promised, size_t num_points,
-                               ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s is truncated: it promises %zu points, and point %zu is not there",
-                   reader->input.name, promised, num_points + 1);
-}
-
-/* One point, wherever its numbers are. */
-static pspec_status read_point(ps_point_reader *reader, double *row, size_t index,
-                               ps_error *error) {
-    ps_text_state *const state = reader->state;
-    for (unsigned j = 0; j < reader->columns; j++) {
-        bool has_number = false;
-        PS_TRY(next_number(reader, &row[j], &has_number, error));
-        if (!has_number) {
-            return fail_short(reader, state->promised, index, error);
-        }
-    }
-    state->is_in_line = !ps_ends_line(ps_skip_blanks(state->lines.cursor));
-    if (!state->is_in_line) {
-        ps_lines_skip(&state->lines);
-    }
-    return PSPEC_OK;
-}
-
-/* Points that stand each on a line of its own, as they mostly do: fast. */
-static pspec_status read_lines(ps_point_reader *reader, double *rows, size_t capacity, size_t *num,
-                               ps_error *error) {
-    ps_text_state *const state = reader->state;
-    ps_lines *const lines = &state->lines;
-    bool has_line = false;
-    *num = 0;
-    if (state->is_in_line) {
-        return PSPEC_OK;
-    }
-    PS_TRY(ps_lines_fill(lines, &has_line, error));
-    if (has_line) {
-        lines->cursor =
-            ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows, capacity, num);
-        lines->line_number += *num;
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status read_psa(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
-    const size_t promised = ((ps_text_state *)reader->state)->promised;
-    const size_t left = promised - reader->rows_in_set;
-    const size_t num = left < out->capacity ? left : out->capacity;
-    while (out->num < num) {
-        size_t num_rows = 0;
-        double *const row = out->rows + out->num * reader->columns;
-        PS_TRY(read_lines(reader, row, num - out->num, &num_rows, error));
-        if (num_rows == 0) {
-            const size_t index = reader->rows_in_set + out->num;
-            const pspec_status status = read_point(reader, row, index, error);
-            if (status != PSPEC_OK) { /* which the next call finds again */
-                return out->num > 0 ? PSPEC_OK : status;
-            }
-            num_rows = 1;
-        }
-        out->num += num_rows;
-    }
-    out->end = out->num == left ? PS_END_OF_INPUT : PS_MORE_ROWS;
-    return PSPEC_OK;
-}
-
-/* ---- tokens ------------------------------------------------------------------------------ */
-
 static pspec_status open_tokens(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ' ', error));
     ps_text_set_columns(reader, ps_columns_told(&reader->options));
     return PSPEC_OK;
 }
 
-/* A set ends at the cursor, or the input does. */
+/* ---- reading ----------------------------------------------------------------------------- */
+
+/* The next number, wherever it is, and the point that it may complete. */
+static pspec_status read_number(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    bool has_number = false;
+    PS_TRY(next_number(reader, &state->partial[state->num_partial], &has_number, error));
+    if (!has_number) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s is truncated: it promises %zu points, and point %zu is not there",
+                       reader->input.name, state->promised, reader->rows_in_set + out->num + 1);
+    }
+    leave_line(state);
+    if (++state->num_partial == reader->columns) {
+        memcpy(out->rows + out->num * reader->columns, state->partial,
+               reader->columns * sizeof *state->partial);
+        out->num++;
+        state->num_partial = 0;
+    }
+    return PSPEC_OK;
+}
+
+/* A set of tokens ends at the cursor, or the input does. */
 static pspec_status end_tokens(ps_point_reader *reader, ps_rows_read *out, ps_line_kind kind,
                                ps_error *error) {
-    ps_text_state *const state = reader->state;
+    const ps_text_state *const state = reader->state;
     if (state->num_partial > 0) {
         return ps_text_fail(
             reader, error, "set %llu ends inside a point, after %u of its %u numbers",
@@ -196,34 +154,38 @@ static pspec_status end_tokens(ps_point_reader *reader, ps_rows_read *out, ps_li
     return PSPEC_OK;
 }
 
-static pspec_status read_token(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+/* Points that stand each on a line of its own, as they mostly do, or else a number. Only tokens have
+ * '#' lines, and an end that nothing promised. */
+static pspec_status read_some(ps_point_reader *reader, ps_line_kind kind, ps_rows_read *out,
+                              size_t most, ps_error *error) {
     ps_text_state *const state = reader->state;
-    bool has_number = false;
-    PS_TRY(next_number(reader, &state->partial[state->num_partial], &has_number, error));
-    state->is_in_line = true;
-    if (++state->num_partial == reader->columns) {
-        memcpy(out->rows + out->num * reader->columns, state->partial,
-               reader->columns * sizeof *state->partial);
-        out->num++;
-        state->num_partial = 0;
+    const size_t before = out->num;
+    if (kind == PS_LINE_POINT && !state->is_in_line && state->num_partial == 0) {
+        ps_text_take_rows(reader, out, most);
     }
-    return PSPEC_OK;
+    if (out->num > before) {
+        return PSPEC_OK;
+    }
+    if (state->promised == 0 && kind == PS_LINE_BLANK) {
+        ps_lines_skip(&state->lines);
+        return PSPEC_OK;
+    }
+    return state->promised == 0 && kind != PS_LINE_POINT ? end_tokens(reader, out, kind, error)
+                                                         : read_number(reader, out, error);
 }
 
-static pspec_status read_tokens(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+static pspec_status read_psa(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
+    const size_t left = state->promised > 0 ? state->promised - reader->rows_in_set : SIZE_MAX;
+    const size_t most = left < out->capacity ? left : out->capacity;
     ps_line_kind kind = PS_LINE_NONE;
     pspec_status status = PSPEC_OK;
-    while (status == PSPEC_OK && out->num < out->capacity && out->end == PS_MORE_ROWS) {
+    while (status == PSPEC_OK && out->num < most && out->end == PS_MORE_ROWS) {
         PS_TRY(ps_text_next_line(state, &kind, error));
-        if (kind == PS_LINE_BLANK) {
-            ps_lines_skip(&state->lines);
-            state->is_in_line = false;
-        } else if (kind == PS_LINE_POINT) {
-            status = read_token(reader, out, error);
-        } else {
-            status = end_tokens(reader, out, kind, error);
-        }
+        status = read_some(reader, kind, out, most, error);
+    }
+    if (out->num == left) {
+        out->end = PS_END_OF_INPUT;
     }
     return out->num > 0 ? PSPEC_OK : status; /* the next call finds it again */
 }
@@ -267,4 +229,4 @@ const ps_point_format ps_format_gbn = {.name = "gbn",
                                        .write = ps_text_write_rows};
 
 const ps_point_format ps_format_tokens = {
-    .name = "tokens", .open = open_tokens, .read = read_tokens, .close = ps_text_close};
+    .name = "tokens", .open = open_tokens, .read = read_psa, .close = ps_text_close};

@@ -30,14 +30,6 @@ pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind, ps_erro
     return PSPEC_OK;
 }
 
-unsigned ps_text_parse_line(const char *line, double row[PS_MAX_COLUMNS]) {
-    unsigned columns = PS_MAX_COLUMNS;
-    while (columns > 0 && ps_row_parse(line, ' ', columns, row) == NULL) {
-        columns--;
-    }
-    return columns;
-}
-
 /* After a blank line there may only be more of them. */
 static pspec_status read_blank_end(ps_text_state *state, ps_error *error) {
     const size_t first = state->lines.line_number;
@@ -185,20 +177,15 @@ static pspec_status read_chosen(const ps_point_reader *reader, ps_rows_read *out
     return PSPEC_OK;
 }
 
-/* Reads rows of the whole lines in the buffer, up to the first line that is something else. */
-static pspec_status read_rows(const ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+void ps_text_take_rows(const ps_point_reader *reader, ps_rows_read *out, size_t most) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
     double *const rows = out->rows + out->num * reader->columns;
     size_t num_rows = 0;
-    if (state->header.chooses) {
-        return read_chosen(reader, out, error);
-    }
     lines->cursor = ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows,
-                                  out->capacity - out->num, &num_rows);
+                                  most - out->num, &num_rows);
     lines->line_number += num_rows;
     out->num += num_rows;
-    return PSPEC_OK;
 }
 
 pspec_status ps_text_fail_selection(const ps_point_reader *reader, ps_error *error) {
@@ -260,7 +247,11 @@ pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *
         }
         const size_t before = state->lines.line_number;
         const size_t num_before = out->num;
-        PS_TRY(read_rows(reader, out, error));
+        if (state->header.chooses) {
+            PS_TRY(read_chosen(reader, out, error));
+        } else {
+            ps_text_take_rows(reader, out, out->capacity);
+        }
         if (state->lines.line_number == before && out->num == num_before) {
             return out->num > 0 ? PSPEC_OK : refuse_line(reader, error);
         }
@@ -341,5 +332,5 @@ const ps_point_format ps_format_csv = {.name = "csv",
                                        .read = ps_text_read,
                                        .close = ps_text_close,
                                        .abilities = ANY_POINTS,
-                                        .begin_set = ps_text_begin_set,
+                                       .begin_set = ps_text_begin_set,
                                        .write = write_csv};

@@ -58,12 +58,12 @@ pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out,
                              ps_error *error) PS_MUST_CHECK;
 /* The sentence for a set of which --select takes no row. */
 pspec_status ps_text_fail_selection(const ps_point_reader *reader, ps_error *error);
+/* Rows of the whole lines in the buffer, up to the first line that is something else, or until
+ * there are `most`. */
+void ps_text_take_rows(const ps_point_reader *reader, ps_rows_read *out, size_t most);
 pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out,
                           ps_error *error) PS_MUST_CHECK;
 void ps_text_close(ps_point_reader *reader);
-
-/* The numbers between blanks of a line, at most PS_MAX_COLUMNS; 0: the line has others. */
-unsigned ps_text_parse_line(const char *line, double row[PS_MAX_COLUMNS]);
 
 /* Makes edat the format where the lines at the cursor are its header, and refuses those that could
  * also be points. is_named: the file has the name of one. */

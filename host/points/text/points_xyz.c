@@ -154,8 +154,7 @@ pspec_status ps_xyz_detect(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     const char *comment = NULL;
     const char *row = NULL;
-    double count[PS_MAX_COLUMNS];
-    if (ps_text_parse_line(state->lines.cursor, count) != 1) {
+    if (ps_line_numbers(state->lines.cursor, false, 0, NULL) != 1) {
         return PSPEC_OK;
     }
     PS_TRY(ps_lines_peek(&state->lines, 2, &row, error));
