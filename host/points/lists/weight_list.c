@@ -28,7 +28,8 @@ static pspec_status take_names(ps_number_list *list, const char *line, size_t li
     const char separator = memchr(line, ';', strcspn(line, "\n")) != NULL ? ';' : ',';
     const place where = show_place(list, line_number);
     ps_text_header *const header = list->header;
-    PS_TRY(ps_text_header_read(header, line, line, separator, NULL, NULL, where.text, error));
+    PS_TRY(ps_text_header_read(header, line, line, separator, &(ps_text_choice){0}, where.text,
+                               error));
     list->separator = separator;
     return header->num_chosen == 1
                ? PSPEC_OK
@@ -54,7 +55,9 @@ static pspec_status fail_number(const ps_number_list *list, ps_field field, size
 static pspec_status parse_row(ps_number_list *list, const char *line, size_t line_number,
                               ps_error *error) {
     double value = 0;
-    const bool is_row = ps_text_header_row(list->header, line, list->separator, &value) != NULL;
+    bool is_taken = false;
+    const bool is_row =
+        ps_text_header_row(list->header, line, list->separator, &value, &is_taken) != NULL;
     if (is_row && isfinite(value)) {
         return ps_number_list_append(list, value, error);
     }

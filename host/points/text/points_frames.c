@@ -92,16 +92,15 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
         shorten(chosen, frame->chosen, told > 0 && told < AXES ? told : AXES);
         wanted = told == 1 ? strcat(chosen, ",") : chosen;
     }
-    PS_TRY(ps_text_header_read(&state->header, frame->names, frame->row, ' ', wanted, NULL, where,
-                               error));
+    const ps_text_choice choice = {wanted, options->select, frame->filter};
+    PS_TRY(
+        ps_text_header_read(&state->header, frame->names, frame->row, ' ', &choice, where, error));
     if (state->header.lacks_name) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: %u names of columns, and the row after has %u", where,
                        state->header.num_columns - 1, state->header.num_columns);
     }
     state->header.chooses = true;
-    PS_TRY(ps_row_filter_find(&state->filter, options->select, frame->names, ' ', frame->filter,
-                              where, error));
     take_box(reader, frame);
     state->rows_left = frame->num_rows;
     state->num_corners = frame->has_box ? AXES : 0;
@@ -147,11 +146,12 @@ static pspec_status read_row(ps_point_reader *reader, ps_rows_read *out, ps_erro
     const char *line = NULL;
     char where[PS_PLACE_BYTES];
     PS_TRY(ps_frame_line(reader, &line, error));
-    if (ps_text_header_row(&state->header, line, ' ', row) == NULL) {
+    bool is_taken = false;
+    if (ps_text_header_row(&state->header, line, ' ', row, &is_taken) == NULL) {
         ps_text_place(where, reader);
         return ps_text_header_refuse(&state->header, line, ' ', where, error);
     }
-    if (ps_row_filter_takes(&state->filter, line, ' ')) {
+    if (is_taken) {
         scale_row(state, reader->columns, row);
         out->num++;
         state->num_kept++;
@@ -182,7 +182,7 @@ pspec_status ps_frame_read(ps_point_reader *reader, ps_rows_read *out, ps_error 
     if (state->rows_left == 0 && state->num_kept == 0) {
         PS_TRY(reader->format->read_header(reader, error));
     }
-    reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
+    reader->first_line = state->header.filter.value == NULL ? state->lines.line_number : 0;
     while (state->rows_left > 0 && out->num < out->capacity) {
         const pspec_status status = read_row(reader, out, error);
         if (status != PSPEC_OK) { /* which the next call finds again */

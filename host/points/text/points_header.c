@@ -191,8 +191,7 @@ static pspec_status find_names(ps_point_reader *reader, bool *are_there, const c
 pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
-    const char *const names = reader->options.column_names;
-    const char *const select = reader->options.select;
+    const ps_text_choice choice = {reader->options.column_names, reader->options.select, NULL};
     const char *row = NULL;
     size_t num_after = 0;
     bool is_there = false;
@@ -202,18 +201,15 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
         return choose_columns(reader, error);
     }
     ps_text_place(where, reader);
-    PS_TRY(ps_row_filter_find(&state->filter, select, lines->cursor, state->separator, NULL, where,
-                              error));
-    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, select,
-                               where, error));
-    state->filter.column += state->header.lacks_name; /* names begin with the second column */
-    reader->own_columns = ps_columns_meaning(names);
+    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, &choice, where,
+                               error));
+    reader->own_columns = ps_columns_meaning(choice.names);
     if (reader->own_columns == NULL && reader->options.columns == NULL) {
         reader->own_columns = ps_text_header_meaning(&state->header);
     }
     reader->chosen = state->header.chooses ? state->header.used : NULL;
     PS_TRY(check_similar(reader, where, error));
-    state->header.chooses = state->header.chooses || has_quotes(row) || select != NULL ||
+    state->header.chooses = state->header.chooses || has_quotes(row) || choice.select != NULL ||
                             state->separator == '\t'; /* for other rows tabs are blanks */
     for (size_t i = 0; i < num_after; i++) {
         ps_lines_skip(lines);

@@ -166,7 +166,7 @@ static pspec_status open_ply(ps_point_reader *reader, ps_error *error) {
 
 /* The numbers of a vertex that are read; false: --select does not take it. */
 static bool take_vertex(const ply_state *state, const unsigned char *bytes, double *row) {
-    const ps_row_filter *const filter = &state->text.filter;
+    const ps_row_filter *const filter = &state->text.header.filter;
     for (unsigned j = 0; j < state->num_properties; j++) {
         const short place = state->text.header.places[j];
         const bool is_filter = filter->value != NULL && filter->column == j;

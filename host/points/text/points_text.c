@@ -164,11 +164,12 @@ static pspec_status read_chosen(const ps_point_reader *reader, ps_rows_read *out
         }
         const char separator =
             ps_text_header_line_separator(&state->header, lines->cursor, state->separator);
-        const char *const end = ps_text_header_row(&state->header, lines->cursor, separator, row);
+        bool is_taken = false;
+        const char *const end =
+            ps_text_header_row(&state->header, lines->cursor, separator, row, &is_taken);
         if (end == NULL) {
             return PSPEC_OK;
         }
-        const bool is_taken = ps_row_filter_takes(&state->filter, lines->cursor, separator);
         lines->cursor = end + 1;
         lines->line_number++;
         out->num += is_taken;
@@ -231,7 +232,7 @@ static pspec_status end_input(ps_point_reader *reader, ps_rows_read *out, bool i
 pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_line_kind kind = PS_LINE_POINT;
-    reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
+    reader->first_line = state->header.filter.value == NULL ? state->lines.line_number : 0;
     while (out->num < out->capacity) {
         PS_TRY(ps_text_next_line(state, &kind, error));
         if (kind == PS_LINE_MARK) {
@@ -239,7 +240,7 @@ pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *
         }
         if (kind == PS_LINE_BLANK && reader->format == &ps_format_csv && out->num == 0) {
             ps_lines_skip(&state->lines); /* which data frames pass over, too */
-            reader->first_line = state->filter.value == NULL ? state->lines.line_number : 0;
+            reader->first_line = state->header.filter.value == NULL ? state->lines.line_number : 0;
             continue;
         }
         if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {

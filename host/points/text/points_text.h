@@ -4,7 +4,6 @@
 
 #include "files/text_rows.h"
 #include "points/points_format.h"
-#include "points/text/row_filter.h"
 #include "points/text/text_header.h"
 
 typedef struct ps_text_state {
@@ -21,8 +20,7 @@ typedef struct ps_text_state {
     /* edat: the domain of this set */
     unsigned num_corners; /* coordinates of a corner */
     bool needs_header;    /* the next line is that of the next set */
-    ps_row_filter filter; /* of --select */
-    bool has_dropped;     /* it dropped rows of this set */
+    bool has_dropped;     /* --select dropped rows of this set */
     /* frames: their box, rows that are to come, and those of the set that are kept */
     double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION];
     uint64_t rows_left, num_kept;

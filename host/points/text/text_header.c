@@ -3,7 +3,6 @@
 #include "base/text.h"
 #include "files/decimal.h"
 #include "files/text_lines.h"
-#include "points/text/row_filter.h"
 #include "points/text/text_fields.h"
 
 #include <ctype.h>
@@ -317,13 +316,17 @@ static pspec_status check_chosen(ps_text_header *out, const char *where, ps_erro
 }
 
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const char *names, const char *select,
-                                 const char *where, ps_error *error) {
+                                 char separator, const ps_text_choice *choice, const char *where,
+                                 ps_error *error) {
+    const char *const names = choice->names;
+    const char *const select = choice->select;
     ps_field found[PS_MOST_FILE_COLUMNS];
     unsigned num_numbers = 0;
     *out = (ps_text_header){.is_there = true};
+    PS_TRY(ps_row_filter_find(&out->filter, line, separator, choice, where, error));
     const char part = ps_text_header_line_separator(out, row, separator);
     PS_TRY(read_names(out, found, line, ps_fields_count(row, part), separator, where, error));
+    out->filter.column += out->lacks_name; /* names begin with the second column */
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->places[i] = -1;
     }
@@ -338,7 +341,7 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
     const bool is_end_empty = ends_empty(row, part); /* separators after the last column */
     for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
         const bool is_selected =
-            select != NULL && ps_field_is(found[i], select, ps_row_filter_name(select));
+            select != NULL && ps_field_is(found[i], select, strcspn(select, "="));
         const bool is_end = i + 1 == out->num_columns && found[i].length == 0 && is_end_empty;
         if (!is_selected && !is_end && (i > 0 || out->num_columns == 1 || !is_index(found[i]))) {
             choose(out, i, found[i]);

@@ -21,6 +21,23 @@ typedef struct ps_row_index {
     bool may_restart; /* a set begins */
 } ps_row_index;
 
+/* --select NAME=VALUE: of all rows those that have this value in the column of that name. {0} takes
+ * all rows. */
+typedef struct ps_row_filter {
+    const char *value; /* NULL: every row is taken */
+    unsigned column;
+    bool is_number;
+    double number; /* that the value is */
+} ps_row_filter;
+
+/* Which columns and rows of a text with names are read. {0}: all but an index. */
+typedef struct ps_text_choice {
+    const char *names;  /* of the columns, separated by commas, or NULL */
+    const char *select; /* "type=1", whose column is none of the others, or NULL */
+    const char
+        *alias; /* the column that "type" and "element" mean where none is called so, or NULL */
+} ps_text_choice;
+
 typedef struct ps_text_header {
     bool is_there;        /* a line of names */
     unsigned num_columns; /* of the file */
@@ -32,6 +49,7 @@ typedef struct ps_text_header {
     bool chooses;                       /* not all columns as they stand */
     short places[PS_MOST_FILE_COLUMNS]; /* of each column in a row; -1: it is passed over */
     char used[128];                     /* "x,y", the names of the chosen ones */
+    ps_row_filter filter;
 } ps_text_header;
 
 /* Is this line one of names? They begin with letters, and numbers are among them only behind the
@@ -50,11 +68,10 @@ bool ps_text_header_is_numbered(const char *line, char separator);
 bool ps_text_header_is_decimal(const char *line, char separator);
 
 /* Reads the names at line and looks at the row after it, which has as many fields, or one more
- * where all tells that the first name is missing; where: "FILE, line 1". names: the chosen ones,
- * separated by commas, or NULL: all but an index and the column of select, "type=1" or NULL. */
+ * where all tells that the first name is missing; where: "FILE, line 1". */
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const char *names, const char *select,
-                                 const char *where, ps_error *error) PS_MUST_CHECK;
+                                 char separator, const ps_text_choice *choice, const char *where,
+                                 ps_error *error) PS_MUST_CHECK;
 
 /* For a text without a line of names: columns by their numbers, "3,7", or all of them for NULL.
  * Counts those of the row. */
@@ -66,10 +83,19 @@ pspec_status ps_text_header_choose(ps_text_header *out, const char *row, char se
  * are a latitude and then a longitude, rows have them in the other order from now on. */
 const char *ps_text_header_meaning(ps_text_header *header);
 
-/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. The rows of a
- * file are to come in order. */
+/* Finds the column of the filter in a line of names. */
+pspec_status ps_row_filter_find(ps_row_filter *out, const char *names, char separator,
+                                const ps_text_choice *choice, const char *where,
+                                ps_error *error) PS_MUST_CHECK;
+/* Takes the filter a row with this number, of a file of numbers? is_single: it was rounded to
+ * float32 there. */
+bool ps_row_filter_takes_number(const ps_row_filter *filter, double number, bool is_single);
+
+/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. *is_taken: has it
+ * the text of the filter, or another one of the same number? The rows of a file are to come in
+ * order. */
 const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
-                               double *row);
+                               double *row, bool *is_taken);
 /* Why it is none. */
 pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
                                    const char *where, ps_error *error) PS_MUST_CHECK;

@@ -6,6 +6,60 @@
 #include "points/text/text_header.h"
 
 #include <stdio.h>
+#include <string.h>
+
+/* ---- --select ---------------------------------------------------------------------------- */
+
+static void set_value(ps_row_filter *out, const char *value) {
+    enum { NUMBER_BYTES = 64 };
+    char own[NUMBER_BYTES + PS_DECIMAL_PADDING] = "";
+    const size_t length = strlen(value);
+    out->value = value;
+    if (length < NUMBER_BYTES) {
+        memcpy(own, value, length);
+        out->is_number = ps_decimal_parse(own, &out->number) == own + length;
+    }
+}
+
+pspec_status ps_row_filter_find(ps_row_filter *out, const char *names, char separator,
+                                const ps_text_choice *choice, const char *where, ps_error *error) {
+    const char *const select = choice->select;
+    *out = (ps_row_filter){0};
+    if (select == NULL) {
+        return PSPEC_OK;
+    }
+    const size_t length = strcspn(select, "=");
+    int column = ps_field_find(names, separator, select, length);
+    const bool is_known =
+        strncmp(select, "type=", length + 1) == 0 || strncmp(select, "element=", length + 1) == 0;
+    if (column < 0 && is_known && choice->alias != NULL) {
+        column = ps_field_find(names, separator, choice->alias, strlen(choice->alias));
+    }
+    if (column < 0) {
+        char shown[PS_TOKEN_BYTES];
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: --select %s, and the columns are \"%s\"",
+                       where, select, ps_token_show(shown, names, strcspn(names, "\r\n")));
+    }
+    set_value(out, select + length + 1);
+    out->column = (unsigned)column;
+    return PSPEC_OK;
+}
+
+static bool takes_field(const ps_row_filter *filter, ps_field field) {
+    double number = 0;
+    return ps_field_is(field, filter->value, strlen(filter->value)) ||
+           (filter->is_number && field.length > 0 &&
+            ps_decimal_parse(field.text, &number) == field.text + field.length &&
+            number == filter->number);
+}
+
+bool ps_row_filter_takes_number(const ps_row_filter *filter, double number, bool is_single) {
+    return filter->value == NULL ||
+           (filter->is_number &&
+            number == (is_single ? (double)(float)filter->number : filter->number));
+}
+
+/* ---- rows -------------------------------------------------------------------------------- */
 
 /* What the index is after this row, whose first field it is; false: it is none. Quotes make text of
  * numbers only where others have none. */
@@ -30,14 +84,18 @@ static bool next_index(ps_row_index *index, ps_field token, bool are_all_quoted)
 }
 
 const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
-                               double *row) {
+                               double *row, bool *is_taken) {
     ps_field token;
     bool is_more = true;
     unsigned column = 0;
     ps_row_index index = header->index;
+    *is_taken = true;
     while (ps_field_next(&line, separator, &is_more, &token)) {
         if (column >= header->num_columns) {
             return NULL;
+        }
+        if (header->filter.value != NULL && column == header->filter.column) {
+            *is_taken = takes_field(&header->filter, token);
         }
         if (column == 0 && header->has_index &&
             !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
