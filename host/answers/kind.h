@@ -61,9 +61,10 @@ void ps_answer_tell_profile(const ps_answer_hooks *hooks, const ps_device *devic
 typedef struct ps_answer {
     /* Its arrays are those that the request asks for: "full", the averaged periodogram on the whole
      * box, [2K+1]^d, where request->wants_array, or wants_picture in the plane, and there is one,
-     * and by --full with "full_standard_error"; "coefficients", where request->wants_coefficients
-     * or by --coefficients; "scatter", a row of them of every set, [M][2K+1], by --scatter;
-     * "weights" of the only rule; "coordinates" of the points of a sampler */
+     * and by --full; "full_standard_error", by --full or where request->wants_errors, too;
+     * "coefficients", where request->wants_coefficients or by --coefficients; "scatter", a row of
+     * them of every set, [M][2K+1], by --scatter; "weights" of the only rule; "coordinates" of the
+     * points of a sampler */
     ps_table *table;
     /* PSPEC_ERROR_CHECK where differences were found, PSPEC_ERROR_TOLERANCE where a table that is
      * there all the same misses what was asked; else status PSPEC_OK */

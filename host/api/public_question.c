@@ -106,6 +106,7 @@ static pspec_status add_file(pspec_question *self, const char *path, ps_error *e
 static bool ask_for_array(ps_request *request, ps_option_id id) {
     request->wants_array =
         request->wants_array || id == PS_OPTION_FULL || id == PS_OPTION_WEIGHTS_OUT;
+    request->wants_errors = request->wants_errors || id == PS_OPTION_FULL;
     request->wants_coefficients = request->wants_coefficients || id == PS_OPTION_COEFFICIENTS;
     return id == PS_OPTION_FULL || id == PS_OPTION_WEIGHTS_OUT || id == PS_OPTION_COEFFICIENTS;
 }

@@ -160,9 +160,9 @@ typedef struct ps_request {
         calibrate, quick, scenes, quiet, verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
-    /* The answer has its array, its coefficients (answers/kind.h), or state by which it is merged;
-     * no option asks for them. */
-    bool wants_array, wants_coefficients, wants_state;
+    /* The answer has its array, the standard errors of that array, its coefficients
+     * (answers/kind.h), or state by which it is merged; no option asks for them. */
+    bool wants_array, wants_errors, wants_coefficients, wants_state;
     pspec_normalization normalization; /* never that of pairs */
     double smoothness;                 /* 1.5 unless given */
     bool wants_fit;

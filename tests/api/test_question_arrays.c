@@ -81,7 +81,8 @@ static void arrays_are_files(void **state) {
 static void answers_have_arrays(void **state) {
     (void)state;
     pspec_question *const question = test_public_question(
-        context, "power sampler=white points=24 max-frequency=3 engine=host_direct full");
+        context,
+        "power sampler=white points=24 realizations=3 max-frequency=3 engine=host_direct full");
     assert_int_equal(pspec_question_set_number(question, "tol", 1.0 / 3e6), PSPEC_OK);
     pspec_answer *answer = test_public_answer(context, question);
     pspec_question_destroy(question);
@@ -96,6 +97,16 @@ static void answers_have_arrays(void **state) {
     const pspec_field *const full = test_public_field(answer, "full", PSPEC_F64);
     assert_true(full->rank == 2 && full->shape[0] == 7 && full->shape[1] == 7 && full->num == 49);
     assert_true(((const double *)full->data)[24] == 24); /* DC */
+    pspec_answer *const filed =
+        test_public_ask(context,
+                        "power sampler=white points=24 realizations=3 max-frequency=3 "
+                        "engine=host_direct full=full.npy",
+                        NULL, 0);
+    const pspec_field *const errors = test_public_field(answer, "full_standard_error", PSPEC_F64);
+    const pspec_field *const others = test_public_field(filed, "full_standard_error", PSPEC_F64);
+    assert_true(errors->rank == 2 && errors->num == 49 && ((const double *)errors->data)[0] > 0);
+    assert_memory_equal(errors->data, others->data, 49 * sizeof(double));
+    pspec_answer_destroy(filed);
     assert_true(*test_public_numbers(answer, "tolerance") == 1.0 / 3e6);
     pspec_answer_destroy(answer);
     answer = test_public_ask(context, "sample sampler=white points=24 realizations=2", NULL, 0);

@@ -1,5 +1,4 @@
 /* The averaged angular power spectrum of sets on the sphere. */
-#include "answers/spectra/job_table.h"
 #include "answers/spectra/shape_table.h"
 #include "answers/spectra/spectrum_header.h"
 #include "answers/spectra/spectra.h"
@@ -57,14 +56,14 @@ static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
     return PSPEC_OK;
 }
 
-static pspec_status make_table(ps_table **out, const ps_request *arguments, const ps_measured *all,
-                               size_t num, ps_error *error) {
-    const char *names[NUM_COLUMNS + PS_SHAPE_COLUMNS];
+static size_t choose_columns(const char **names, const ps_request *arguments,
+                             const ps_measured *first) {
+    (void)first;
     memcpy(names, columns, sizeof columns);
-    const size_t num_columns = ps_shape_add_columns(names, NUM_COLUMNS, arguments);
-    const ps_job_table kind = {"angular", names, num_columns, add_degrees};
-    return ps_job_table_make(out, &kind, arguments, all, num, error);
+    return ps_shape_add_columns(names, NUM_COLUMNS, arguments);
 }
+
+static const ps_spectra_table table_kind = {"angular", choose_columns, add_degrees, NULL};
 
 static pspec_status add_coefficients(ps_table *table, const ps_power_job *job, ps_error *error) {
     const size_t num = ps_num_coefficients_at(job->problem.frequencies);
@@ -78,14 +77,14 @@ static pspec_status add_coefficients(ps_table *table, const ps_power_job *job, p
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const ps_spectra *const spectra = computed;
-    PS_TRY(ps_spectra_tabulate(out, computed, request, make_table, error));
+    PS_TRY(ps_spectra_tabulate(out, computed, request, &table_kind, error));
     return request->wants_coefficients || request->coefficients != NULL
                ? add_coefficients(out->table, spectra->jobs[0], error)
                : PSPEC_OK;
 }
 
 static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_error *error) {
-    return ps_spectra_merge(out, parts, make_table, error);
+    return ps_spectra_merge(out, parts, &table_kind, error);
 }
 
 static const ps_picture_kind pictures[] = {{.make = ps_spectra_figure,

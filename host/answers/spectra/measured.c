@@ -185,3 +185,19 @@ pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
     ps_measured_free(all, num);
     return status;
 }
+
+/* ---- tables ----------------------------------------------------------------------------------- */
+
+pspec_status ps_spectra_make_table(ps_table **out, const ps_spectra_table *kind,
+                                   const ps_request *request, const ps_measured *all, size_t num,
+                                   ps_error *error) {
+    const char *columns[PS_MOST_COLUMNS_AFTER_LEAD];
+    const size_t num_columns = kind->choose_columns(columns, request, &all[0]);
+    PS_TRY(ps_lead_create_table(out, kind->name, &all[0].lead, columns, num_columns, error));
+    PS_TRY(ps_header_begin(*out, request, all, error));
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_header_add(*out, request, all, num, i, error));
+        PS_TRY(kind->add_rows(*out, request, &all[i], error));
+    }
+    return kind->add_arrays != NULL ? kind->add_arrays(*out, request, &all[0], error) : PSPEC_OK;
+}

@@ -37,4 +37,21 @@ pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
                                const ps_power_job *const *jobs, size_t num, size_t index,
                                bool begins, ps_error *error) PS_MUST_CHECK;
 
+/* What the tables of a kind have: header lines, and the rows of one question after the other. */
+typedef struct ps_spectra_table {
+    const char *name; /* of the command */
+    /* Writes those behind the columns of the lead, and returns how many there are. */
+    size_t (*choose_columns)(const char *names[PS_MOST_COLUMNS_AFTER_LEAD], const ps_request *,
+                             const ps_measured *first);
+    /* The rows of a question, which begin with the cells of its lead. */
+    pspec_status (*add_rows)(ps_table *, const ps_request *, const ps_measured *, ps_error *);
+    /* Arrays of the first question; NULL: none. */
+    pspec_status (*add_arrays)(ps_table *, const ps_request *, const ps_measured *, ps_error *);
+} ps_spectra_table;
+
+/* *out, which is NULL before, is the caller's, also after an error. */
+pspec_status ps_spectra_make_table(ps_table **out, const ps_spectra_table *kind,
+                                   const ps_request *request, const ps_measured *all, size_t num,
+                                   ps_error *error) PS_MUST_CHECK;
+
 #endif

@@ -1,7 +1,8 @@
 /* Legendre sums over all pairs of points of sets on the sphere. */
-#include "answers/spectra/job_table.h"
 #include "answers/spectra/spectrum_header.h"
 #include "answers/spectra/spectra.h"
+
+#include <string.h>
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     return ps_spectra_check(request, PS_QUESTION_PAIRS, error);
@@ -41,11 +42,14 @@ static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
     return PSPEC_OK;
 }
 
-static pspec_status make_table(ps_table **out, const ps_request *arguments, const ps_measured *all,
-                               size_t num, ps_error *error) {
-    const ps_job_table kind = {"pairs", columns, NUM_COLUMNS, add_degrees};
-    return ps_job_table_make(out, &kind, arguments, all, num, error);
+static size_t choose_columns(const char **names, const ps_request *arguments,
+                             const ps_measured *first) {
+    (void)arguments, (void)first;
+    memcpy(names, columns, sizeof columns);
+    return NUM_COLUMNS;
 }
+
+static const ps_spectra_table table_kind = {"pairs", choose_columns, add_degrees, NULL};
 
 /* What white noise of the weights of each question has: mean(W)^2 over mean(W^2/V), 1/N of equal
  * ones. */
@@ -57,17 +61,17 @@ static pspec_status add_white_sums(ps_table *table, const ps_spectra *spectra, p
         const double white = own->mean_weight_sum * own->mean_weight_sum / own->sample_size.mean;
         array.data[i] = white > 0 ? white : 1;
     }
-    return ps_table_add_array(table, "white_sums", true, &array, error);
+    return ps_table_add_array(table, "white_sums", false, &array, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
-    PS_TRY(ps_spectra_tabulate(out, computed, request, make_table, error));
+    PS_TRY(ps_spectra_tabulate(out, computed, request, &table_kind, error));
     return request->plot != NULL ? add_white_sums(out->table, computed, error) : PSPEC_OK;
 }
 
 static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_error *error) {
-    return ps_spectra_merge(out, parts, make_table, error);
+    return ps_spectra_merge(out, parts, &table_kind, error);
 }
 
 static const ps_picture_kind pictures[] = {

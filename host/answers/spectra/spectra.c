@@ -172,11 +172,11 @@ static pspec_status add_first_set(ps_table *table, const ps_point_set *set, ps_e
     ps_npy_array array;
     PS_TRY(ps_npy_make_array(&array, 2, shape, false, error));
     memcpy(array.data, set->points, array.num * sizeof *array.data);
-    return ps_table_add_array(table, "first_set", true, &array, error);
+    return ps_table_add_array(table, "first_set", false, &array, error);
 }
 
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
-                                 ps_make_spectra_table *make, ps_error *error) {
+                                 const ps_spectra_table *kind, ps_error *error) {
     const ps_spectra *const spectra = computed;
     const ps_point_set *const first = &spectra->jobs[0]->sets.first;
     const size_t num = spectra->list.num;
@@ -184,7 +184,7 @@ pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_
     pspec_status status =
         ps_measured_of_jobs(&all, request, (const ps_power_job *const *)spectra->jobs, num, error);
     if (status == PSPEC_OK) {
-        status = make(&out->table, request, all, num, error);
+        status = ps_spectra_make_table(&out->table, kind, request, all, num, error);
     }
     ps_measured_free(all, num);
     if (status == PSPEC_OK && request->plot != NULL && first->num_points > 0) {

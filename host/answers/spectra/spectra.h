@@ -49,16 +49,14 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
 pspec_status ps_spectra_plan(ps_planner *planner, const ps_request *request, ps_question_kind kind,
                              ps_error *error) PS_MUST_CHECK;
 
-typedef pspec_status ps_make_spectra_table(ps_table **out, const ps_request *request,
-                                           const ps_measured *all, size_t num, ps_error *error);
 /* The table of all jobs, with state where the request wants it. */
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
-                                 ps_make_spectra_table *make, ps_error *error) PS_MUST_CHECK;
+                                 const ps_spectra_table *kind, ps_error *error) PS_MUST_CHECK;
 /* State of all jobs, where the request wants it. */
 pspec_status ps_spectra_add_state(ps_table *table, const ps_spectra *spectra,
                                   const ps_request *request, ps_error *error) PS_MUST_CHECK;
-/* ps_kind.merge, tables made by `make`. */
-pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, ps_make_spectra_table *make,
+/* ps_kind.merge */
+pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, const ps_spectra_table *kind,
                               ps_error *error) PS_MUST_CHECK;
 /* Curves of all jobs, as PS_FIGURE_SPECTRA; of one question alone beside its averaged periodogram
  * and the points of its first set, where the table has these. */

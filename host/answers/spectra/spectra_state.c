@@ -46,7 +46,7 @@ static pspec_status read_asked(ps_request *out, const ps_parts *parts, ps_error 
     out->wants_fit = array->data[WANTS_FIT] > 0;
     out->fit_exponent = array->data[FIT_EXPONENT];
     out->wants_array = ps_table_find_array(table, "full") != NULL;
-    out->full = ps_table_find_array(table, "full_standard_error") != NULL ? "" : NULL;
+    out->wants_errors = ps_table_find_array(table, "full_standard_error") != NULL;
     return PSPEC_OK;
 }
 
@@ -318,18 +318,18 @@ static pspec_status merge_all(merged *each, ps_measured *all, const ps_parts *pa
 }
 
 static pspec_status tabulate(ps_answer *out, merged *each, ps_measured *all, const ps_parts *parts,
-                             size_t num, ps_make_spectra_table *make, ps_error *error) {
+                             size_t num, const ps_spectra_table *kind, ps_error *error) {
     ps_request request;
     PS_TRY(read_asked(&request, parts, error));
     PS_TRY(merge_all(each, all, parts, num, &request, error));
-    PS_TRY(make(&out->table, &request, all, num, error));
+    PS_TRY(ps_spectra_make_table(&out->table, kind, &request, all, num, error));
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_spectrum_state_add(out->table, i, &each[i].sums, error));
     }
     return add_asked(out->table, &request, error);
 }
 
-pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, ps_make_spectra_table *make,
+pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, const ps_spectra_table *kind,
                               ps_error *error) {
     const size_t num = count_questions(parts->tables[0]);
     merged *each = NULL;
@@ -345,7 +345,7 @@ pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, ps_make_spe
     }
     PS_TRY_OUT(status, PS_NEW(&each, num, "merged sums", error));
     PS_TRY_OUT(status, PS_NEW(&all, num, "merged answers", error));
-    status = tabulate(out, each, all, parts, num, make, error);
+    status = tabulate(out, each, all, parts, num, kind, error);
 out:
     for (size_t i = 0; each != NULL && i < num; i++) {
         discard(&each[i]);
