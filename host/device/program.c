@@ -119,8 +119,8 @@ static bool is_of(const ps_kernel *kernel, const ps_program *program, const char
     return kernel->program == program && strcmp(kernel->name, name) == 0;
 }
 
-/* What PoCL has kept of kernels of this name is looked at here, before it may load it, and not again
- * by each question that takes the kernel. */
+/* What PoCL has kept of kernels of this name is looked at here, before it may load it, and not by
+ * each question that takes the kernel. */
 static pspec_status add_kernel(ps_device *device, ps_kernel **out, ps_program *program,
                                const char *name, ps_error *error) {
     PS_TRY(ps_kept_check(&device->kept, name, error));

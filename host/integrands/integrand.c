@@ -7,23 +7,13 @@
 #include <string.h>
 
 /* In the order of the help text. A new integrand is a file and a row here. */
-const ps_integrand_kind *const ps_integrand_kinds[] = {&ps_integrand_ball,
-                                                       &ps_integrand_box,
-                                                       &ps_integrand_half_plane,
-                                                       &ps_integrand_gaussian,
-                                                       &ps_integrand_wave,
-                                                       &ps_integrand_constant,
-                                                       &ps_integrand_coefficients,
-                                                       &ps_integrand_pixels,
-                                                       &ps_integrand_cap,
-                                                       &ps_integrand_harmonic,
-                                                       &ps_integrand_square,
-                                                       &ps_integrand_lobe,
-                                                       &ps_integrand_diffuse,
-                                                       &ps_integrand_glossy,
-                                                       &ps_integrand_phong,
-                                                       &ps_integrand_zonal,
-                                                       NULL};
+const ps_integrand_kind *const ps_integrand_kinds[] = {
+    &ps_integrand_ball,         &ps_integrand_box,    &ps_integrand_half_plane,
+    &ps_integrand_gaussian,     &ps_integrand_wave,   &ps_integrand_constant,
+    &ps_integrand_coefficients, &ps_integrand_pixels, &ps_integrand_cap,
+    &ps_integrand_harmonic,     &ps_integrand_square, &ps_integrand_lobe,
+    &ps_integrand_diffuse,      &ps_integrand_glossy, &ps_integrand_phong,
+    &ps_integrand_zonal,        &ps_integrand_map,    NULL};
 
 /* ---- parsing ------------------------------------------------------------------------------- */
 

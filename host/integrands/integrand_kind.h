@@ -11,7 +11,7 @@ extern const ps_integrand_kind ps_integrand_ball, ps_integrand_box, ps_integrand
     ps_integrand_gaussian, ps_integrand_wave, ps_integrand_constant, ps_integrand_coefficients,
     ps_integrand_pixels, ps_integrand_cap, ps_integrand_harmonic, ps_integrand_square,
     ps_integrand_lobe, ps_integrand_diffuse, ps_integrand_glossy, ps_integrand_phong,
-    ps_integrand_zonal;
+    ps_integrand_zonal, ps_integrand_map;
 
 /* Reads a finite number with least <= x <= most; key is its parameter. */
 pspec_status ps_integrand_number(const ps_integrand *integrand, const char *key, const char *text,

@@ -34,6 +34,7 @@
 #include "integrands/half_plane.h"
 #include "integrands/harmonic.h"
 #include "integrands/lobe.h"
+#include "integrands/map.h"
 #include "integrands/phong.h"
 #include "integrands/pixels.h"
 #include "integrands/sphere_series.h"

@@ -63,6 +63,7 @@ make_inputs() {
     printf '%s\n' ply 'format binary_little_endian 1.0' 'element vertex 1' 'property uchar '{x,y,z} end_header >mesh.ply
     printf '\0\1\0' >>mesh.ply
     make_fortran_array >columns.npy
+    printf '#?RADIANCE\n\n-Y 1 +X 2\n\101\102\103\200\144\145\146\200' >light.hdr
     make_archive points.npy arr_0.npy >packed.npz
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.npz
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o again.npz

@@ -1,6 +1,7 @@
-/* Frequency vectors and weights. The first byte: does the rest come through a pipe? */
+/* Frequency vectors, weights and images. The first byte: does the rest come through a pipe? */
 #include "fuzz.h"
 
+#include "images/image.h"
 #include "points/lists/frequency_list.h"
 #include "points/lists/weight_list.h"
 
@@ -59,5 +60,26 @@ void fuzz_weights(const char *argument, fuzz_bytes input) {
         }
     }
     free(weights);
+    fuzz_file_close(&file);
+}
+
+void fuzz_image(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    fuzz_file file = make_input(input);
+    ps_image image = {0};
+    ps_error error = {0};
+    const pspec_status status = ps_image_read(&image, file.path, &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if (status == PSPEC_OK && (image.width == 0 || image.height == 0 ||
+                               image.width > PS_IMAGE_MOST_PIXELS / image.height)) {
+        fuzz_fail("an image of %zu x %zu pixels", image.width, image.height);
+    }
+    for (size_t i = 0; status == PSPEC_OK && i < image.width * image.height; i++) {
+        const double luminance = ps_image_luminance(&image, i);
+        if (image.pixels[i * image.num_channels] == 0 && luminance == 0) {
+            continue; /* reads all of them, for the sanitizers */
+        }
+    }
+    ps_image_free(&image);
     fuzz_file_close(&file);
 }

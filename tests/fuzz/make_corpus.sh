@@ -89,6 +89,14 @@ printf '2\n0 0 1\n0 1 0\n' | seed psa-text vectors "$(options 01 03 00 00 00 01)
 printf '2 0.5 0.25\n0.1\n\n0.2' | seed psa-text broken-lines "$any"
 printf '1000000000000000\n0.5 0.5\n' | seed psa-text promise "$torus"
 
+light='#?RADIANCE\n# a comment\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n'
+printf '%b' "$light-Y 2 +X 2\nabc\200def\200\1\1\1\1ghi\0" | seed image flat '\0'
+printf '%b' "$light+Y 1 -X 8\n\2\2\0\10\210a\1b\207c\204d\4efgh\210i" | seed image runs '\0'
+printf '%b' "$light-Y 32767 +X 8000\nabcd" | seed image promise '\1'
+{ printf 'PF\n1 2\n-1.0\n'; f32 0.5 nan 1e30 -1 0 2; } | seed image floats '\0'
+{ printf 'Pf 2 1 1e0\n'; f32 0.5 0.25; } | seed image grey '\1'
+printf '\x76\x2f\x31\x01' | seed image exr '\0'
+
 printf '2 3\n0.1 0.2 0.3\n0.4 0.5 0.6\n' | seed gbn space "$torus"
 printf '2 3\n0 0 1 1\n0 0\n' | seed gbn vectors "$sphere"
 printf '2 1\n0.5\n' | seed gbn short "$any"

@@ -25,6 +25,7 @@ const fuzz_target fuzz_targets[] = {
     {"weights", fuzz_weights, NULL, "binary.dict"},
     {"saved", fuzz_saved, NULL, "binary.dict"},
     {"table", fuzz_table, NULL, "binary.dict"},
+    {"image", fuzz_image, NULL, "binary.dict"},
     {"figures", fuzz_figures, NULL, "binary.dict"},
     {"scene", fuzz_scene, NULL, "scene.dict"},
     {"decimal", fuzz_decimal, NULL, "text.dict"},

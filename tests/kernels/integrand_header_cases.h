@@ -16,6 +16,7 @@
 #include "integrands/constant.h"
 #include "integrands/gaussian.h"
 #include "integrands/half_plane.h"
+#include "integrands/map.h"
 #include "integrands/pixels.h"
 #include "integrands/sphere_series.h"
 #include "integrands/torus_series.h"
@@ -224,6 +225,45 @@ static void zonal(void **state) {
     }
 }
 
+/* Through the centres of pixels, their edges, the poles and the seam, against the definition. */
+static void map(void **state) {
+    enum { HEIGHT = 3, WIDTH = 4 };
+    const real numbers[NUMBERS] = {WIDTH, HEIGHT};
+    real rows[(HEIGHT + 2) * WIDTH];
+    (void)state;
+    for (int i = 0; i < (HEIGHT + 2) * WIDTH; i++) {
+        const int row = i / WIDTH;
+        rows[i] = row == 0 || row == HEIGHT + 1 ? (real)row : (real)(i * 5 % 7);
+    }
+    for (int i = 0; i <= 24; i++) {
+        for (int j = -24; j <= 24; j++) {
+            const long double theta = pi * i / 24;
+            const long double phi = 2 * pi * j / 24;
+            const real x[3] = {(real)(sinl(theta) * cosl(phi)), (real)(sinl(theta) * sinl(phi)),
+                               (real)cosl(theta)};
+            const long double down = HEIGHT * (long double)i / 24 + 0.5L;
+            const int row = (int)down;
+            const long double share = row == 0        ? 2 * down - 1
+                                      : row == HEIGHT ? 2 * (down - HEIGHT)
+                                                      : down - row;
+            const long double along = WIDTH * (long double)(j + 48) / 24 - 0.5L;
+            const int column = (int)along;
+            long double expected = 0;
+            for (int down_one = 0; down_one < 2; down_one++) {
+                for (int right = 0; right < 2; right++) {
+                    const long double u = right == 0 ? 1 - (along - column) : along - column;
+                    const long double v = down_one == 0 ? 1 - share : share;
+                    expected +=
+                        u * v *
+                        (long double)rows[(row + down_one) * WIDTH + (column + right) % WIDTH];
+                }
+            }
+            assert_true(fabsl((long double)map_value(x, 3, numbers, rows) - expected) <
+                        100 * epsilon);
+        }
+    }
+}
+
 /* Runs of one, of three and of the most that there are. Every step of a run is off by some epsilon,
  * and the first phase of k by |k| epsilon of a turn. */
 static void torus_series(void **state) {
@@ -313,6 +353,7 @@ int main(void) {
         cmocka_unit_test(gaussian),
         cmocka_unit_test(gaussian_that_is_cut),
         cmocka_unit_test(pixels),
+        cmocka_unit_test(map),
         cmocka_unit_test(zonal),
         cmocka_unit_test(torus_series),
         cmocka_unit_test(sphere_series),

@@ -71,6 +71,15 @@ static void write_lobe(FILE *stream, double factor) {
             factor / 4, 3 * factor);
 }
 
+/* Of 4 x 4 pixels, from the lowest row up. */
+static void write_map(FILE *stream, double factor) {
+    fputs("Pf 4 4 -1\n", stream);
+    for (int i = 0; i < 16; i++) {
+        const float light = (float)(i * 7 % 11 * factor);
+        fwrite(&light, sizeof light, 1, stream);
+    }
+}
+
 static void write_with(void (*write)(FILE *, double), const char *name, double factor) {
     FILE *const stream = fopen(name, "wb");
     assert_non_null(stream);
@@ -87,6 +96,7 @@ static int make_files(void **state) {
     write_with(write_space, "space.txt", 1);
     write_with(write_sphere, "sphere.txt", 1);
     write_with(write_lobe, "lobe.txt", 1);
+    write_with(write_map, "map.pfm", 1);
     write_image("image.npy");
     return 0;
 }
@@ -205,9 +215,18 @@ static void images(void **state) {
     check("pixels:file=image.npy", torus, SIDE, mean, mean, false);
 }
 
+/* Light up to 10 over a volume of 4 pi: from pixel to pixel it changes by 10, and angles of 4 of
+ * them are off by some roundings. */
+static void maps(void **state) {
+    const double slope = 10 * 4 * PS_FOUR_PI;
+    (void)state;
+    check("map:file=map.pfm", sphere, 0, slope * 0x1p-21, slope * 0x1p-50, false);
+    check("map:file=map.pfm", hemisphere, 0, slope * 0x1p-21, slope * 0x1p-50, false);
+}
+
 /* Whoever adds a kind that reads files adds it above. */
 static void all_kinds_are_above(void **state) {
-    static const char *const above[] = {"coefficients", "pixels", "zonal"};
+    static const char *const above[] = {"coefficients", "pixels", "zonal", "map"};
     size_t num = 0;
     (void)state;
     for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
@@ -219,9 +238,12 @@ static void all_kinds_are_above(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(series_of_the_torus), cmocka_unit_test(series_of_the_sphere),
-        cmocka_unit_test(tables), cmocka_unit_test(images), cmocka_unit_test(all_kinds_are_above)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(series_of_the_torus),
+                                       cmocka_unit_test(series_of_the_sphere),
+                                       cmocka_unit_test(tables),
+                                       cmocka_unit_test(images),
+                                       cmocka_unit_test(maps),
+                                       cmocka_unit_test(all_kinds_are_above)};
     device = test_open_device();
     const int failures =
         cmocka_run_group_tests_name("trial_files", tests, make_files, remove_files);

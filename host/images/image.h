@@ -1,0 +1,27 @@
+/* Images of light: pixels of one or three channels, from Radiance HDR and PFM
+ * (docs/user/formats.md#images-of-light). */
+#ifndef PS_IMAGES_IMAGE_H
+#define PS_IMAGES_IMAGE_H
+
+#include "files/input_file.h"
+
+/* Pixels of the largest image: a square of 16384 on each side. */
+#define PS_IMAGE_MOST_PIXELS ((size_t)1 << 28)
+
+typedef struct ps_image {
+    size_t width, height;
+    unsigned num_channels; /* 1; or 3: red, green, blue */
+    float *pixels;         /* [height][width][num_channels], the top row first */
+} ps_image;
+
+/* Reads the only image of a file, which its first bytes tell the format of; ps_image_free frees it,
+ * also after a failure. PSPEC_ERROR_INPUT names what is no image, or is cut short, or one that is
+ * too large; formats that are known and not read (OpenEXR, PNG, JPEG, TIFF) by their names. Numbers
+ * are those of the file: PFM may have some that are negative or not finite. */
+pspec_status ps_image_read(ps_image *out, const char *path, ps_error *error) PS_MUST_CHECK;
+void ps_image_free(ps_image *image);
+
+/* Luminance of linear red, green and blue (ITU-R BT.709), or the value of a single channel. */
+double ps_image_luminance(const ps_image *image, size_t pixel);
+
+#endif

@@ -1,0 +1,62 @@
+/* Portable float map: two letters, width, height, a scale whose sign is the order of bytes, and the
+ * rows of float32 from the lowest up. */
+#include "images/image_format.h"
+
+#include <string.h>
+
+/* A word of the header, and the one blank behind it. */
+static pspec_status read_word(ps_input *input, char word[PS_IMAGE_LINE_BYTES], ps_error *error) {
+    size_t length = 0;
+    while (length + 1 < PS_IMAGE_LINE_LETTERS) {
+        PS_TRY(ps_image_read_bytes(input, word + length, 1, error));
+        if (strchr(" \t\r\n", word[length]) == NULL) {
+            length++;
+        } else if (length > 0) {
+            break;
+        }
+    }
+    word[length] = '\0';
+    return PSPEC_OK;
+}
+
+static pspec_status read_number(ps_input *input, const char *what, double *out, ps_error *error) {
+    char word[PS_IMAGE_LINE_BYTES];
+    PS_TRY(read_word(input, word, error));
+    const char *const end = ps_decimal_parse(word, out);
+    return end != NULL && *end == '\0'
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%.40s\" is no %s of a PFM image",
+                         input->name, word, what);
+}
+
+static void swap_bytes(float *pixels, size_t num) {
+    for (size_t i = 0; i < num; i++) {
+        uint32_t bits = 0;
+        memcpy(&bits, &pixels[i], sizeof bits);
+        bits = bits >> 24 | (bits >> 8 & 0xff00) | (bits << 8 & 0xff0000) | bits << 24;
+        memcpy(&pixels[i], &bits, sizeof bits);
+    }
+}
+
+pspec_status ps_image_read_pfm(ps_image *out, ps_input *input, ps_error *error) {
+    char letters[PS_IMAGE_LINE_BYTES];
+    const uint16_t one = 1;
+    double width = 0;
+    double height = 0;
+    double scale = 0;
+    PS_TRY(read_word(input, letters, error));
+    out->num_channels = letters[1] == 'F' ? 3 : 1;
+    PS_TRY(read_number(input, "width", &width, error));
+    PS_TRY(read_number(input, "height", &height, error));
+    PS_TRY(read_number(input, "scale", &scale, error));
+    const double bytes = width * height * out->num_channels * (double)sizeof(float);
+    PS_TRY(ps_image_make(out, input, width, height, bytes, error));
+    const size_t row = out->width * out->num_channels;
+    for (size_t y = out->height; y-- > 0;) {
+        PS_TRY(ps_image_read_bytes(input, out->pixels + y * row, row * sizeof(float), error));
+    }
+    if ((scale < 0) != (*(const unsigned char *)&one == 1)) {
+        swap_bytes(out->pixels, out->height * row);
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,148 @@
+/* Light from every direction, an image: docs/mathematics/maps.md. */
+#define PRECISION 64
+#include "integrands/map.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "images/sphere_map.h"
+#include "integrands/files/coefficient_file.h"
+#include "integrands/integrand_kind.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What self->own points to. */
+typedef struct map {
+    char *path;
+    ps_sphere_map map;
+    ps_map_moments moments;
+    char note[160];
+} map;
+
+static const map *own_of(const ps_integrand *self) {
+    return self->own;
+}
+
+/* ---- create -------------------------------------------------------------------------------- */
+
+static pspec_status read_word(const ps_integrand *self, const char *key, const char *text,
+                              const char *words, int *out, ps_error *error) {
+    *out = ps_text_find_word(text, strlen(text), words);
+    return *out >= 0 ? PSPEC_OK : ps_integrand_fail(self, key, text, words, error);
+}
+
+/* What a result says of the image, which nothing else does. */
+static void describe(map *own) {
+    const ps_sphere_map *const image = &own->map;
+    int length = 0;
+    if (image->width != 2 * image->height) {
+        length = snprintf(own->note, sizeof own->note,
+                          "%zu x %zu pixels cover the sphere, which are not 2:1", image->width,
+                          image->height);
+    }
+    if (image->num_clamped > 0) {
+        snprintf(own->note + length, sizeof own->note - (size_t)length,
+                 "%s%zu pixels were negative or not finite, and count as 0", length > 0 ? "; " : "",
+                 image->num_clamped);
+    }
+}
+
+static void give_table(ps_integrand *self, const map *own) {
+    const size_t most_places = 1 << 24; /* that are numbers of single precision */
+    self->numbers[MAP_WIDTH] = (double)own->map.width;
+    self->numbers[MAP_HEIGHT] = (double)own->map.height;
+    self->table = own->map.rows;
+    self->num_table = (own->map.height + 2) * own->map.width;
+    self->needs_doubles =
+        self->num_table > most_places || !ps_fit_single(self->table, self->num_table);
+}
+
+static pspec_status create(ps_integrand *self, const char *const *values, ps_error *error) {
+    map *own = NULL;
+    int channel = 0;
+    int clamps = 0;
+    PS_TRY(PS_NEW(&own, 1, "a map", error));
+    self->own = own;
+    PS_TRY(ps_integrand_copy_path(self, values[0], &own->path, error));
+    PS_TRY(read_word(self, "channel", values[1], PS_MAP_CHANNELS, &channel, error));
+    PS_TRY(read_word(self, "clamp", values[2], "no|yes", &clamps, error));
+    PS_TRY(ps_sphere_map_read(&own->map, own->path, (ps_map_channel)channel, clamps == 1, error));
+    describe(own);
+    give_table(self, own);
+    return ps_sphere_map_moments(&own->moments, &own->map, ps_integrand_is_on_hemisphere(self),
+                                 error);
+}
+
+static void destroy(ps_integrand *self) {
+    map *const own = self->own;
+    if (own != NULL) {
+        ps_sphere_map_free(&own->map);
+        free(own->path);
+    }
+    free(own);
+}
+
+/* ---- what is known ------------------------------------------------------------------------- */
+
+static double integral(const ps_integrand *self) {
+    return own_of(self)->moments.integral;
+}
+
+/* On the hemisphere that of the even extension. */
+static double energy(const ps_integrand *self) {
+    return (ps_integrand_is_on_hemisphere(self) ? 2 : 1) * own_of(self)->moments.deviation;
+}
+
+/* The even extension has twice the integrals over the hemisphere at even degrees, else 0. */
+static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
+                            ps_error *error) {
+    const bool is_upper = ps_integrand_is_on_hemisphere(self);
+    const size_t num = (max_degree + 1) * (max_degree + 2) / 2;
+    double *coefficients = NULL;
+    PS_TRY(PS_NEW(&coefficients, 2 * num, "coefficients of a map", error));
+    const pspec_status status =
+        ps_sphere_map_coefficients(&own_of(self)->map, is_upper, max_degree, coefficients, error);
+    for (size_t l = 0; l <= max_degree; l++) {
+        const double factor = !is_upper ? 1 : l % 2 == 0 ? 4 : 0;
+        out[l] = 0;
+        for (size_t m = 0; m <= l; m++) {
+            const double *const f = coefficients + 2 * (m * (2 * max_degree + 1 - m) / 2 + l);
+            out[l] += factor * (m > 0 ? 2 : 1) * (f[0] * f[0] + f[1] * f[1]);
+        }
+    }
+    free(coefficients);
+    return status;
+}
+
+static void values(const ps_integrand *self, const double *points, size_t num, double *out) {
+    for (size_t i = 0; i < num; i++) {
+        out[i] = map_value(points + 3 * i, 3, self->numbers, self->table);
+    }
+}
+
+static const char *note(const ps_integrand *self) {
+    return own_of(self)->note[0] != '\0' ? own_of(self)->note : NULL;
+}
+
+static const char *file(const ps_integrand *self) {
+    return own_of(self)->path;
+}
+
+const ps_integrand_kind ps_integrand_map = {
+    .name = "map",
+    .kernel = "map",
+    .summary = "light from every direction, an equirectangular image in HDR or PFM",
+    .domains = PS_INTEGRAND_ROUND,
+    .parameters = {{"file", "", "Radiance HDR or PFM, +z at the top"},
+                   {"channel", "luminance", PS_MAP_CHANNELS},
+                   {"clamp", "no", "yes: pixels below 0 and NaN count as 0"}},
+    .create = create,
+    .destroy = destroy,
+    .integral = integral,
+    .energy = energy,
+    .degrees = degrees,
+    .values = values,
+    .note = note,
+    .file = file,
+};
