@@ -30,7 +30,7 @@ const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text
 }
 
 /* The path, a part of *text, becomes relative to what the scene's folder is relative to. */
-static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps_scene_value *value,
+static pspec_status resolve(const ps_scene_file *file, const ps_scene_value *value,
                             const char **text, const char *path) {
     if (strcmp(path, "-") == 0) {
         return complain_of_stream(file, value);
@@ -39,24 +39,19 @@ static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps
         return PSPEC_OK;
     }
     /* "-odd.txt" alone would be an option in the command line of the question */
-    const bool is_odd = scene->folder[0] == '\0' && path == *text && path[0] == '-';
+    const bool is_odd = file->scene->folder[0] == '\0' && path == *text && path[0] == '-';
     ps_text joined = {0};
     ps_text_append_bytes(&joined, *text, (size_t)(path - *text));
-    ps_text_append(&joined, "%s%s", is_odd ? "./" : scene->folder, path);
-    pspec_status status = ps_text_check(&joined, file->error);
-    if (status == PSPEC_OK) {
-        status = ps_scene_copy(scene, "", ps_text_string(&joined), text, file->error);
-    }
-    ps_text_free(&joined);
-    return status;
+    ps_text_append(&joined, "%s%s", is_odd ? "./" : file->scene->folder, path);
+    return ps_text_keep(text, &file->scene->memory, &joined, file->error);
 }
 
-static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, const ps_kind *kind,
-                                  int option, ps_scene_value *value) {
+static pspec_status resolve_paths(const ps_scene_file *file, const ps_kind *kind, int option,
+                                  ps_scene_value *value) {
     for (size_t i = 0; i < value->num_texts; i++) {
         const char *const path = ps_scene_find_path(kind, option, value->texts[i]);
         if (path != NULL) {
-            PS_TRY(resolve(scene, file, value, &value->texts[i], path));
+            PS_TRY(resolve(file, value, &value->texts[i], path));
         }
     }
     return PSPEC_OK;
@@ -94,34 +89,32 @@ static pspec_status check_value(const ps_scene_file *file, const ps_kind *kind, 
     return PSPEC_OK;
 }
 
-/* A value of num texts, which are set one by one. */
-pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
-                                 ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_scene_allocate(scene, 2 * num, sizeof *out->texts, &memory, error));
-    *out = (ps_scene_value){.num_texts = num, .texts = memory, .line = line};
+pspec_status ps_scene_make_value(const ps_scene_file *file, size_t num, int line,
+                                 ps_scene_value *out) {
+    *out = (ps_scene_value){.num_texts = num, .line = line};
+    PS_TRY(PS_SCENE_NEW(file, &out->texts, 2 * num));
     out->originals = out->texts + num;
     return PSPEC_OK;
 }
 
-static void set_text(ps_scene_value *value, size_t index, const char *text) {
+void ps_scene_set_text(ps_scene_value *value, size_t index, const char *text) {
     value->texts[index] = value->originals[index] = text;
     value->label = value->originals[0];
 }
 
 /* The scalars of a node as the texts of one value. */
-static pspec_status take_value(ps_scene *scene, const ps_scene_file *file, const char *key,
+static pspec_status take_value(const ps_scene_file *file, const char *key,
                                const ps_scene_node *node, ps_scene_value *out) {
     const size_t num = ps_scene_num_items(node);
     if (num == 0) {
         return ps_scene_complain(file, node->line, key, "an empty list");
     }
-    PS_TRY(ps_scene_make_value(scene, num, node->line, out, file->error));
+    PS_TRY(ps_scene_make_value(file, num, node->line, out));
     const ps_scene_node *item = ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
         const char *text = NULL;
         PS_TRY(ps_scene_take_text(file, item, key, &text));
-        set_text(out, i, text);
+        ps_scene_set_text(out, i, text);
     }
     return PSPEC_OK;
 }
@@ -169,71 +162,61 @@ static pspec_status parse_points(const ps_scene_file *file, const char *key,
 }
 
 /* "64,256" of num numbers. */
-static pspec_status set_numbers(ps_scene *scene, const ps_scene_file *file, const uint64_t *numbers,
-                                size_t num, ps_scene_value *out, int line) {
+static pspec_status set_numbers(const ps_scene_file *file, const uint64_t *numbers, size_t num,
+                                ps_scene_value *out, int line) {
     ps_text text = {0};
     const char *kept = NULL;
     for (size_t i = 0; i < num; i++) {
         ps_text_append(&text, "%s%llu", i > 0 ? "," : "", (unsigned long long)numbers[i]);
     }
-    pspec_status status = ps_text_check(&text, file->error);
-    if (status == PSPEC_OK) {
-        status = ps_scene_copy(scene, "", ps_text_string(&text), &kept, file->error);
-    }
-    ps_text_free(&text);
-    PS_TRY(status);
-    PS_TRY(ps_scene_make_value(scene, 1, line, out, file->error));
-    set_text(out, 0, kept);
+    PS_TRY(ps_text_keep(&kept, &file->scene->memory, &text, file->error));
+    PS_TRY(ps_scene_make_value(file, 1, line, out));
+    ps_scene_set_text(out, 0, kept);
     return PSPEC_OK;
 }
 
 /* A value for each number, or one of all of them. */
-static pspec_status take_points(ps_scene *scene, const ps_scene_file *file, const char *key,
+static pspec_status take_points(const ps_scene_file *file, const char *key,
                                 const ps_scene_node *node, bool are_joined, ps_scene_entry *out) {
     uint64_t numbers[MOST_VALUES];
     ps_counts list = {.most = MOST_VALUES, .values = numbers};
-    void *values = NULL;
     PS_TRY(parse_points(file, key, node, &list));
     const size_t num_each = are_joined ? list.num : 1;
     out->num_values = list.num / num_each;
-    PS_TRY(ps_scene_allocate(scene, out->num_values, sizeof *out->values, &values, file->error));
-    out->values = values;
+    PS_TRY(PS_SCENE_NEW(file, &out->values, out->num_values));
     for (size_t i = 0; i < out->num_values; i++) {
-        PS_TRY(set_numbers(scene, file, numbers + i, num_each, &out->values[i], out->line));
+        PS_TRY(set_numbers(file, numbers + i, num_each, &out->values[i], out->line));
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_values(ps_scene *scene, const ps_scene_file *file,
-                                const ps_scene_result *result, const char *key,
-                                const ps_scene_node *node, ps_scene_entry *out) {
+static pspec_status take_values(const ps_scene_file *file, const ps_scene_result *result,
+                                const char *key, const ps_scene_node *node, ps_scene_entry *out) {
     const bool is_one = is_one_value(result, out->option, node);
     const size_t num = is_one ? 1 : ps_scene_num_items(node);
-    void *values = NULL;
     if (num == 0 || num > MOST_VALUES) {
         return num == 0 ? ps_scene_complain(file, node->line, key, "an empty list")
                         : ps_scene_complain(file, node->line, key, "%zu values, more than %d", num,
                                             MOST_VALUES);
     }
-    PS_TRY(ps_scene_allocate(scene, num, sizeof *out->values, &values, file->error));
-    out->values = values;
+    PS_TRY(PS_SCENE_NEW(file, &out->values, num));
     out->num_values = num;
     const ps_scene_node *item = is_one ? node : ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
         PS_TRY(!is_one && out->option != PS_SCENE_FILES ? refuse_list(file, key, item) : PSPEC_OK);
-        PS_TRY(take_value(scene, file, key, item, &out->values[i]));
+        PS_TRY(take_value(file, key, item, &out->values[i]));
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
-                                 const ps_scene_result *result, int option, const char *key,
-                                 const ps_scene_node *value, ps_scene_entry *out) {
+pspec_status ps_scene_take_entry(const ps_scene_file *file, const ps_scene_result *result,
+                                 int option, const char *key, const ps_scene_node *value,
+                                 ps_scene_entry *out) {
     *out = (ps_scene_entry){.option = option, .line = value->line};
-    PS_TRY(option == PS_OPTION_POINTS ? take_points(scene, file, key, value, result->is_joined, out)
-                                      : take_values(scene, file, result, key, value, out));
+    PS_TRY(option == PS_OPTION_POINTS ? take_points(file, key, value, result->is_joined, out)
+                                      : take_values(file, result, key, value, out));
     for (size_t i = 0; i < out->num_values; i++) {
-        PS_TRY(resolve_paths(scene, file, result->kind, option, &out->values[i]));
+        PS_TRY(resolve_paths(file, result->kind, option, &out->values[i]));
         PS_TRY(check_value(file, result->kind, option, key, &out->values[i]));
     }
     return PSPEC_OK;

@@ -23,15 +23,14 @@ static pspec_status read_all(const char *path, unsigned char *bytes, size_t *num
     return status;
 }
 
-static pspec_status parse(ps_scene *scene, ps_scene_file *file, const unsigned char *bytes,
-                          size_t num) {
+static pspec_status parse(ps_scene_file *file, const unsigned char *bytes, size_t num) {
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser)) {
         return ps_fail(file->error, PSPEC_ERROR_MEMORY, "no memory for the scene \"%s\"",
                        file->path);
     }
     yaml_parser_set_input_string(&parser, bytes, num);
-    const pspec_status status = ps_scene_build(scene, file, &parser);
+    const pspec_status status = ps_scene_build(file, &parser);
     yaml_parser_delete(&parser);
     return status;
 }
@@ -40,11 +39,11 @@ pspec_status ps_scene_file_read(ps_scene_file *out, ps_scene *scene, const char 
                                 ps_error *error) {
     void *bytes = NULL;
     size_t num = 0;
-    *out = (ps_scene_file){.path = path, .error = error};
+    *out = (ps_scene_file){.scene = scene, .path = path, .error = error};
     PS_TRY(ps_allocate(&bytes, MOST_BYTES + 1, 1, "a scene", error));
     pspec_status status = read_all(path, bytes, &num, error);
     if (status == PSPEC_OK) {
-        status = parse(scene, out, bytes, num);
+        status = parse(out, bytes, num);
     }
     free(bytes);
     return status;

@@ -18,16 +18,17 @@ typedef struct ps_scene_node {
     struct ps_scene_node *first, *last, *next; /* of these; the next one of what this is in */
 } ps_scene_node;
 
+/* What reads a scene. */
 typedef struct ps_scene_file {
+    ps_scene *scene;
     const char *path;
-    const ps_scene_node *root;
+    const ps_scene_node *root, *defaults; /* defaults NULL: none */
     ps_error *error;
 } ps_scene_file;
 
 /* The tree of the only document: no nest, anchor or mapping beyond what a scene can need, and no
  * alias. The parser is at its beginning, and is at its end then. */
-pspec_status ps_scene_build(ps_scene *scene, ps_scene_file *file,
-                            yaml_parser_t *parser) PS_MUST_CHECK;
+pspec_status ps_scene_build(ps_scene_file *file, yaml_parser_t *parser) PS_MUST_CHECK;
 /* What the parser objects to. */
 pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser);
 
@@ -56,20 +57,21 @@ pspec_status ps_scene_pair(const ps_scene_file *file, const ps_scene_node *mappi
                            const char **key, const ps_scene_node **value) PS_MUST_CHECK;
 
 /* Memory that lives as long as the scene. */
-pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_bytes, void **out,
-                               ps_error *error) PS_MUST_CHECK;
-/* A copy of prefix followed by text. */
-pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text, const char **out,
-                           ps_error *error) PS_MUST_CHECK;
+#define PS_SCENE_NEW(file, pointer, count)                                                         \
+    PS_POOL_NEW(&(file)->scene->memory, (pointer), (count), "a scene", (file)->error)
+pspec_status ps_scene_copy(const ps_scene_file *file, const char *text,
+                           const char **out) PS_MUST_CHECK;
 
 /* A value of num texts, which are set one by one. */
-pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
-                                 ps_error *error) PS_MUST_CHECK;
+pspec_status ps_scene_make_value(const ps_scene_file *file, size_t num, int line,
+                                 ps_scene_value *out) PS_MUST_CHECK;
+/* Sets a text, which is as the file has it. */
+void ps_scene_set_text(ps_scene_value *value, size_t index, const char *text);
 /* The values of an option of a result, which word says: paths are made relative to the current
  * folder. */
-pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
-                                 const ps_scene_result *result, int option, const char *key,
-                                 const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
+pspec_status ps_scene_take_entry(const ps_scene_file *file, const ps_scene_result *result,
+                                 int option, const char *key, const ps_scene_node *value,
+                                 ps_scene_entry *out) PS_MUST_CHECK;
 
 /* Which of ps_scene_axes a key is; -1: none. */
 int ps_scene_find_axes(const char *key);
@@ -79,18 +81,11 @@ bool ps_scene_has_axes(const ps_kind *kind, int axes);
 pspec_status ps_scene_take_axes(const ps_scene_file *file, ps_scene_result *result, int axes,
                                 const ps_scene_node *value) PS_MUST_CHECK;
 
-/* What reads a scene. */
-typedef struct ps_scene_reader {
-    ps_scene *scene;
-    const ps_scene_file *file;
-    const ps_scene_node *defaults; /* NULL: none */
-} ps_scene_reader;
-
 /* The values of `sets`, an entry of samplers. */
-pspec_status ps_scene_take_sets(const ps_scene_reader *reader, const ps_scene_node *node,
+pspec_status ps_scene_take_sets(const ps_scene_file *file, const ps_scene_node *node,
                                 ps_scene_entry *out) PS_MUST_CHECK;
 /* Makes one entry of `samplers` and `sets`, where a result has both. */
-pspec_status ps_scene_join_sources(const ps_scene_reader *reader,
+pspec_status ps_scene_join_sources(const ps_scene_file *file,
                                    ps_scene_result *result) PS_MUST_CHECK;
 
 /* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
@@ -102,7 +97,7 @@ const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text
 enum { PS_SCENE_MOST_QUESTIONS = 10000 };
 
 /* One of the results, but for a name that the file does not say. */
-pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_node *node,
+pspec_status ps_scene_take_result(const ps_scene_file *file, const ps_scene_node *node,
                                   ps_scene_result *out) PS_MUST_CHECK;
 
 /* The word that a complaint may suggest: begins as {0}, and ends as the nearest of those

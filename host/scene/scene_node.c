@@ -84,20 +84,11 @@ pspec_status ps_scene_pair(const ps_scene_file *file, const ps_scene_node *mappi
 
 /* ---- memory ------------------------------------------------------------------------------ */
 
-pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_bytes, void **out,
-                               ps_error *error) {
-    return ps_pool_new(&scene->memory, out, count, element_bytes, "a scene", error);
-}
-
-pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text, const char **out,
-                           ps_error *error) {
-    const size_t prefix_bytes = strlen(prefix);
+pspec_status ps_scene_copy(const ps_scene_file *file, const char *text, const char **out) {
     const size_t bytes = strlen(text) + 1;
-    void *memory = NULL;
-    PS_TRY(ps_scene_allocate(scene, prefix_bytes + bytes, 1, &memory, error));
-    memcpy(memory, prefix, prefix_bytes);
-    memcpy((char *)memory + prefix_bytes, text, bytes);
-    *out = memory;
+    char *copy = NULL;
+    PS_TRY(PS_SCENE_NEW(file, &copy, bytes));
+    *out = memcpy(copy, text, bytes);
     return PSPEC_OK;
 }
 

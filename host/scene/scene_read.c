@@ -9,135 +9,125 @@
 enum { MOST_RESULTS = 256 };
 
 /* power-1, .. where the file says none. */
-static pspec_status name_result(const ps_scene_reader *reader, size_t index) {
+static pspec_status name_result(const ps_scene_file *file, size_t index) {
     enum { NAME = 96 };
     char text[NAME];
-    ps_scene_result *const result = &reader->scene->results[index];
+    ps_scene_result *const result = &file->scene->results[index];
     if (result->name == NULL) {
         snprintf(text, sizeof text, "%s-%zu", result->kind->name, index + 1);
-        PS_TRY(ps_scene_copy(reader->scene, "", text, &result->name, reader->file->error));
+        PS_TRY(ps_scene_copy(file, text, &result->name));
     }
     for (size_t i = 0; i < index; i++) {
-        if (strcmp(reader->scene->results[i].name, result->name) == 0) {
-            return ps_scene_complain(reader->file, result->line, "name",
+        if (strcmp(file->scene->results[i].name, result->name) == 0) {
+            return ps_scene_complain(file, result->line, "name",
                                      "\"%s\" is the name of the result of line %d already",
-                                     result->name, reader->scene->results[i].line);
+                                     result->name, file->scene->results[i].line);
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_results(const ps_scene_reader *reader, const ps_scene_node *node) {
-    void *results = NULL;
+static pspec_status take_results(const ps_scene_file *file, const ps_scene_node *node) {
     const size_t num = ps_scene_num_items(node);
     if (node->kind != PS_NODE_LIST || num == 0 || num > MOST_RESULTS) {
-        return ps_scene_complain(reader->file, node->line, "results",
+        return ps_scene_complain(file, node->line, "results",
                                  "a list of 1 to %d results is wanted here", MOST_RESULTS);
     }
-    PS_TRY(ps_scene_allocate(reader->scene, num, sizeof *reader->scene->results, &results,
-                             reader->file->error));
-    reader->scene->results = results;
+    PS_TRY(PS_SCENE_NEW(file, &file->scene->results, num));
     size_t num_questions = 0;
     const ps_scene_node *item = ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
-        PS_TRY(ps_scene_take_result(reader, item, &reader->scene->results[i]));
-        reader->scene->num_results++;
-        num_questions += ps_scene_num_questions(&reader->scene->results[i]);
+        PS_TRY(ps_scene_take_result(file, item, &file->scene->results[i]));
+        file->scene->num_results++;
+        num_questions += ps_scene_num_questions(&file->scene->results[i]);
         if (num_questions > PS_SCENE_MOST_QUESTIONS) {
-            return ps_scene_complain(reader->file, reader->scene->results[i].line, "results",
+            return ps_scene_complain(file, file->scene->results[i].line, "results",
                                      "here the scene asks %zu questions, more than %d",
                                      num_questions, PS_SCENE_MOST_QUESTIONS);
         }
-        PS_TRY(name_result(reader, i));
+        PS_TRY(name_result(file, i));
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_texts(const ps_scene_reader *reader, const ps_scene_node *node,
+static pspec_status take_texts(const ps_scene_file *file, const ps_scene_node *node,
                                const char *key, const char ***out, size_t *num_out) {
-    void *memory = NULL;
     const size_t num = ps_scene_num_items(node);
-    PS_TRY(ps_scene_allocate(reader->scene, num, sizeof **out, &memory, reader->file->error));
-    *out = memory;
+    PS_TRY(PS_SCENE_NEW(file, out, num));
     const ps_scene_node *item = ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
-        PS_TRY(ps_scene_take_text(reader->file, item, key, &(*out)[i]));
+        PS_TRY(ps_scene_take_text(file, item, key, &(*out)[i]));
     }
     *num_out = num;
     return PSPEC_OK;
 }
 
-static pspec_status take_engine(const ps_scene_reader *reader, const ps_scene_node *question,
+static pspec_status take_engine(const ps_scene_file *file, const ps_scene_node *question,
                                 size_t number) {
     if (question->kind != PS_NODE_MAPPING) {
-        return ps_scene_complain(reader->file, question->line, "questions", "no list of mappings");
+        return ps_scene_complain(file, question->line, "questions", "no list of mappings");
     }
-    reader->scene->engines[number] = reader->scene->precisions[number] = "";
+    file->scene->engines[number] = file->scene->precisions[number] = "";
     for (size_t i = 0; i < ps_scene_num_pairs(question); i++) {
         const char *key = NULL;
         const ps_scene_node *value = NULL;
-        PS_TRY(ps_scene_pair(reader->file, question, i, &key, &value));
+        PS_TRY(ps_scene_pair(file, question, i, &key, &value));
         if (strcmp(key, "engine") == 0) {
-            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->engines[number]));
+            PS_TRY(ps_scene_take_text(file, value, key, &file->scene->engines[number]));
         } else if (strcmp(key, "precision") == 0) {
-            PS_TRY(
-                ps_scene_take_text(reader->file, value, key, &reader->scene->precisions[number]));
+            PS_TRY(ps_scene_take_text(file, value, key, &file->scene->precisions[number]));
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_engines(const ps_scene_reader *reader, const ps_scene_node *node) {
-    ps_scene *const scene = reader->scene;
+static pspec_status take_engines(const ps_scene_file *file, const ps_scene_node *node) {
+    ps_scene *const scene = file->scene;
     const size_t num = ps_scene_num_items(node);
-    void *memory = NULL;
-    PS_TRY(ps_scene_allocate(scene, 2 * num, sizeof *scene->engines, &memory, reader->file->error));
-    scene->engines = memory;
+    PS_TRY(PS_SCENE_NEW(file, &scene->engines, 2 * num));
     scene->precisions = scene->engines + num;
     const ps_scene_node *item = ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
-        PS_TRY(take_engine(reader, item, i));
+        PS_TRY(take_engine(file, item, i));
     }
     scene->num_engines = num;
     return PSPEC_OK;
 }
 
 /* What a run wrote (docs/user/scenes.md); other keys are for people. */
-static pspec_status take_record(const ps_scene_reader *reader, const ps_scene_node *node) {
+static pspec_status take_record(const ps_scene_file *file, const ps_scene_node *node) {
     if (node->kind != PS_NODE_MAPPING) {
-        return ps_scene_complain(reader->file, node->line, "record", "no mapping");
+        return ps_scene_complain(file, node->line, "record", "no mapping");
     }
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
         const ps_scene_node *value = NULL;
-        PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
+        PS_TRY(ps_scene_pair(file, node, i, &key, &value));
         if (strcmp(key, "folder") == 0) {
-            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->folder));
+            PS_TRY(ps_scene_take_text(file, value, key, &file->scene->folder));
         } else if (strcmp(key, "digests") == 0) {
-            PS_TRY(take_texts(reader, value, key, &reader->scene->digests,
-                              &reader->scene->num_digests));
+            PS_TRY(take_texts(file, value, key, &file->scene->digests, &file->scene->num_digests));
         } else if (strcmp(key, "files") == 0) {
-            PS_TRY(
-                take_texts(reader, value, key, &reader->scene->files, &reader->scene->num_files));
+            PS_TRY(take_texts(file, value, key, &file->scene->files, &file->scene->num_files));
         } else if (strcmp(key, "pointspec_version") == 0) {
-            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_version));
+            PS_TRY(ps_scene_take_text(file, value, key, &file->scene->recorded_version));
         } else if (strcmp(key, "device") == 0) {
-            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_device));
+            PS_TRY(ps_scene_take_text(file, value, key, &file->scene->recorded_device));
         } else if (strcmp(key, "kind") == 0) {
-            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_kind));
+            PS_TRY(ps_scene_take_text(file, value, key, &file->scene->recorded_kind));
         } else if (strcmp(key, "questions") == 0) {
-            PS_TRY(take_engines(reader, value));
+            PS_TRY(take_engines(file, value));
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status check_schema(const ps_scene_reader *reader, const ps_scene_node *node) {
+static pspec_status check_schema(const ps_scene_file *file, const ps_scene_node *node) {
     const char *text = NULL;
-    PS_TRY(ps_scene_take_text(reader->file, node, "scene", &text));
+    PS_TRY(ps_scene_take_text(file, node, "scene", &text));
     return strcmp(text, "1") == 0
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, node->line, "scene",
+               : ps_scene_complain(file, node->line, "scene",
                                    "schema \"%s\" is not known, this version reads schema 1", text);
 }
 
@@ -146,8 +136,7 @@ typedef struct parts {
     const ps_scene_node *schema, *title, *description, *defaults, *results, *record;
 } parts;
 
-static pspec_status find_parts(const ps_scene_reader *reader, const ps_scene_node *root,
-                               parts *out) {
+static pspec_status find_parts(const ps_scene_file *file, const ps_scene_node *root, parts *out) {
     const struct {
         const char *key;
         const ps_scene_node **node;
@@ -162,7 +151,7 @@ static pspec_status find_parts(const ps_scene_reader *reader, const ps_scene_nod
         const ps_scene_node *value = NULL;
         ps_scene_nearest best = {NULL, 0};
         bool is_known = false;
-        PS_TRY(ps_scene_pair(reader->file, root, i, &key, &value));
+        PS_TRY(ps_scene_pair(file, root, i, &key, &value));
         for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
             ps_scene_consider(&best, key, known[k].key);
             if (strcmp(key, known[k].key) == 0) {
@@ -172,63 +161,60 @@ static pspec_status find_parts(const ps_scene_reader *reader, const ps_scene_nod
         }
         if (!is_known) {
             return ps_scene_complain(
-                reader->file, value->line, key, "unknown key%s",
+                file, value->line, key, "unknown key%s",
                 ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status find_folder(const ps_scene_reader *reader) {
-    const char *const slash = strrchr(reader->scene->path, '/');
-    if (slash == NULL || strcmp(reader->scene->path, "-") == 0) {
-        reader->scene->folder = "";
+static pspec_status find_folder(const ps_scene_file *file) {
+    const char *const slash = strrchr(file->scene->path, '/');
+    if (slash == NULL || strcmp(file->scene->path, "-") == 0) {
+        file->scene->folder = "";
         return PSPEC_OK;
     }
-    void *memory = NULL;
-    const size_t length = (size_t)(slash - reader->scene->path) + 1;
-    PS_TRY(ps_scene_allocate(reader->scene, length + 1, 1, &memory, reader->file->error));
-    memcpy(memory, reader->scene->path, length);
-    reader->scene->folder = memory;
-    return PSPEC_OK;
+    ps_text folder = {0};
+    ps_text_append_bytes(&folder, file->scene->path, (size_t)(slash - file->scene->path) + 1);
+    return ps_text_keep(&file->scene->folder, &file->scene->memory, &folder, file->error);
 }
 
-static pspec_status take_scene(ps_scene_reader *reader, const ps_scene_node *root) {
+static pspec_status take_scene(ps_scene_file *file) {
+    const ps_scene_node *const root = file->root;
     parts found = {0};
     if (root->kind != PS_NODE_MAPPING) {
-        return ps_scene_complain(reader->file, root->line, NULL,
+        return ps_scene_complain(file, root->line, NULL,
                                  "a scene is a mapping with the keys scene and results");
     }
-    PS_TRY(find_parts(reader, root, &found));
+    PS_TRY(find_parts(file, root, &found));
     if (found.schema == NULL || found.results == NULL) {
-        return ps_scene_complain(reader->file, root->line,
-                                 found.schema == NULL ? "scene" : "results", "is missing%s",
+        return ps_scene_complain(file, root->line, found.schema == NULL ? "scene" : "results",
+                                 "is missing%s",
                                  found.schema == NULL ? ": a scene begins with scene: 1" : "");
     }
-    PS_TRY(check_schema(reader, found.schema));
-    PS_TRY(find_folder(reader));
+    PS_TRY(check_schema(file, found.schema));
+    PS_TRY(find_folder(file));
     if (found.record != NULL) {
-        PS_TRY(take_record(reader, found.record));
+        PS_TRY(take_record(file, found.record));
     }
     if (found.title != NULL) {
-        PS_TRY(ps_scene_take_text(reader->file, found.title, "title", &reader->scene->title));
+        PS_TRY(ps_scene_take_text(file, found.title, "title", &file->scene->title));
     }
     if (found.description != NULL) {
-        PS_TRY(ps_scene_take_text(reader->file, found.description, "description",
-                                  &reader->scene->description));
+        PS_TRY(
+            ps_scene_take_text(file, found.description, "description", &file->scene->description));
     }
     if (found.defaults != NULL && found.defaults->kind != PS_NODE_MAPPING) {
-        return ps_scene_complain(reader->file, found.defaults->line, "defaults",
+        return ps_scene_complain(file, found.defaults->line, "defaults",
                                  "a mapping of keys is wanted here");
     }
-    reader->defaults = found.defaults;
-    return take_results(reader, found.results);
+    file->defaults = found.defaults;
+    return take_results(file, found.results);
 }
 
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) {
     ps_scene_file file;
     *out = (ps_scene){.path = path};
     PS_TRY(ps_scene_file_read(&file, out, path, error));
-    ps_scene_reader reader = {out, &file, NULL};
-    return take_scene(&reader, file.root);
+    return take_scene(&file);
 }

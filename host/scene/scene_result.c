@@ -58,7 +58,7 @@ static ps_suggestion suggest(const char *typed, const ps_scene_nearest *best) {
                : (ps_suggestion){""};
 }
 
-static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_kind *kind, int line,
+static pspec_status complain_of_key(const ps_scene_file *file, const ps_kind *kind, int line,
                                     const char *key) {
     ps_scene_nearest best = {NULL, 0};
     for (size_t i = 0; i < NUM_OWN_KEYS; i++) {
@@ -73,106 +73,103 @@ static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_kind
         }
     }
     return best.distance == 0 || is_any_option(key)
-               ? ps_scene_complain(reader->file, line, key, "not a key of this result%s",
+               ? ps_scene_complain(file, line, key, "not a key of this result%s",
                                    suggest(key, &best).text)
-               : ps_scene_complain(reader->file, line, key, "unknown key%s",
-                                   suggest(key, &best).text);
+               : ps_scene_complain(file, line, key, "unknown key%s", suggest(key, &best).text);
 }
 
 /* ---- one result -------------------------------------------------------------------------- */
 
-static pspec_status take_switch(const ps_scene_reader *reader, const ps_scene_node *node,
+static pspec_status take_switch(const ps_scene_file *file, const ps_scene_node *node,
                                 const char *key, bool *out) {
     const char *text = NULL;
-    PS_TRY(ps_scene_take_text(reader->file, node, key, &text));
+    PS_TRY(ps_scene_take_text(file, node, key, &text));
     *out = strcmp(text, "true") == 0;
     return *out || strcmp(text, "false") == 0
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, node->line, key, "true or false, not \"%s\"",
-                                   text);
+               : ps_scene_complain(file, node->line, key, "true or false, not \"%s\"", text);
 }
 
 /* It becomes the name of files. */
-static pspec_status take_name(const ps_scene_reader *reader, const ps_scene_node *node,
+static pspec_status take_name(const ps_scene_file *file, const ps_scene_node *node,
                               const char **out) {
     enum { MOST_LETTERS = 64 };
-    PS_TRY(ps_scene_take_text(reader->file, node, "name", out));
+    PS_TRY(ps_scene_take_text(file, node, "name", out));
     bool is_good = strlen(*out) <= MOST_LETTERS && (*out)[0] != '-';
     for (const char *c = *out; *c != '\0'; c++) {
         is_good = is_good && (isalnum((unsigned char)*c) || *c == '-' || *c == '_');
     }
     return is_good
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, node->line, "name",
+               : ps_scene_complain(file, node->line, "name",
                                    "\"%s\" cannot name files: up to %d letters, digits, - and _",
                                    *out, MOST_LETTERS);
 }
 
-static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node *node,
+static pspec_status take_kind(const ps_scene_file *file, const ps_scene_node *node,
                               const ps_kind **out) {
     const char *text = NULL;
     size_t distance = 0;
-    PS_TRY(ps_scene_take_text(reader->file, node, "result", &text));
+    PS_TRY(ps_scene_take_text(file, node, "result", &text));
     *out = ps_command_nearest(scene_kinds, text, &distance);
     return distance == 0
                ? PSPEC_OK
                : ps_scene_complain(
-                     reader->file, node->line, "result", "\"%s\" is no kind of answer%s", text,
+                     file, node->line, "result", "\"%s\" is no kind of answer%s", text,
                      ps_text_suggest(text, (*out)->name, distance, "; did you mean ", "?").text);
 }
 
 /* true, false or coefficients, as the kind has them. */
-static pspec_status take_arrays(const ps_scene_reader *reader, const ps_scene_node *node,
+static pspec_status take_arrays(const ps_scene_file *file, const ps_scene_node *node,
                                 ps_scene_result *out) {
     const char *text = NULL;
     const ps_kind *const kind = out->kind;
-    PS_TRY(ps_scene_take_text(reader->file, node, "arrays", &text));
+    PS_TRY(ps_scene_take_text(file, node, "arrays", &text));
     out->wants_coefficients = kind->has_coefficients && strcmp(text, "coefficients") == 0;
     out->wants_arrays = out->wants_coefficients || (kind->has_arrays && strcmp(text, "true") == 0);
     return out->wants_arrays || strcmp(text, "false") == 0
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, node->line, "arrays", "%sfalse%s, not \"%s\"",
+               : ps_scene_complain(file, node->line, "arrays", "%sfalse%s, not \"%s\"",
                                    kind->has_arrays ? "true or " : "",
                                    kind->has_coefficients ? " or coefficients" : "", text);
 }
 
-static pspec_status take_entry(const ps_scene_reader *reader, ps_scene_result *out, int option,
+static pspec_status take_entry(const ps_scene_file *file, ps_scene_result *out, int option,
                                const char *key, const ps_scene_node *value) {
     ps_scene_entry *const entry = &out->entries[out->num_entries++];
-    return strcmp(key, sets_key) == 0
-               ? ps_scene_take_sets(reader, value, entry)
-               : ps_scene_take_entry(reader->scene, reader->file, out, option, key, value, entry);
+    return strcmp(key, sets_key) == 0 ? ps_scene_take_sets(file, value, entry)
+                                      : ps_scene_take_entry(file, out, option, key, value, entry);
 }
 
-static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *out, const char *key,
+static pspec_status take_pair(const ps_scene_file *file, ps_scene_result *out, const char *key,
                               int line, const ps_scene_node *value) {
     if (strcmp(key, "result") == 0) {
         return PSPEC_OK; /* taken before all others */
     }
     if (strcmp(key, "name") == 0) {
-        return take_name(reader, value, &out->name);
+        return take_name(file, value, &out->name);
     }
     if (strcmp(key, "title") == 0) {
-        return ps_scene_take_text(reader->file, value, key, &out->title);
+        return ps_scene_take_text(file, value, key, &out->title);
     }
     if (strcmp(key, "plot") == 0) {
-        return take_switch(reader, value, key, &out->wants_plot);
+        return take_switch(file, value, key, &out->wants_plot);
     }
     if (strcmp(key, "pictures") == 0 && out->kind->has_images) {
-        return take_switch(reader, value, key, &out->wants_pictures);
+        return take_switch(file, value, key, &out->wants_pictures);
     }
     if (strcmp(key, "arrays") == 0 && (out->kind->has_arrays || out->kind->has_coefficients)) {
-        return take_arrays(reader, value, out);
+        return take_arrays(file, value, out);
     }
     const int axes = ps_scene_find_axes(key);
     if (ps_scene_has_axes(out->kind, axes)) {
-        return ps_scene_take_axes(reader->file, out, axes, value);
+        return ps_scene_take_axes(file, out, axes, value);
     }
     const int option = find_option(out->kind, key);
     if (option < 0) {
-        return complain_of_key(reader, out->kind, line, key);
+        return complain_of_key(file, out->kind, line, key);
     }
-    return take_entry(reader, out, option, key, value);
+    return take_entry(file, out, option, key, value);
 }
 
 /* A flag that is said to be off, also in a record, where every value is a list. */
@@ -196,12 +193,12 @@ static bool has_key(const ps_scene_node *mapping, const char *wanted) {
 
 /* Does a key of the mapping, which is none of the result's own, make one question of all samplers
  * and numbers of points? own NULL: the mapping is the result. */
-static pspec_status find_joining(const ps_scene_reader *reader, const ps_scene_node *mapping,
+static pspec_status find_joining(const ps_scene_file *file, const ps_scene_node *mapping,
                                  const ps_scene_node *own, ps_scene_result *out) {
     for (size_t i = 0; mapping != NULL && i < ps_scene_num_pairs(mapping); i++) {
         const char *key = NULL;
         const ps_scene_node *value = NULL;
-        PS_TRY(ps_scene_pair(reader->file, mapping, i, &key, &value));
+        PS_TRY(ps_scene_pair(file, mapping, i, &key, &value));
         const int option = find_option(out->kind, key);
         const bool joins = option >= 0 && option != PS_SCENE_FILES &&
                            ps_options[option].is_of_all && !is_off(value);
@@ -243,61 +240,61 @@ static void drop_unfit(ps_scene_result *result, size_t num_own) {
     result->num_entries = num;
 }
 
-static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result *out) {
+static pspec_status take_defaults(const ps_scene_file *file, ps_scene_result *out) {
     const size_t num_own = out->num_entries;
     ps_scene_result own = *out;
-    for (size_t i = 0; reader->defaults != NULL && i < ps_scene_num_pairs(reader->defaults); i++) {
+    for (size_t i = 0; file->defaults != NULL && i < ps_scene_num_pairs(file->defaults); i++) {
         const char *key = NULL;
         const ps_scene_node *value = NULL;
-        PS_TRY(ps_scene_pair(reader->file, reader->defaults, i, &key, &value));
+        PS_TRY(ps_scene_pair(file, file->defaults, i, &key, &value));
         const int option = find_option(out->kind, key);
         const int axes = ps_scene_find_axes(key);
         own.num_entries = num_own;
         if (ps_scene_has_axes(out->kind, axes) && out->axes_texts[axes] == NULL) {
-            PS_TRY(ps_scene_take_axes(reader->file, out, axes, value));
+            PS_TRY(ps_scene_take_axes(file, out, axes, value));
         } else if (option >= 0 && !is_settled(&own, option)) {
-            PS_TRY(take_entry(reader, out, option, key, value));
+            PS_TRY(take_entry(file, out, option, key, value));
         } else if (option < 0 && axes < 0 && !is_any_option(key)) {
-            return complain_of_key(reader, out->kind, value->line, key);
+            return complain_of_key(file, out->kind, value->line, key);
         }
     }
-    PS_TRY(ps_scene_join_sources(reader, out));
+    PS_TRY(ps_scene_join_sources(file, out));
     drop_unfit(out, num_own);
     return PSPEC_OK;
 }
 
 /* "power, angular, .. or check" */
-static pspec_status complain_of_no_kind(const ps_scene_reader *reader, int line) {
+static pspec_status complain_of_no_kind(const ps_scene_file *file, int line) {
     ps_text names = {0};
     for (size_t i = 0; scene_kinds[i] != NULL; i++) {
         const bool is_last = scene_kinds[i + 1] == NULL;
         ps_text_append(&names, "%s%s", i == 0 ? "" : is_last ? " or " : ", ", scene_kinds[i]->name);
     }
     const pspec_status status =
-        ps_scene_complain(reader->file, line, "result", "is missing: %s", ps_text_string(&names));
+        ps_scene_complain(file, line, "result", "is missing: %s", ps_text_string(&names));
     ps_text_free(&names);
     return status;
 }
 
 /* Which result it is says what the other keys may be. */
-static pspec_status find_kind(const ps_scene_reader *reader, const ps_scene_node *node,
+static pspec_status find_kind(const ps_scene_file *file, const ps_scene_node *node,
                               ps_scene_result *out) {
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
         const ps_scene_node *value = NULL;
-        PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
+        PS_TRY(ps_scene_pair(file, node, i, &key, &value));
         if (strcmp(key, "result") == 0) {
-            return take_kind(reader, value, &out->kind);
+            return take_kind(file, value, &out->kind);
         }
     }
-    return complain_of_no_kind(reader, node->line);
+    return complain_of_no_kind(file, node->line);
 }
 
-static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_result *result) {
+static pspec_status check_twice(const ps_scene_file *file, const ps_scene_result *result) {
     for (size_t i = 0; i < result->num_entries; i++) {
         for (size_t j = 0; j < i; j++) {
             if (result->entries[i].option == result->entries[j].option) {
-                return ps_scene_complain(reader->file, result->entries[i].line,
+                return ps_scene_complain(file, result->entries[i].line,
                                          ps_scene_key(&result->entries[i]),
                                          "stands in line %d already", result->entries[j].line);
             }
@@ -307,15 +304,15 @@ static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_re
 }
 
 /* Sets are files, and so others have no place beside them; they have their numbers of points. */
-static pspec_status check_entries(const ps_scene_reader *reader, ps_scene_result *result) {
-    PS_TRY(ps_scene_join_sources(reader, result));
-    PS_TRY(check_twice(reader, result));
+static pspec_status check_entries(const ps_scene_file *file, ps_scene_result *result) {
+    PS_TRY(ps_scene_join_sources(file, result));
+    PS_TRY(check_twice(file, result));
     const ps_scene_entry *const sources = ps_scene_find_entry(result, PS_OPTION_SAMPLER);
     for (size_t i = 0; sources != NULL && i < result->num_entries; i++) {
         const ps_scene_entry *const entry = &result->entries[i];
         const bool are_several = entry->option == PS_OPTION_POINTS && entry->num_values > 1;
         if (ps_scene_num_sets(sources) > 0 && (entry->option == PS_SCENE_FILES || are_several)) {
-            return ps_scene_complain(reader->file, entry->line, ps_scene_key(entry),
+            return ps_scene_complain(file, entry->line, ps_scene_key(entry),
                                      are_several
                                          ? "%s have their own, and one number is for samplers"
                                          : "beside %s files stand under a name, as one of them",
@@ -325,42 +322,38 @@ static pspec_status check_entries(const ps_scene_reader *reader, ps_scene_result
     return PSPEC_OK;
 }
 
-static pspec_status check_questions(const ps_scene_reader *reader, const ps_scene_result *result) {
+static pspec_status check_questions(const ps_scene_file *file, const ps_scene_result *result) {
     double num = 1;
     for (size_t i = 0; i < result->num_entries; i++) {
         num *= (double)result->entries[i].num_values;
     }
     return num <= PS_SCENE_MOST_QUESTIONS
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, result->line, NULL,
+               : ps_scene_complain(file, result->line, NULL,
                                    "the lists of this result ask %.3g questions, more than %d", num,
                                    PS_SCENE_MOST_QUESTIONS);
 }
 
-pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_node *node,
+pspec_status ps_scene_take_result(const ps_scene_file *file, const ps_scene_node *node,
                                   ps_scene_result *out) {
-    void *entries = NULL;
     *out = (ps_scene_result){.line = node->line, .wants_plot = true};
     if (node->kind != PS_NODE_MAPPING) {
-        return ps_scene_complain(reader->file, out->line, "results",
-                                 "a result is a mapping of keys");
+        return ps_scene_complain(file, out->line, "results", "a result is a mapping of keys");
     }
-    PS_TRY(find_kind(reader, node, out));
-    PS_TRY(find_joining(reader, node, NULL, out));
-    PS_TRY(find_joining(reader, reader->defaults, node, out));
+    PS_TRY(find_kind(file, node, out));
+    PS_TRY(find_joining(file, node, NULL, out));
+    PS_TRY(find_joining(file, file->defaults, node, out));
     /* every option, files, sets, and `sampler` beside `samplers`, `integrand` beside `integrands`
      */
-    PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 4, sizeof *out->entries, &entries,
-                             reader->file->error));
-    out->entries = entries;
+    PS_TRY(PS_SCENE_NEW(file, &out->entries, PS_NUM_OPTIONS + 4));
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
         const ps_scene_node *value = NULL;
-        PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
-        PS_TRY(take_pair(reader, out, key, value->line, value));
+        PS_TRY(ps_scene_pair(file, node, i, &key, &value));
+        PS_TRY(take_pair(file, out, key, value->line, value));
     }
-    PS_TRY(check_entries(reader, out));
-    PS_TRY(take_defaults(reader, out));
-    PS_TRY(check_entries(reader, out));
-    return check_questions(reader, out);
+    PS_TRY(check_entries(file, out));
+    PS_TRY(take_defaults(file, out));
+    PS_TRY(check_entries(file, out));
+    return check_questions(file, out);
 }

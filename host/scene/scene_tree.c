@@ -11,7 +11,6 @@
 enum { MOST_DEPTH = 16, MOST_ANCHORS = 1000, MOST_KEYS = 1000 };
 
 typedef struct builder {
-    ps_scene *scene;
     ps_scene_file *file;
     int depth;
     int second_line;                     /* where a second document begins; 0: there is none */
@@ -41,8 +40,7 @@ static pspec_status note_anchor(builder *tree, const char *anchor, int line) {
                 "not YAML: found duplicate anchor; first occurrence, second occurrence");
         }
     }
-    return ps_scene_copy(tree->scene, "", anchor, &tree->anchors[tree->num_anchors++],
-                         tree->file->error);
+    return ps_scene_copy(tree->file, anchor, &tree->anchors[tree->num_anchors++]);
 }
 
 /* Puts a node at the end of what is open. */
@@ -64,12 +62,10 @@ static pspec_status make_node(builder *tree, const yaml_event_t *event, int line
                               ps_scene_node **out) {
     const bool is_text = event->type == YAML_SCALAR_EVENT;
     const size_t length = is_text ? event->data.scalar.length : 0;
-    void *memory = NULL;
-    PS_TRY(
-        ps_scene_allocate(tree->scene, 1, sizeof **out + length + 1, &memory, tree->file->error));
-    ps_scene_node *const node = *out = memory;
-    char *const text = (char *)(node + 1);
-    *node = (ps_scene_node){.kind = is_text                                    ? PS_NODE_TEXT
+    char *text = NULL;
+    PS_TRY(PS_SCENE_NEW(tree->file, out, 1));
+    PS_TRY(PS_SCENE_NEW(tree->file, &text, length + 1));
+    **out = (ps_scene_node){.kind = is_text                                    ? PS_NODE_TEXT
                                     : event->type == YAML_SEQUENCE_START_EVENT ? PS_NODE_LIST
                                                                                : PS_NODE_MAPPING,
                             .line = line,
@@ -131,8 +127,8 @@ static pspec_status take_event(builder *tree, const yaml_event_t *event) {
     }
 }
 
-pspec_status ps_scene_build(ps_scene *scene, ps_scene_file *file, yaml_parser_t *parser) {
-    builder tree = {.scene = scene, .file = file};
+pspec_status ps_scene_build(ps_scene_file *file, yaml_parser_t *parser) {
+    builder tree = {.file = file};
     for (bool is_over = false; !is_over;) {
         yaml_event_t event;
         if (!yaml_parser_parse(parser, &event)) {
