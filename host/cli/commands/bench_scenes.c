@@ -32,7 +32,8 @@ typedef struct comparison {
 static pspec_status answer(const ps_request *arguments, const ps_scene *scene, ps_run *out,
                            ps_error *error) {
     ps_shown shown = {.arguments = arguments, .counted = "realizations", .speaker = "pointspec"};
-    *out = (ps_run){.hooks = ps_shown_hooks(&shown), .arguments = arguments, .scene = scene};
+    *out = (ps_run){
+        .hooks = ps_shown_hooks(&shown), .arguments = arguments, .scene = scene, .folder = ""};
     PS_TRY(ps_run_ask(out, error));
     const pspec_status status = ps_run_answer(out, error);
     out->hooks = (ps_answer_hooks){0}; /* nobody hears any more */
@@ -48,11 +49,8 @@ static double seconds_of(const ps_run_result *result) {
 }
 
 static void keep_fastest(ps_run *run, const ps_run *other) {
-    for (size_t i = 0; i < run->num_results; i++) {
-        for (size_t q = 0; q < run->results[i].num; q++) {
-            double *const seconds = &run->results[i].questions[q].seconds;
-            *seconds = fmin(*seconds, other->results[i].questions[q].seconds);
-        }
+    for (size_t i = 0; i < run->num_questions; i++) {
+        run->questions[i].seconds = fmin(run->questions[i].seconds, other->questions[i].seconds);
     }
 }
 

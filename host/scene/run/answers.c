@@ -24,14 +24,14 @@ static pspec_status use_recorded(const ps_run *run, size_t number, ps_scene_ques
                          "former run");
 }
 
-static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, ps_error *error) {
-    ps_scene_question *const asked = &result->questions[number].asked;
+static pspec_status ask_one(ps_run *run, const ps_scene_result *result, size_t number,
+                            ps_run_question *question, ps_error *error) {
+    ps_scene_question *const asked = &question->asked;
     /* points that are kept would hide that this machine makes others */
     const bool is_repeated = run->scene->num_digests > 0;
-    pspec_status status = ps_scene_question_make(asked, result->asked, number, error);
-    result->num = number + 1;
+    pspec_status status = ps_scene_question_make(asked, result, number, error);
     if (status == PSPEC_OK) {
-        status = use_recorded(run, run->num_questions + number, asked, error);
+        status = use_recorded(run, (size_t)(question - run->questions), asked, error);
     }
     if (run->arguments->accuracy.no_skip) {
         asked->request.accuracy.no_skip = true;
@@ -40,27 +40,33 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
     asked->request.limits.cache_folder = run->arguments->limits.cache_folder;
     asked->request.limits.kept_bytes = is_repeated ? 0 : run->arguments->limits.kept_bytes;
     if (status == PSPEC_OK) {
-        status = result->asked->kind->check_question(&asked->request, error);
+        status = result->kind->check_question(&asked->request, error);
     }
-    return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result->asked, error);
+    return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result, error);
 }
 
 pspec_status ps_run_ask(ps_run *run, ps_error *error) {
+    size_t num = 0;
     PS_TRY(ps_scene_check_inputs(run->scene, error));
     PS_TRY(PS_NEW(&run->results, run->scene->num_results, "results", error));
     run->num_results = run->scene->num_results;
     for (size_t i = 0; i < run->num_results; i++) {
+        num += ps_scene_num_questions(&run->scene->results[i]);
+    }
+    PS_TRY(PS_NEW(&run->questions, num, "questions", error));
+    run->num_questions = num;
+    ps_run_question *next = run->questions;
+    for (size_t i = 0; i < run->num_results; i++) {
         ps_run_result *const result = &run->results[i];
         result->asked = &run->scene->results[i];
+        result->num = ps_scene_num_questions(result->asked);
+        result->questions = next;
         PS_TRY(ps_pictures_list(&result->pictures, result->asked, error));
-        const size_t num = ps_scene_num_questions(result->asked);
-        PS_TRY(PS_NEW(&result->questions, num, "questions", error));
-        for (size_t q = 0; q < num; q++) {
-            PS_TRY(ask_one(run, result, q, error));
+        for (size_t q = 0; q < result->num; q++) {
+            PS_TRY(ask_one(run, result->asked, q, next++, error));
         }
-        run->num_questions += num;
     }
-    return ps_run_files_list(&run->files, run, error);
+    return ps_run_list_files(run, error);
 }
 
 /* ---- one question ------------------------------------------------------------------------ */
@@ -91,13 +97,12 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
 }
 
 /* One device for all questions: its programs are built once. */
-pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
-                                const ps_run_question *question, ps_error *error) {
+pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question, ps_error *error) {
     const ps_plan_constraints *const constraints = &question->asked.request.limits.constraints;
     if (run->device == NULL) {
         run->device = run->hooks.device;
     }
-    if (run->device != NULL || result->asked->kind->is_of_host ||
+    if (run->device != NULL || question->asked.result->kind->is_of_host ||
         !ps_plan_may_need_device(constraints)) {
         return PSPEC_OK;
     }
@@ -106,49 +111,41 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
                                   run->arguments->limits.cache_folder, error);
 }
 
-static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
-                               ps_error *error) {
+static pspec_status answer_one(ps_run *run, ps_run_question *question, ps_error *error) {
     const double start = ps_clock_seconds();
-    PS_TRY(ps_run_fetch(run, question, &question->answer, &question->seconds, &question->is_cached,
-                        error));
+    PS_TRY(ps_run_fetch(run, question, error));
     if (!question->is_cached) {
-        PS_TRY(ps_run_open_device(run, result, question, error));
+        PS_TRY(ps_run_open_device(run, question, error));
         const ps_answer_hooks hooks = {.watch = run->hooks.watch, .device = run->device};
-        PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
-                              &hooks, error));
+        PS_TRY(ps_answer_make(&question->answer, question->asked.result->kind,
+                              &question->asked.request, &hooks, error));
         question->seconds = ps_clock_seconds() - start;
-        ps_run_keep(run, question, question->seconds);
+        ps_run_keep(run, question);
     }
     run->num_cached += question->is_cached;
     return digest(&question->answer, question->digest, error);
 }
 
-static pspec_status answer_result(ps_run *run, ps_run_result *result, size_t *done,
-                                  ps_error *error) {
-    for (size_t q = 0; q < result->num; q++) {
-        if (ps_answer_is_interrupted(&run->hooks)) {
-            return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %zu of %zu questions",
-                           *done, run->num_questions);
-        }
-        if (run->hooks.begin_question != NULL) {
-            run->hooks.begin_question(run->hooks.payload, result->asked->name, *done + 1,
-                                      run->num_questions);
-        }
-        if (answer_one(run, result, &result->questions[q], error) != PSPEC_OK) {
-            return ps_scene_blame(run->scene, result->asked, error);
-        }
-        ++*done;
+static pspec_status answer_next(ps_run *run, size_t i, ps_error *error) {
+    ps_run_question *const question = &run->questions[i];
+    const ps_scene_result *const result = question->asked.result;
+    if (ps_answer_is_interrupted(&run->hooks)) {
+        return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %zu of %zu questions", i,
+                       run->num_questions);
     }
-    return PSPEC_OK;
+    if (run->hooks.begin_question != NULL) {
+        run->hooks.begin_question(run->hooks.payload, result->name, i + 1, run->num_questions);
+    }
+    return answer_one(run, question, error) == PSPEC_OK ? PSPEC_OK
+                                                        : ps_scene_blame(run->scene, result, error);
 }
 
 pspec_status ps_run_answer(ps_run *run, ps_error *error) {
-    size_t done = 0;
     pspec_status status = PSPEC_OK;
     const double start = ps_clock_seconds();
     ps_answer_begin_next(&run->hooks);
-    for (size_t i = 0; status == PSPEC_OK && i < run->num_results; i++) {
-        status = answer_result(run, &run->results[i], &done, error);
+    for (size_t i = 0; status == PSPEC_OK && i < run->num_questions; i++) {
+        status = answer_next(run, i, error);
     }
     ps_answer_end(&run->hooks);
     run->seconds = ps_clock_seconds() - start;

@@ -117,48 +117,45 @@ void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
 static const char seconds_name[] = "seconds_taken";
 
 /* What another version may have put there is no answer: PSPEC_ERROR_INPUT. */
-static pspec_status read_answer(ps_answer *out, double *seconds, const ps_npz_file *file,
-                                ps_error *error) {
+static pspec_status read_answer(ps_run_question *out, const ps_npz_file *file, ps_error *error) {
     const ps_npz_array *const taken = ps_npz_find(file, seconds_name);
     if (taken == NULL || taken->kind != 'f' || taken->rank != 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s is no answer", ps_npz_name(file));
     }
-    memcpy(seconds, taken->data, sizeof *seconds);
-    return ps_table_take_npz(&out->table, file, error);
+    memcpy(&out->seconds, taken->data, sizeof out->seconds);
+    return ps_table_take_npz(&out->answer.table, file, error);
 }
 
-pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out, double *seconds,
-                          bool *is_found, ps_error *error) {
+pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_error *error) {
     const ps_text *const key = &question->key;
     ps_npz_file *file = NULL;
     ps_error reason = {0};
-    *is_found = false;
-    *out = (ps_answer){0};
     if (run->cache == NULL) {
         return PSPEC_OK;
     }
     PS_TRY(make_key(run, question, error));
     pspec_status status = ps_cache_find(run->cache, key->data, key->length, &file, &reason);
     if (file != NULL) {
-        status = read_answer(out, seconds, file, &reason);
+        status = read_answer(question, file, &reason);
     }
     if (status != PSPEC_OK) {
         ps_run_warn_of_cache(run, &reason);
     }
-    *is_found = out->table != NULL;
+    question->is_cached = question->answer.table != NULL;
     ps_npz_free(file);
     return PSPEC_OK;
 }
 
-static pspec_status write_answer(ps_cache *cache, ps_npz **npz, const ps_answer *answer,
-                                 double seconds, ps_error *error) {
-    const ps_npz_array taken = {seconds_name, 'f', sizeof seconds, 0, NULL, &seconds};
+static pspec_status write_answer(ps_cache *cache, ps_npz **npz, const ps_run_question *question,
+                                 ps_error *error) {
+    const double *const seconds = &question->seconds;
+    const ps_npz_array taken = {seconds_name, 'f', sizeof *seconds, 0, NULL, seconds};
     PS_TRY(ps_npz_add(*npz, &taken, error));
-    PS_TRY(ps_table_add_to_npz(answer->table, *npz, error));
+    PS_TRY(ps_table_add_to_npz(question->answer.table, *npz, error));
     return ps_cache_end(cache, npz, error);
 }
 
-void ps_run_keep(ps_run *run, const ps_run_question *question, double seconds) {
+void ps_run_keep(ps_run *run, const ps_run_question *question) {
     const ps_text *const key = &question->key;
     ps_npz *npz = NULL;
     ps_error reason = {0};
@@ -167,7 +164,7 @@ void ps_run_keep(ps_run *run, const ps_run_question *question, double seconds) {
     }
     pspec_status status = ps_cache_begin(run->cache, key->data, key->length, &npz, &reason);
     if (status == PSPEC_OK) {
-        status = write_answer(run->cache, &npz, &question->answer, seconds, &reason);
+        status = write_answer(run->cache, &npz, question, &reason);
     }
     ps_npz_discard(&npz);
     if (status != PSPEC_OK) {

@@ -1,53 +1,43 @@
-#include "scene/run/files.h"
-
+/* The files of a run: the one list by which they are known before the work, and written. */
 #include "base/memory.h"
 #include "scene/run/run.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char ps_run_table_ending[] = ".csv";
-const char ps_run_summary_ending[] = ".summary.csv";
-const char ps_run_picture_ending[] = ".svg";
-const char ps_run_array_ending[] = ".npy";
 const char ps_run_record_name[] = "record.json";
-const char ps_run_page_name[] = "index.html";
 
-ps_array_suffix ps_run_array_suffix(size_t question) {
-    ps_array_suffix out;
-    snprintf(out.text, sizeof out.text, "-array-%zu", question + 1);
-    return out;
-}
-
-static pspec_status add(ps_run_files *files, const ps_scene_result *result, const char *name,
-                        const char *suffix, const char *ending, ps_error *error) {
-    ps_text text = {0};
+static pspec_status add(ps_run *run, ps_run_file file, const char *name, const char *suffix,
+                        const char *ending, ps_error *error) {
+    ps_run_files *const files = &run->files;
+    ps_text path = {0};
     void *all = files->all;
     PS_TRY(ps_grow(&all, &files->capacity, files->num + 1, sizeof *files->all, "files", error));
     files->all = all;
-    ps_text_append(&text, "%s%s%s", name, suffix, ending);
-    const pspec_status status = ps_text_check(&text, error);
-    if (status != PSPEC_OK) {
-        ps_text_free(&text);
-        return status;
-    }
-    files->all[files->num++] = (ps_run_file){.name = text.data, .result = result};
+    ps_text_append(&path, "%s/%s%s%s", run->folder, name, suffix, ending);
+    PS_TRY(ps_text_keep(&file.path, &files->memory, &path, error));
+    file.name = file.path + strlen(run->folder) + 1;
+    files->all[files->num++] = file;
     return PSPEC_OK;
 }
 
-static pspec_status add_result(ps_run_files *files, const ps_run_result *result, ps_error *error) {
+static pspec_status add_result(ps_run *run, const ps_run_result *result, ps_error *error) {
     const ps_scene_result *const asked = result->asked;
-    PS_TRY(add(files, asked, asked->name, "", ps_run_table_ending, error));
-    PS_TRY(add(files, asked, asked->name, "", ps_run_summary_ending, error));
-    for (size_t q = 0; asked->wants_arrays && q < result->num; q++) {
-        PS_TRY(add(files, asked, asked->name, ps_run_array_suffix(q).text, ps_run_array_ending,
-                   error));
+    ps_run_file file = {.result = result, .part = PS_RUN_TABLE};
+    PS_TRY(add(run, file, asked->name, "", ".csv", error));
+    file.part = PS_RUN_SUMMARY;
+    PS_TRY(add(run, file, asked->name, "", ".summary.csv", error));
+    file.part = PS_RUN_ARRAY;
+    for (file.index = 0; asked->wants_arrays && file.index < result->num; file.index++) {
+        char suffix[32];
+        snprintf(suffix, sizeof suffix, "-array-%zu", file.index + 1);
+        PS_TRY(add(run, file, asked->name, suffix, ".npy", error));
     }
-    for (size_t i = 0; i < result->pictures.num; i++) {
-        PS_TRY(add(files, asked, asked->name, result->pictures.all[i].suffix, ps_run_picture_ending,
-                   error));
+    file.part = PS_RUN_PICTURE;
+    for (file.index = 0; file.index < result->pictures.num; file.index++) {
+        const char *const suffix = result->pictures.all[file.index].suffix;
+        PS_TRY(add(run, file, asked->name, suffix, ".svg", error));
     }
     return PSPEC_OK;
 }
@@ -56,45 +46,44 @@ static int compare_names(const void *a, const void *b) {
     return strcmp(((const ps_run_file *)a)->name, ((const ps_run_file *)b)->name);
 }
 
+static int line_of(const ps_run_file *file) {
+    return file->result != NULL ? file->result->asked->line : 0;
+}
+
+static const char *owner_of(const ps_run_file *file) {
+    return file->result != NULL ? file->result->asked->name : "the run";
+}
+
 static pspec_status complain(const ps_run *run, const ps_run_file *one, const ps_run_file *other,
                              ps_error *error) {
-    const bool is_first =
-        other->result == NULL || (one->result != NULL && one->result->line > other->result->line);
+    const bool is_first = line_of(one) > line_of(other);
     const ps_run_file *const late = is_first ? one : other;
     const ps_run_file *const early = is_first ? other : one;
     return ps_fail(error, PSPEC_ERROR_INPUT,
                    "%s:%d: name: \"%s\" and \"%s\" would write the same file %s; another name "
                    "for one of them keeps them apart",
-                   run->scene->path, late->result != NULL ? late->result->line : 0,
-                   early->result != NULL ? early->result->name : "the run",
-                   late->result != NULL ? late->result->name : "the run", late->name);
+                   run->scene->path, line_of(late), owner_of(early), owner_of(late), late->name);
 }
 
-pspec_status ps_run_files_list(ps_run_files *out, const ps_run *run, ps_error *error) {
-    PS_TRY(add(out, NULL, ps_run_record_name, "", "", error));
-    PS_TRY(add(out, NULL, ps_run_page_name, "", "", error));
+pspec_status ps_run_list_files(ps_run *run, ps_error *error) {
+    ps_run_files *const files = &run->files;
+    PS_TRY(add(run, (ps_run_file){.part = PS_RUN_RECORD}, ps_run_record_name, "", "", error));
+    PS_TRY(add(run, (ps_run_file){.part = PS_RUN_PAGE}, "index.html", "", "", error));
     for (size_t i = 0; i < run->num_results; i++) {
-        PS_TRY(add_result(out, &run->results[i], error));
+        PS_TRY(add_result(run, &run->results[i], error));
     }
-    qsort(out->all, out->num, sizeof *out->all, compare_names);
-    for (size_t i = 1; i < out->num; i++) {
-        if (compare_names(&out->all[i - 1], &out->all[i]) == 0) {
-            return complain(run, &out->all[i - 1], &out->all[i], error);
+    qsort(files->all, files->num, sizeof *files->all, compare_names);
+    for (size_t i = 1; i < files->num; i++) {
+        if (compare_names(&files->all[i - 1], &files->all[i]) == 0) {
+            return complain(run, &files->all[i - 1], &files->all[i], error);
         }
     }
     return PSPEC_OK;
 }
 
-void ps_run_files_free(ps_run_files *files) {
-    for (size_t i = 0; i < files->num; i++) {
-        free(files->all[i].name);
-    }
-    free(files->all);
-    *files = (ps_run_files){0};
-}
-
-ps_run_file *ps_run_files_find(const ps_run_files *files, const char *name) {
-    const ps_run_file wanted = {.name = (char *)(uintptr_t)name};
+ps_run_file *ps_run_find_file(const ps_run *run, const char *name) {
+    const ps_run_file wanted = {.name = name};
+    const ps_run_files *const files = &run->files;
     return files->num > 0
                ? bsearch(&wanted, files->all, files->num, sizeof *files->all, compare_names)
                : NULL;

@@ -1,5 +1,5 @@
 /* The folder that results go to. */
-#include "scene/run/files.h"
+#include "scene/run/run.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -65,10 +65,10 @@ static pspec_status check_parent(const char *path, ps_error *error) {
     return status;
 }
 
-pspec_status ps_run_check_folder(const char *path, ps_error *error) {
+pspec_status ps_run_check_folder(const ps_run *run, ps_error *error) {
+    const char *const path = run->folder;
     struct stat facts;
     bool is_empty = false;
-    ps_text record = {0};
     if (stat(path, &facts) != 0) {
         return errno == ENOENT ? check_parent(path, error)
                                : ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path,
@@ -78,18 +78,12 @@ pspec_status ps_run_check_folder(const char *path, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "\"%s\" is no folder; -o FOLDER says where results go", path);
     }
-    ps_text_append(&record, "%s/%s", path, ps_run_record_name);
-    pspec_status status = ps_text_check(&record, error);
-    const bool has_record = status == PSPEC_OK && access(ps_text_string(&record), F_OK) == 0;
-    ps_text_free(&record);
-    if (status == PSPEC_OK && !has_record) {
-        status = is_empty_folder(path, &is_empty, error);
+    const bool has_record = access(ps_run_find_file(run, ps_run_record_name)->path, F_OK) == 0;
+    if (!has_record) {
+        PS_TRY(is_empty_folder(path, &is_empty, error));
     }
-    if (status == PSPEC_OK && (has_record || is_empty)) {
-        return check_writable(path, path, error);
-    }
-    return status != PSPEC_OK
-               ? status
+    return has_record || is_empty
+               ? check_writable(path, path, error)
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "the folder \"%s\" has files that are not of a run; -o FOLDER says where "
                          "results go",

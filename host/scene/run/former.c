@@ -64,21 +64,14 @@ static pspec_status fail_unless_missing(const char *path, ps_error *error) {
                : ps_fail(error, PSPEC_ERROR_IO, "cannot look at \"%s\": %s", path, strerror(errno));
 }
 
-static pspec_status refuse_foreign(const ps_run *run, const ps_run_file *file, ps_error *error) {
+static pspec_status refuse_foreign(const ps_run_file *file, ps_error *error) {
     struct stat facts;
-    ps_text path = {0};
-    ps_text_append(&path, "%s/%s", run->folder, file->name);
-    pspec_status status = ps_text_check(&path, error);
-    if (status == PSPEC_OK && lstat(ps_text_string(&path), &facts) == 0) {
-        status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+    return lstat(file->path, &facts) != 0
+               ? fail_unless_missing(file->path, error)
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "\"%s\" would be written over, but is not of the former run by its "
                          "record.json; move it away, or say another folder by -o FOLDER",
-                         ps_text_string(&path));
-    } else if (status == PSPEC_OK) {
-        status = fail_unless_missing(ps_text_string(&path), error);
-    }
-    ps_text_free(&path);
-    return status;
+                         file->path);
 }
 
 /* What is no record says nothing about files: the folder is that of a run all the same. */
@@ -109,20 +102,15 @@ static pspec_status refuse_written_input(const ps_run *run, const ps_run_file *f
                                          ps_error *error) {
     struct stat facts;
     bool is_read = false;
-    ps_text path = {0};
-    ps_text_append(&path, "%s/%s", run->folder, file->name);
-    pspec_status status = ps_text_check(&path, error);
-    if (status == PSPEC_OK && stat(ps_text_string(&path), &facts) == 0) {
-        status = is_input(run, &facts, &is_read, error);
+    if (stat(file->path, &facts) == 0) {
+        PS_TRY(is_input(run, &facts, &is_read, error));
     }
-    if (status == PSPEC_OK && is_read) {
-        status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+    return !is_read
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "\"%s\" is read by the scene and would be written over; another name of "
                          "the result or another folder by -o FOLDER keeps it",
-                         ps_text_string(&path));
-    }
-    ps_text_free(&path);
-    return status;
+                         file->path);
 }
 
 /* Record and page are the run's own: a record may be run again into its folder. */
@@ -136,20 +124,14 @@ pspec_status ps_run_check_inputs(const ps_run *run, ps_error *error) {
 }
 
 pspec_status ps_run_read_former(ps_run *run, ps_error *error) {
-    ps_text path = {0};
-    ps_text_append(&path, "%s/%s", run->folder, ps_run_record_name);
-    pspec_status status = ps_text_check(&path, error);
-    if (status == PSPEC_OK) {
-        status = read_record(run, ps_text_string(&path), error);
-    }
-    ps_text_free(&path);
-    for (size_t i = 0; status == PSPEC_OK && run->former.num_files > 0 && i < run->files.num; i++) {
+    PS_TRY(read_record(run, ps_run_find_file(run, ps_run_record_name)->path, error));
+    for (size_t i = 0; run->former.num_files > 0 && i < run->files.num; i++) {
         const ps_run_file *const file = &run->files.all[i];
-        if (strcmp(file->name, ps_run_record_name) != 0 && find_former(run, file->name) == NULL) {
-            status = refuse_foreign(run, file, error);
+        if (file->part != PS_RUN_RECORD && find_former(run, file->name) == NULL) {
+            PS_TRY(refuse_foreign(file, error));
         }
     }
-    return status;
+    return PSPEC_OK;
 }
 
 /* ---- after the work ---------------------------------------------------------------------- */
@@ -193,7 +175,7 @@ pspec_status ps_run_remove_former(const ps_run *run, ps_error *error) {
     for (size_t i = 0; status == PSPEC_OK && i < run->former.num_files; i++) {
         const char *const entry = run->former.files[i];
         const char *const name = name_in(entry);
-        const ps_run_file *const ours = name != NULL ? ps_run_files_find(&run->files, name) : NULL;
+        const ps_run_file *const ours = name != NULL ? ps_run_find_file(run, name) : NULL;
         if (name == NULL || strcmp(name, ps_run_record_name) == 0 ||
             (ours != NULL && ours->is_written)) {
             continue;
@@ -226,7 +208,7 @@ void ps_run_print_files(const ps_run *run, ps_text *out) {
         const ps_run_file *const file = &run->files.all[i];
         const bool is_due =
             run->is_written ? file->is_written : find_former(run, file->name) == NULL;
-        if (is_due && strcmp(file->name, ps_run_record_name) != 0) {
+        if (is_due && file->part != PS_RUN_RECORD) {
             print_entry(file->digest[0] != '\0' ? file->digest : unfinished, file->name, &is_first,
                         out);
         }

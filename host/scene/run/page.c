@@ -236,9 +236,9 @@ static void print_result(const ps_run_result *result, ps_text *out) {
                    "<a href=\"%s.summary.csv\">%s.summary.csv</a>",
                    asked->kind->name, asked->name, asked->name, asked->name, asked->name);
     if (asked->wants_arrays) {
-        ps_text_append(out, "; arrays %s%s%s to %s%s%s, in the order of the summary", asked->name,
-                       ps_run_array_suffix(0).text, ps_run_array_ending, asked->name,
-                       ps_run_array_suffix(result->num - 1).text, ps_run_array_ending);
+        ps_text_append(out,
+                       "; arrays %s-array-1.npy to %s-array-%zu.npy, in the order of the summary",
+                       asked->name, asked->name, result->num);
     }
     ps_text_append(out, "</p>\n");
     print_plots(result, out);
@@ -255,16 +255,9 @@ static void print_result(const ps_run_result *result, ps_text *out) {
 /* ---- the page ---------------------------------------------------------------------------- */
 
 static void print_facts(const ps_run *run, ps_text *out) {
-    const ps_run_question *slowest = NULL;
-    const ps_run_result *slowest_result = NULL;
-    for (size_t i = 0; i < run->num_results; i++) {
-        for (size_t q = 0; q < run->results[i].num; q++) {
-            const ps_run_question *const question = &run->results[i].questions[q];
-            if (slowest == NULL || question->seconds > slowest->seconds) {
-                slowest = question;
-                slowest_result = &run->results[i];
-            }
-        }
+    const ps_run_question *slowest = &run->questions[0];
+    for (size_t i = 1; i < run->num_questions; i++) {
+        slowest = run->questions[i].seconds > slowest->seconds ? &run->questions[i] : slowest;
     }
     ps_text_append(out,
                    "<p class=\"facts\">pointspec %s; %zu result%s, %zu question%s, %zu from the "
@@ -272,11 +265,8 @@ static void print_facts(const ps_run *run, ps_text *out) {
                    PS_VERSION, run->num_results, run->num_results == 1 ? "" : "s",
                    run->num_questions, run->num_questions == 1 ? "" : "s", run->num_cached);
     print_seconds(run->seconds, out);
-    if (slowest != NULL) {
-        ps_text_append(out, ", of which the slowest question (%s) took ",
-                       slowest_result->asked->name);
-        print_seconds(slowest->seconds, out);
-    }
+    ps_text_append(out, ", of which the slowest question (%s) took ", slowest->asked.result->name);
+    print_seconds(slowest->seconds, out);
     ps_text_append(out, "; <a href=\"record.json\">record.json</a> repeats it: <code>pointspec run "
                         "record.json</code></p>\n");
 }

@@ -4,27 +4,24 @@
 
 #include <stdio.h>
 
-static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t number,
-                              ps_planner *planner, ps_error *error) {
+static pspec_status add_block(ps_run *run, ps_run_question *question, ps_planner *planner,
+                              ps_error *error) {
     enum { JOB = 128 };
+    const ps_scene_result *const result = question->asked.result;
     ps_table *const table = planner->table;
     char job[JOB];
-    ps_answer answer = {0};
-    double seconds = 0;
-    bool is_cached = false;
-    ps_run_question *const question = &result->questions[number];
-    snprintf(job, sizeof job, "%s:%zu", result->asked->name, number + 1);
+    snprintf(job, sizeof job, "%s:%zu", result->name, question->asked.number + 1);
     PS_TRY(ps_table_add_meta(table, "job", PS_TEXT(job), error));
     PS_TRY(
         ps_table_add_meta(table, "question", PS_TEXT(question->asked.request.command_line), error));
-    PS_TRY(ps_run_fetch(run, question, &answer, &seconds, &is_cached, error));
-    ps_answer_free(&answer);
-    if (is_cached) {
+    PS_TRY(ps_run_fetch(run, question, error));
+    ps_answer_free(&question->answer);
+    if (question->is_cached) {
         planner->lead = ps_plan_table_lead(job);
         return ps_plan_table_add_cached(planner, error);
     }
     if (!run->lacks_device) {
-        const pspec_status status = ps_run_open_device(run, result, question, error);
+        const pspec_status status = ps_run_open_device(run, question, error);
         run->lacks_device = status == PSPEC_ERROR_NO_DEVICE;
         if (status != PSPEC_OK && !run->lacks_device) {
             return status;
@@ -32,7 +29,7 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     }
     planner->lead = ps_plan_table_lead(job);
     planner->device = run->device;
-    return result->asked->kind->plan(planner, &question->asked.request, error);
+    return result->kind->plan(planner, &question->asked.request, error);
 }
 
 /* Pictures of all results are drawn; those that are in the cache take no time. */
@@ -53,12 +50,10 @@ static pspec_status add_pictures(const ps_run *run, ps_planner *planner, ps_erro
 static pspec_status add_blocks(ps_run *run, ps_planner *planner, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_open_cache(run, error));
-    for (size_t i = 0; i < run->num_results; i++) {
-        const ps_run_result *const result = &run->results[i];
-        for (size_t q = 0; q < result->num; q++) {
-            if (add_block(run, result, q, planner, error) != PSPEC_OK) {
-                return ps_scene_blame(run->scene, result->asked, error);
-            }
+    for (size_t i = 0; i < run->num_questions; i++) {
+        ps_run_question *const question = &run->questions[i];
+        if (add_block(run, question, planner, error) != PSPEC_OK) {
+            return ps_scene_blame(run->scene, question->asked.result, error);
         }
     }
     return add_pictures(run, planner, error);
@@ -71,7 +66,7 @@ pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments, ps_er
                        "one scene is planned at a time, but %zu files were named",
                        arguments->num_files);
     }
-    ps_run run = {.hooks = *planner->hooks, .arguments = arguments, .scene = &scene};
+    ps_run run = {.hooks = *planner->hooks, .arguments = arguments, .scene = &scene, .folder = ""};
     pspec_status status = ps_run_read_scene(&scene, arguments, error);
     if (status == PSPEC_OK) {
         status = add_blocks(&run, planner, error);

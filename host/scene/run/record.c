@@ -70,17 +70,12 @@ static void print_question(const ps_run_question *question, ps_text *out) {
 
 /* What a question was answered with, for each in their order. */
 static void print_all(const ps_run *run, bool are_digests, ps_text *out) {
-    bool is_first = true;
-    for (size_t i = 0; i < run->num_results; i++) {
-        for (size_t q = 0; q < run->results[i].num; q++) {
-            const ps_run_question *const question = &run->results[i].questions[q];
-            ps_text_append(out, "%s", is_first ? "" : ",");
-            if (are_digests) {
-                ps_text_append(out, "\n      \"%s\"", question->digest);
-            } else {
-                print_question(question, out);
-            }
-            is_first = false;
+    for (size_t i = 0; i < run->num_questions; i++) {
+        ps_text_append(out, "%s", i > 0 ? "," : "");
+        if (are_digests) {
+            ps_text_append(out, "\n      \"%s\"", run->questions[i].digest);
+        } else {
+            print_question(&run->questions[i], out);
         }
     }
 }

@@ -36,7 +36,7 @@ static void warn_of_gnuplot(const ps_run *run) {
 pspec_status ps_run_prepare(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_check_inputs(run, error));
-    PS_TRY(ps_run_check_folder(run->folder, error));
+    PS_TRY(ps_run_check_folder(run, error));
     PS_TRY(ps_run_read_former(run, error));
     PS_TRY(ps_run_open_cache(run, error));
     warn_of_gnuplot(run);
@@ -46,16 +46,10 @@ pspec_status ps_run_prepare(ps_run *run, ps_error *error) {
 /* ---- end --------------------------------------------------------------------------------- */
 
 static void free_result(ps_run_result *result) {
-    for (size_t q = 0; q < result->num; q++) {
-        ps_scene_question_free(&result->questions[q].asked);
-        ps_answer_free(&result->questions[q].answer);
-        ps_text_free(&result->questions[q].key);
-    }
     for (size_t p = 0; p < result->num_plots; p++) {
         free(result->plots[p].svg);
         free(result->plots[p].reason);
     }
-    free(result->questions);
     free(result->plots);
     ps_pictures_free(&result->pictures);
     ps_table_destroy(result->table);
@@ -66,8 +60,15 @@ void ps_run_free(ps_run *run) {
     for (size_t i = 0; i < run->num_results; i++) {
         free_result(&run->results[i]);
     }
+    for (size_t i = 0; i < run->num_questions; i++) {
+        ps_scene_question_free(&run->questions[i].asked);
+        ps_answer_free(&run->questions[i].answer);
+        ps_text_free(&run->questions[i].key);
+    }
     free(run->results);
-    ps_run_files_free(&run->files);
+    free(run->questions);
+    free(run->files.all);
+    ps_pool_free(&run->files.memory);
     ps_scene_free(&run->former);
     ps_cache_close(run->cache);
     if (run->owns_device) {

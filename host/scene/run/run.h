@@ -13,7 +13,7 @@
  *     folder.c     the folder for them; former.c: files of the former run in it
  *     write.c      the files
  *     verdict.c    what it comes to
- *     plan.c       what it would do
+ *     plan_blocks.c  what it would do
  */
 #ifndef PS_SCENE_RUN_RUN_H
 #define PS_SCENE_RUN_RUN_H
@@ -21,7 +21,6 @@
 #include "answers/kind.h"
 #include "device/kind.h"
 #include "files/digest.h"
-#include "scene/run/files.h"
 #include "scene/run/pictures.h"
 #include "scene/scene.h"
 #include "store/result_cache.h"
@@ -44,18 +43,44 @@ typedef struct ps_run_plot {
 typedef struct ps_run_result {
     const ps_scene_result *asked;
     size_t num;
-    ps_run_question *questions;
-    ps_table *table, *summary; /* the summary has a row for each question */
-    ps_pictures pictures;      /* that may come of it */
+    ps_run_question *questions; /* [num] of those of the run */
+    ps_table *table, *summary;  /* the summary has a row for each question */
+    ps_pictures pictures;       /* that may come of it */
     size_t num_plots, plot_capacity;
     ps_run_plot *plots;
 } ps_run_result;
+
+/* What a file of the folder is. */
+typedef enum ps_run_part {
+    PS_RUN_RECORD,
+    PS_RUN_PAGE,
+    PS_RUN_TABLE,
+    PS_RUN_SUMMARY,
+    PS_RUN_ARRAY,
+    PS_RUN_PICTURE
+} ps_run_part;
+
+typedef struct ps_run_file {
+    const char *path, *name;     /* name: its end, behind the folder */
+    const ps_run_result *result; /* whose it is; NULL: the run's */
+    ps_run_part part;
+    size_t index; /* of the question, or the picture, in the result */
+    bool is_written;
+    char digest[PS_DIGEST_BYTES]; /* of what was written; "" where that is not known */
+} ps_run_file;
+
+/* All files that a run may write, known before the work. */
+typedef struct ps_run_files {
+    size_t num, capacity;
+    ps_run_file *all; /* sorted by name */
+    ps_pool memory;   /* of their paths */
+} ps_run_files;
 
 typedef struct ps_run {
     ps_answer_hooks hooks; /* the watch hears of the work for each question */
     const ps_request *arguments;
     const ps_scene *scene;
-    const char *folder;  /* for the results */
+    const char *folder;  /* for the results; "": none is made */
     ps_cache *cache;     /* NULL: none */
     ps_text identity;    /* of program and device, for the keys of the cache */
     ps_device_kind kind; /* of the device */
@@ -63,7 +88,8 @@ typedef struct ps_run {
     bool owns_device;
     bool lacks_device; /* a plan that goes on without */
     size_t num_results, num_questions, num_cached;
-    double seconds; /* of this run */
+    ps_run_question *questions; /* of the results, one after the other */
+    double seconds;             /* of this run */
     size_t num_undrawn;
     ps_error undrawn; /* why the first picture that was not drawn was not */
     ps_run_result *results;
@@ -99,17 +125,15 @@ pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* The device of all questions: its programs are built once. None where the question needs none. */
-pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
-                                const ps_run_question *question, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question,
+                                ps_error *error) PS_MUST_CHECK;
 /* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache
  * that cannot be had is no error, but a warning. */
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Keeps the answer under the key that ps_run_fetch made of the inputs before it was computed. */
-void ps_run_keep(ps_run *run, const ps_run_question *question, double seconds);
-/* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it
- * took. */
-pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out, double *seconds,
-                          bool *is_found, ps_error *error) PS_MUST_CHECK;
+void ps_run_keep(ps_run *run, const ps_run_question *question);
+/* Takes the answer, and the seconds that computing it took, from the cache, if they are there. */
+pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_error *error) PS_MUST_CHECK;
 /* What is wrong with the cache keeps nobody from computing: it is told once, and forgotten. */
 void ps_run_warn_of_cache(const ps_run *run, ps_error *reason);
 void ps_run_free(ps_run *run);
@@ -124,6 +148,39 @@ pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) PS_
 /* A row for each result: how many questions, how many from the cache, seconds. *out is also to be
  * destroyed after an error. */
 pspec_status ps_run_overview(ps_table **out, const ps_run *run, ps_error *error) PS_MUST_CHECK;
+
+/* All files that the run may write, into run->files. Two results that want the same one are
+ * PSPEC_ERROR_INPUT, with the line of one. */
+pspec_status ps_run_list_files(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* NULL: there is none of that name. */
+ps_run_file *ps_run_find_file(const ps_run *run, const char *name);
+extern const char ps_run_record_name[];
+
+/* ---- the folder: folder.c ---------------------------------------------------------------- */
+
+/* The folder for a scene where none is named: the scene's name without its folder and ending. */
+void ps_run_name_folder(const char *scene, ps_text *out);
+/* A folder of an earlier run is written over; one with anything else in it is somebody's. Whether
+ * files can be made there is found out before the work, which may be long. */
+pspec_status ps_run_check_folder(const ps_run *run, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_make_folder(const char *path, ps_error *error) PS_MUST_CHECK;
+
+/* ---- the former run in the folder: former.c ------------------------------------------ */
+
+/* Reads its record, if there is one, and refuses to write over a file that it does not name:
+ * somebody's own. A record that is no record, or of a version that named no files, says nothing. */
+pspec_status ps_run_read_former(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Refuses to write over a file that the scene reads, whatever its names are. */
+pspec_status ps_run_check_inputs(const ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Removes what the former run wrote and this one did not: plain names in the folder, regular files
+ * that have the bytes of then and that the scene does not read. Warns of what went, and what stayed
+ * because it changed. */
+pspec_status ps_run_remove_former(const ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* The files of the record, each as a JSON text: at the end those that were written, before it those
+ * that may be there, so that the run after one that was interrupted knows them. */
+void ps_run_print_files(const ps_run *run, ps_text *out);
+
+/* ---- words and plans ------------------------------------------------------------------------- */
 
 /* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing
  * does. */

@@ -296,17 +296,12 @@ static pspec_status add_result(ps_table *table, const ps_run_result *result, ps_
 
 pspec_status ps_run_overview(ps_table **out, const ps_run *run, ps_error *error) {
     static const char *const columns[] = {"result", "kind", "questions", "cached", "seconds"};
-    ps_text page = {0};
-    pspec_status status = PSPEC_OK;
+    const char *const page = ps_run_find_file(run, "index.html")->path;
     PS_TRY(ps_table_create(out, "run", columns, sizeof columns / sizeof columns[0], error));
-    ps_text_append(&page, "%s/index.html", run->folder);
-    PS_TRY_OUT(status, ps_text_check(&page, error));
-    PS_TRY_OUT(status, ps_table_add_meta(*out, "page", PS_TEXT(ps_text_string(&page)), error));
-    PS_TRY_OUT(status, ps_table_add_meta(*out, "seconds", PS_NUMBER(run->seconds), error));
+    PS_TRY(ps_table_add_meta(*out, "page", PS_TEXT(page), error));
+    PS_TRY(ps_table_add_meta(*out, "seconds", PS_NUMBER(run->seconds), error));
     for (size_t i = 0; i < run->num_results; i++) {
-        PS_TRY_OUT(status, add_result(*out, &run->results[i], error));
+        PS_TRY(add_result(*out, &run->results[i], error));
     }
-out:
-    ps_text_free(&page);
-    return status;
+    return PSPEC_OK;
 }

@@ -20,7 +20,7 @@ static void say_what_differs(const ps_run *run, ps_text *out) {
     }
 }
 
-static pspec_status fail_digest(const ps_run *run, const ps_run_result *result, size_t question,
+static pspec_status fail_digest(const ps_run *run, const ps_scene_question *asked,
                                 ps_error *error) {
     ps_text differs = {0};
     say_what_differs(run, &differs);
@@ -28,8 +28,8 @@ static pspec_status fail_digest(const ps_run *run, const ps_run_result *result, 
     if (status == PSPEC_OK) {
         status = ps_fail(error, PSPEC_ERROR_CHECK,
                          "question %zu of result %s has other bits than the record, %s: %s",
-                         question + 1, result->asked->name, ps_text_string(&differs),
-                         result->questions[question].asked.request.command_line);
+                         asked->number + 1, asked->result->name, ps_text_string(&differs),
+                         asked->request.command_line);
     }
     ps_text_free(&differs);
     return status;
@@ -37,42 +37,34 @@ static pspec_status fail_digest(const ps_run *run, const ps_run_result *result, 
 
 static pspec_status compare_with_record(const ps_run *run, ps_error *error) {
     const ps_scene *const scene = run->scene;
-    size_t number = 0;
     if (scene->num_digests == 0) {
         return PSPEC_OK;
     }
-    for (size_t i = 0; i < run->num_results; i++) {
-        const ps_run_result *const result = &run->results[i];
-        for (size_t q = 0; q < result->num; q++, number++) {
-            if (number >= scene->num_digests ||
-                strcmp(scene->digests[number], result->questions[q].digest) != 0) {
-                return fail_digest(run, result, q, error);
-            }
+    for (size_t i = 0; i < run->num_questions; i++) {
+        if (i >= scene->num_digests || strcmp(scene->digests[i], run->questions[i].digest) != 0) {
+            return fail_digest(run, &run->questions[i].asked, error);
         }
     }
-    return number == scene->num_digests
+    return run->num_questions == scene->num_digests
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_CHECK,
                          "the record is of %zu questions, but its scene asks %zu",
-                         scene->num_digests, number);
+                         scene->num_digests, run->num_questions);
 }
 
 /* Answers with another verdict than "same": the first of all, and how many ask which question. */
 typedef struct differences {
     size_t num_spectra, num_homogeneous;
     const ps_run_question *first;
-    const ps_run_result *first_result;
 } differences;
 
-static void add_difference(differences *found, const ps_run_result *result,
-                           const ps_run_question *question) {
+static void add_difference(differences *found, const ps_run_question *question) {
     const ps_cell verdict = ps_table_find_meta(question->answer.table, "verdict");
     if (verdict.kind != PS_CELL_TEXT || strcmp(verdict.text, "different") != 0) {
         return;
     }
     if (found->first == NULL) {
         found->first = question;
-        found->first_result = result;
     }
     if (question->asked.request.homogeneous) {
         found->num_homogeneous++;
@@ -98,15 +90,13 @@ static void describe_differences(const differences *found, ps_text *out) {
     ps_text_append(out, ": %s %s in %s (%s)",
                    different.kind == PS_CELL_TEXT ? different.text : "some",
                    found->first->asked.request.homogeneous ? "are not uniform" : "differ",
-                   found->first_result->asked->name, found->first->asked.request.command_line);
+                   found->first->asked.result->name, found->first->asked.request.command_line);
 }
 
 static pspec_status find_differences(const ps_run *run, ps_error *error) {
     differences found = {0};
-    for (size_t i = 0; i < run->num_results; i++) {
-        for (size_t q = 0; q < run->results[i].num; q++) {
-            add_difference(&found, &run->results[i], &run->results[i].questions[q]);
-        }
+    for (size_t i = 0; i < run->num_questions; i++) {
+        add_difference(&found, &run->questions[i]);
     }
     if (found.first == NULL) {
         return PSPEC_OK;
@@ -123,15 +113,12 @@ static pspec_status find_differences(const ps_run *run, ps_error *error) {
 
 /* The first variance whose cut-off leaves more open than was asked. */
 static pspec_status find_missed_tail(const ps_run *run, ps_error *error) {
-    for (size_t i = 0; i < run->num_results; i++) {
-        const ps_run_result *const result = &run->results[i];
-        for (size_t q = 0; q < result->num; q++) {
-            const ps_cell verdict =
-                ps_table_find_meta(result->questions[q].answer.table, "tail_verdict");
-            if (verdict.kind == PS_CELL_TEXT && strcmp(verdict.text, "reached") != 0) {
-                return ps_fail(error, PSPEC_ERROR_CHECK, "%s: %s", result->asked->name,
-                               verdict.text);
-            }
+    for (size_t i = 0; i < run->num_questions; i++) {
+        const ps_run_question *const question = &run->questions[i];
+        const ps_cell verdict = ps_table_find_meta(question->answer.table, "tail_verdict");
+        if (verdict.kind == PS_CELL_TEXT && strcmp(verdict.text, "reached") != 0) {
+            return ps_fail(error, PSPEC_ERROR_CHECK, "%s: %s", question->asked.result->name,
+                           verdict.text);
         }
     }
     return PSPEC_OK;

@@ -2,112 +2,86 @@
 #include "files/output_file.h"
 #include "scene/run/run.h"
 
-#include <stdio.h>
 #include <string.h>
 
-/* A file that cannot be read back is of the run all the same, but no later run removes it. */
-static void note_written(const ps_run *run, const char *path) {
-    ps_error ignored = {0};
-    ps_run_file *const file = ps_run_files_find(&run->files, strrchr(path, '/') + 1);
-    if (file != NULL) {
-        file->is_written = true;
-        if (ps_digest_file(path, file->digest, &ignored) != PSPEC_OK) {
-            file->digest[0] = '\0';
-        }
-    }
-}
-
-static pspec_status write_file(const ps_run *run, const char *name, const char *ending,
-                               const char *bytes, size_t num, ps_error *error) {
-    ps_text path = {0};
+static pspec_status write_bytes(const char *path, const char *bytes, size_t num, ps_error *error) {
     ps_output_file *file = NULL;
-    ps_text_append(&path, "%s/%s%s", run->folder, name, ending);
-    pspec_status status = ps_text_check(&path, error);
-    if (status == PSPEC_OK) {
-        status = ps_output_open(&file, ps_text_string(&path), error);
-    }
-    if (status == PSPEC_OK) {
-        ps_output_write(file, bytes, 1, num);
-        status = ps_output_commit(&file, error);
-    }
-    if (status == PSPEC_OK) {
-        note_written(run, ps_text_string(&path));
-    }
-    ps_text_free(&path);
-    return status;
-}
-
-static pspec_status write_table(const ps_run *run, const ps_table *table, const char *name,
-                                const char *ending, ps_error *error) {
-    ps_text path = {0};
-    ps_text_append(&path, "%s/%s%s", run->folder, name, ending);
-    pspec_status status = ps_text_check(&path, error);
-    if (status == PSPEC_OK) {
-        status = ps_table_write(table, ps_text_string(&path), PS_FORMAT_CSV, error);
-    }
-    if (status == PSPEC_OK) {
-        note_written(run, ps_text_string(&path));
-    }
-    ps_text_free(&path);
-    return status;
-}
-
-/* Of a question that has one: lists of frequencies fill none. */
-static pspec_status write_array(const ps_run *run, const ps_answer *answer, const char *name,
-                                size_t question, ps_error *error) {
-    const char *field = NULL;
-    bool is_state = false;
-    ps_text path = {0};
-    ps_text_append(&path, "%s/%s%s%s", run->folder, name, ps_run_array_suffix(question).text,
-                   ps_run_array_ending);
-    pspec_status status = ps_text_check(&path, error);
-    if (status == PSPEC_OK) {
-        status = ps_npy_write_array(ps_text_string(&path),
-                                    ps_table_array(answer->table, 0, &field, &is_state), error);
-    }
-    if (status == PSPEC_OK) {
-        note_written(run, ps_text_string(&path));
-    }
-    ps_text_free(&path);
-    return status;
+    PS_TRY(ps_output_open(&file, path, error));
+    ps_output_write(file, bytes, 1, num);
+    return ps_output_commit(&file, error);
 }
 
 typedef pspec_status make_text(const ps_run *, ps_text *, ps_error *);
 
-static pspec_status write_text(const ps_run *run, const char *name, make_text *make,
+static pspec_status write_text(const char *path, const ps_run *run, make_text *make,
                                ps_error *error) {
     ps_text text = {0};
     pspec_status status = make(run, &text, error);
     if (status == PSPEC_OK) {
-        status = write_file(run, name, "", ps_text_string(&text), text.length, error);
+        status = write_bytes(path, ps_text_string(&text), text.length, error);
     }
     ps_text_free(&text);
     return status;
 }
 
-static pspec_status write_picture(const ps_run *run, const char *name, const ps_run_plot *plot,
-                                  ps_error *error) {
-    char ending[PS_SUFFIX_BYTES + 8];
-    snprintf(ending, sizeof ending, "%s%s", plot->what->suffix, ps_run_picture_ending);
-    return write_file(run, name, ending, plot->svg, strlen(plot->svg), error);
+/* NULL: it was not drawn, or there is nothing to draw. */
+static const char *find_picture(const ps_run_file *file) {
+    const ps_run_result *const result = file->result;
+    for (size_t p = 0; p < result->num_plots; p++) {
+        if (result->plots[p].what == &result->pictures.all[file->index]) {
+            return result->plots[p].svg;
+        }
+    }
+    return NULL;
 }
 
-static pspec_status write_tables(const ps_run *run, ps_run_result *result, ps_error *error) {
-    const char *const name = result->asked->name;
-    PS_TRY(ps_run_make_tables(run, result, error));
-    PS_TRY(write_table(run, result->table, name, ps_run_table_ending, error));
-    PS_TRY(write_table(run, result->summary, name, ps_run_summary_ending, error));
-    for (size_t q = 0; result->asked->wants_arrays && q < result->num; q++) {
-        PS_TRY(write_array(run, &result->questions[q].answer, name, q, error));
+static const ps_npy_array *find_array(const ps_run_file *file) {
+    const char *name = NULL;
+    bool is_state = false;
+    return ps_table_array(file->result->questions[file->index].answer.table, 0, &name, &is_state);
+}
+
+static pspec_status write_part(const ps_run *run, const ps_run_file *file, ps_error *error) {
+    const char *svg = NULL;
+    switch (file->part) {
+    case PS_RUN_RECORD:
+        return write_text(file->path, run, ps_run_record, error);
+    case PS_RUN_PAGE:
+        return write_text(file->path, run, ps_run_page, error);
+    case PS_RUN_TABLE:
+        return ps_table_write(file->result->table, file->path, PS_FORMAT_CSV, error);
+    case PS_RUN_SUMMARY:
+        return ps_table_write(file->result->summary, file->path, PS_FORMAT_CSV, error);
+    case PS_RUN_ARRAY:
+        return ps_npy_write_array(file->path, find_array(file), error);
+    case PS_RUN_PICTURE:
+        svg = find_picture(file);
+        return write_bytes(file->path, svg, strlen(svg), error);
     }
     return PSPEC_OK;
 }
 
-static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error *error) {
-    PS_TRY(ps_run_make_plots(run, result, error));
-    for (size_t p = 0; p < result->num_plots; p++) {
-        if (result->plots[p].svg != NULL) {
-            PS_TRY(write_picture(run, result->asked->name, &result->plots[p], error));
+/* A file that cannot be read back is of the run all the same, but no later run removes it. */
+static pspec_status write_file(const ps_run *run, ps_run_file *file, ps_error *error) {
+    ps_error ignored = {0};
+    if (file->part == PS_RUN_PICTURE && find_picture(file) == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(write_part(run, file, error));
+    file->is_written = true;
+    if (ps_digest_file(file->path, file->digest, &ignored) != PSPEC_OK) {
+        file->digest[0] = '\0';
+    }
+    return PSPEC_OK;
+}
+
+/* Those of a result, NULL: of the run, that are such parts of it. */
+static pspec_status write_parts(const ps_run *run, const ps_run_result *result, ps_run_part first,
+                                ps_run_part last, ps_error *error) {
+    for (size_t i = 0; i < run->files.num; i++) {
+        ps_run_file *const file = &run->files.all[i];
+        if (file->result == result && file->part >= first && file->part <= last) {
+            PS_TRY(write_file(run, file, error));
         }
     }
     return PSPEC_OK;
@@ -118,15 +92,17 @@ static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error 
  * it, for it no longer names them. */
 pspec_status ps_run_write(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_make_folder(run->folder, error));
-    PS_TRY(write_text(run, ps_run_record_name, ps_run_record, error));
+    PS_TRY(write_parts(run, NULL, PS_RUN_RECORD, PS_RUN_RECORD, error));
     for (size_t i = 0; i < run->num_results; i++) {
-        PS_TRY(write_tables(run, &run->results[i], error));
+        PS_TRY(ps_run_make_tables(run, &run->results[i], error));
+        PS_TRY(write_parts(run, &run->results[i], PS_RUN_TABLE, PS_RUN_ARRAY, error));
     }
     for (size_t i = 0; i < run->num_results; i++) {
-        PS_TRY(write_pictures(run, &run->results[i], error));
+        PS_TRY(ps_run_make_plots(run, &run->results[i], error));
+        PS_TRY(write_parts(run, &run->results[i], PS_RUN_PICTURE, PS_RUN_PICTURE, error));
     }
-    PS_TRY(write_text(run, ps_run_page_name, ps_run_page, error));
+    PS_TRY(write_parts(run, NULL, PS_RUN_PAGE, PS_RUN_PAGE, error));
     PS_TRY(ps_run_remove_former(run, error));
     run->is_written = true;
-    return write_text(run, ps_run_record_name, ps_run_record, error);
+    return write_parts(run, NULL, PS_RUN_RECORD, PS_RUN_RECORD, error);
 }
