@@ -267,6 +267,26 @@ void ps_buffer_release(ps_buffer *buffer) {
     *buffer = (ps_buffer){0};
 }
 
+pspec_status ps_buffers_create(ps_device *device, const ps_wanted_buffer *wanted, size_t num,
+                               ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_buffer_create(device, wanted[i].buffer, wanted[i].bytes, wanted[i].what, error));
+    }
+    return PSPEC_OK;
+}
+
+void ps_buffers_release(ps_buffer *const *buffers, size_t num) {
+    for (size_t i = 0; i < num; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+}
+
+pspec_status ps_buffer_upload(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
+                              const char *what, ps_error *error) {
+    PS_TRY(ps_buffer_create(device, out, bytes, what, error));
+    return ps_buffer_write(device, out, 0, data, bytes, error);
+}
+
 pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                              const void *data, size_t bytes, ps_error *error) {
     if (bytes == 0) {

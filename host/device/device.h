@@ -131,6 +131,24 @@ pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, c
 pspec_status ps_buffer_add_twin(ps_device *device, ps_buffer *buffer, const char *what,
                                 ps_error *error) PS_MUST_CHECK;
 void ps_buffer_release(ps_buffer *buffer); /* {0} is allowed */
+
+/* Several at once: what is wanted of each, and those that go. */
+typedef struct ps_wanted_buffer {
+    ps_buffer *buffer;
+    size_t bytes;
+    const char *what;
+} ps_wanted_buffer;
+pspec_status ps_buffers_create(ps_device *device, const ps_wanted_buffer *wanted, size_t num,
+                               ps_error *error) PS_MUST_CHECK;
+#define PS_BUFFERS_CREATE(device, wanted, error)                                                   \
+    ps_buffers_create(device, wanted, sizeof(wanted) / sizeof(wanted)[0], error)
+void ps_buffers_release(ps_buffer *const *buffers, size_t num);
+#define PS_BUFFERS_RELEASE(...)                                                                    \
+    ps_buffers_release((ps_buffer *const[]){__VA_ARGS__},                                          \
+                       sizeof((ps_buffer *const[]){__VA_ARGS__}) / sizeof(ps_buffer *))
+/* A buffer with these bytes. */
+pspec_status ps_buffer_upload(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
+                              const char *what, ps_error *error) PS_MUST_CHECK;
 /* The host memory may be used again at once. Where the device has memory of its own, data are
  * copied to pinned memory first, and nobody waits for the device. */
 pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,

@@ -25,8 +25,7 @@ static pspec_status probe(ps_device *device, ps_units units, unsigned precision,
     ps_defines_add(&defines, "%s", ps_units_option(units));
     PS_TRY_OUT(status,
                ps_kernel_get(device, &kernel, "probe/units.cl", "probe_units", defines.text, NULL));
-    PS_TRY_OUT(status, ps_buffer_create(device, &buffer, sizeof *wrong, "a probe", NULL));
-    PS_TRY_OUT(status, ps_buffer_write(device, &buffer, 0, wrong, sizeof *wrong, NULL));
+    PS_TRY_OUT(status, ps_buffer_upload(device, &buffer, wrong, sizeof *wrong, "a probe", NULL));
     PS_TRY_OUT(status, PS_LAUNCH(device, kernel, &range, NULL, PS_BUFFER(buffer)));
     PS_TRY_OUT(status, ps_buffer_read(device, &buffer, 0, wrong, sizeof *wrong, NULL));
 out:

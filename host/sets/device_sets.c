@@ -30,10 +30,8 @@ static pspec_status create(ps_device_sets *self, ps_error *error) {
                    self->request.dimension, by_index->needs_doubles);
     PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/points.cl", "sampler_points",
                          defines.text, error));
-    PS_TRY(ps_buffer_create(self->device, &self->table, sizeof self->places.table,
-                            "a table of a sampler", error));
-    return ps_buffer_write(self->device, &self->table, 0, self->places.table,
-                           sizeof self->places.table, error);
+    return ps_buffer_upload(self->device, &self->table, self->places.table,
+                            sizeof self->places.table, "a table of a sampler", error);
 }
 
 pspec_status ps_device_sets_create(ps_device_sets **out, const ps_sampler_request *request,

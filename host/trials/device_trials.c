@@ -65,11 +65,8 @@ static pspec_status create_table(ps_device_trials *self, ps_error *error) {
     if (integrand->num_table == 0) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_buffer_create(self->device, &self->table,
-                            integrand->num_table * ps_real_bytes(self->options.precision),
-                            "an integrand", error));
-    return ps_reals_write(self->device, &self->table, self->options.precision, integrand->table,
-                          integrand->num_table, error);
+    return ps_reals_upload(self->device, &self->table, self->options.precision, integrand->table,
+                           integrand->num_table, "an integrand", error);
 }
 
 static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
@@ -86,17 +83,13 @@ static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->host_exponents, self->options.batch, "sizes of weights", error));
     PS_TRY(PS_NEW(&self->sizes_of_one, self->options.batch, "sizes of sets", error));
     PS_TRY(PS_NEW(&self->host_sums, 2 * num_sums, "sums of trials", error));
-    PS_TRY(ps_buffer_create(self->device, &self->points, self->axis_numbers * point_bytes, "points",
-                            error));
-    PS_TRY(ps_buffer_create(self->device, &self->weights, self->axis_numbers * real_bytes,
-                            "weights", error));
-    PS_TRY(ps_buffer_create(self->device, &self->pieces,
-                            self->most_pieces * sizeof *self->host_pieces, "pieces of sets",
-                            error));
-    PS_TRY(ps_buffer_create(self->device, &self->moves, self->most_moves * real_bytes,
-                            "moves of trials", error));
-    return ps_buffer_create(self->device, &self->sums, 2 * num_sums * real_bytes, "sums of trials",
-                            error);
+    const ps_wanted_buffer wanted[] = {
+        {&self->points, self->axis_numbers * point_bytes, "points"},
+        {&self->weights, self->axis_numbers * real_bytes, "weights"},
+        {&self->pieces, self->most_pieces * sizeof *self->host_pieces, "pieces of sets"},
+        {&self->moves, self->most_moves * real_bytes, "moves of trials"},
+        {&self->sums, 2 * num_sums * real_bytes, "sums of trials"}};
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options) {
@@ -141,11 +134,8 @@ void ps_device_trials_destroy(ps_device_trials *trials) {
     if (trials == NULL) {
         return;
     }
-    ps_buffer *const buffers[] = {&trials->points, &trials->weights, &trials->pieces,
-                                  &trials->moves,  &trials->sums,    &trials->table};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&trials->points, &trials->weights, &trials->pieces, &trials->moves,
+                       &trials->sums, &trials->table);
     free(trials->host_pieces);
     free(trials->host_moves);
     free(trials->host_sums);

@@ -218,10 +218,8 @@ static pspec_status upload_positions(ps_fft_plan *plan, const uint32_t *radices,
     for (uint32_t k = 0; k < plan->length; k++) {
         positions[k] = ps_fft_position(plan->length, radices, k);
     }
-    pspec_status status = ps_buffer_create(device, &plan->position, bytes, "positions", error);
-    if (status == PSPEC_OK) {
-        status = ps_buffer_write(device, &plan->position, 0, positions, bytes, error);
-    }
+    const pspec_status status =
+        ps_buffer_upload(device, &plan->position, positions, bytes, "positions", error);
     free(positions);
     return status;
 }
@@ -235,15 +233,12 @@ pspec_status ps_fft_plan_create(ps_fft_plan *out, uint32_t length, ps_precision 
                        "no transform of length %lu: it has a prime factor above 7",
                        (unsigned long)length);
     }
-    PS_TRY(ps_buffer_create(device, &out->radices, sizeof radices, "radices", error));
-    PS_TRY(ps_buffer_write(device, &out->radices, 0, radices, sizeof radices, error));
+    PS_TRY(ps_buffer_upload(device, &out->radices, radices, sizeof radices, "radices", error));
     PS_TRY(upload_positions(out, radices, device, error));
     return upload_twiddles(out, radices, precision, device, error);
 }
 
 void ps_fft_plan_free(ps_fft_plan *plan) {
-    ps_buffer_release(&plan->radices);
-    ps_buffer_release(&plan->twiddles);
-    ps_buffer_release(&plan->position);
+    PS_BUFFERS_RELEASE(&plan->radices, &plan->twiddles, &plan->position);
     *plan = (ps_fft_plan){0};
 }

@@ -156,9 +156,7 @@ void ps_nufft_order_free(ps_nufft_order *order) {
     for (size_t i = 0; i < sizeof order->orders / sizeof order->orders[0]; i++) {
         ps_buffer_release(&order->orders[i]);
     }
-    ps_buffer_release(&order->keys);
-    ps_buffer_release(&order->firsts);
-    ps_buffer_release(&order->sums);
+    PS_BUFFERS_RELEASE(&order->keys, &order->firsts, &order->sums);
     *order = (ps_nufft_order){0};
 }
 

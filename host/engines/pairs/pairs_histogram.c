@@ -166,13 +166,8 @@ static void destroy(void *state) {
     pairs_histogram *self = state;
     ps_pairs_points_free(&self->points);
     ps_pairs_degrees_free(&self->degrees);
-    ps_buffer_release(&self->scale);
-    ps_buffer_release(&self->matrix);
-    ps_buffer_release(&self->nodes);
-    ps_buffer_release(&self->partials);
-    ps_buffer_release(&self->moments);
-    ps_buffer_release(&self->weights);
-    ps_buffer_release(&self->node_partials);
+    PS_BUFFERS_RELEASE(&self->scale, &self->matrix, &self->nodes, &self->partials, &self->moments,
+                       &self->weights, &self->node_partials);
 }
 
 static pspec_status create_kernels(pairs_histogram *self, const ps_problem *problem,
@@ -210,15 +205,13 @@ static pspec_status upload_tables(pairs_histogram *self, ps_error *error) {
 static pspec_status create_buffers(pairs_histogram *self, size_t batch, ps_error *error) {
     const histogram_layout *layout = &self->layout;
     const size_t histogram = layout->num_nodes * ps_real_bytes(self->precision);
-    PS_TRY(ps_buffer_create(self->device, &self->partials, batch * layout->slab * histogram,
-                            "histograms of runs of pairs", error));
-    PS_TRY(ps_buffer_create(self->device, &self->moments, batch * PS_PAIRS_PARTS * histogram,
-                            "histograms", error));
-    PS_TRY(ps_buffer_create(self->device, &self->weights, batch * histogram, "weights of nodes",
-                            error));
-    return ps_buffer_create(self->device, &self->node_partials,
-                            batch * layout->node_runs * self->degrees.row_bytes,
-                            "sums of runs of nodes", error);
+    const ps_wanted_buffer wanted[] = {
+        {&self->partials, batch * layout->slab * histogram, "histograms of runs of pairs"},
+        {&self->moments, batch * PS_PAIRS_PARTS * histogram, "histograms"},
+        {&self->weights, batch * histogram, "weights of nodes"},
+        {&self->node_partials, batch * layout->node_runs * self->degrees.row_bytes,
+         "sums of runs of nodes"}};
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,

@@ -83,10 +83,7 @@ static void destroy(void *state) {
     free(self->host_blocks);
     free(self->host_sums);
     ps_late_rows_free(&self->rows);
-    ps_buffer_release(&self->table);
-    ps_buffer_release(&self->blocks);
-    ps_buffer_release(&self->sums);
-    ps_buffer_release(&self->powers);
+    PS_BUFFERS_RELEASE(&self->table, &self->blocks, &self->sums, &self->powers);
 }
 
 static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
@@ -119,16 +116,14 @@ static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
 static pspec_status create_buffers(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
     const size_t row = layout->stride * layout->real_bytes;
-    PS_TRY(ps_buffer_create(self->device, &self->table,
-                            layout->pass_blocks * PS_SPHERE_BLOCK_REALS * layout->real_bytes,
-                            "a table of Legendre functions", error));
-    PS_TRY(ps_buffer_create(self->device, &self->blocks, layout->pass_orders * sizeof(uint32_t),
-                            "places of orders", error));
-    PS_TRY(ps_buffer_create(self->device, &self->sums,
-                            self->batch * layout->pass_orders * PS_SPHERE_SUMS * row,
-                            "coefficients of a batch", error));
-    return ps_buffer_create(self->device, &self->powers, self->batch * PS_SPHERE_POWERS * row,
-                            "powers of a batch", error);
+    const ps_wanted_buffer wanted[] = {
+        {&self->table, layout->pass_blocks * PS_SPHERE_BLOCK_REALS * layout->real_bytes,
+         "a table of Legendre functions"},
+        {&self->blocks, layout->pass_orders * sizeof(uint32_t), "places of orders"},
+        {&self->sums, self->batch * layout->pass_orders * PS_SPHERE_SUMS * row,
+         "coefficients of a batch"},
+        {&self->powers, self->batch * PS_SPHERE_POWERS * row, "powers of a batch"}};
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 /* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */

@@ -43,13 +43,12 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
     PS_TRY(allocate_on_host(out, error));
     PS_TRY(ps_feed_create(&out->points, capacity * PS_SPHERE_DIMENSION * sizeof(double), "points",
                           device, error));
-    PS_TRY(ps_buffer_create(device, &out->values, capacity * PS_SPHERE_ARRAYS * layout->real_bytes,
-                            "directions", error));
-    PS_TRY(ps_buffer_create(device, &out->turns, capacity * sizeof(uint64_t), "azimuths", error));
-    PS_TRY(
-        ps_buffer_create(device, &out->weights, capacity * layout->real_bytes, "weights", error));
-    return ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets",
-                            error);
+    const ps_wanted_buffer wanted[] = {
+        {&out->values, capacity * PS_SPHERE_ARRAYS * layout->real_bytes, "directions"},
+        {&out->turns, capacity * sizeof(uint64_t), "azimuths"},
+        {&out->weights, capacity * layout->real_bytes, "weights"},
+        {&out->offsets, (batch + 1) * sizeof(uint64_t), "offsets"}};
+    return PS_BUFFERS_CREATE(device, wanted, error);
 }
 
 void ps_sphere_points_free(ps_sphere_points *self) {
@@ -58,10 +57,7 @@ void ps_sphere_points_free(ps_sphere_points *self) {
     free(self->host_values);
     free(self->host_turns);
     ps_feed_free(&self->points);
-    ps_buffer_release(&self->values);
-    ps_buffer_release(&self->turns);
-    ps_buffer_release(&self->weights);
-    ps_buffer_release(&self->offsets);
+    PS_BUFFERS_RELEASE(&self->values, &self->turns, &self->weights, &self->offsets);
     *self = (ps_sphere_points){0};
 }
 

@@ -5,12 +5,6 @@
 
 #include <stdlib.h>
 
-static pspec_status upload(ps_device *device, ps_buffer *buffer, const void *data, size_t bytes,
-                           ps_error *error) {
-    PS_TRY(ps_buffer_create(device, buffer, bytes, "tile pairs", error));
-    return ps_buffer_write(device, buffer, 0, data, bytes, error);
-}
-
 /* ---- blocks ------------------------------------------------------------------------------ */
 
 /* [block]: first tiles; [block][tiles][tiles]: pairs. */
@@ -57,10 +51,11 @@ static pspec_status upload_blocks(ps_torus_product *self, const ps_torus_layout 
                PS_NEW(&list.pairs, layout->max_blocks * tiles * tiles, "tile pairs", error));
     fill_blocks(&list, split);
     self->num_blocks = list.num;
-    PS_TRY_OUT(status, upload(device, &self->blocks, list.first_tiles,
-                              list.num * sizeof *list.first_tiles, error));
-    PS_TRY_OUT(status, upload(device, &self->pairs, list.pairs,
-                              list.num * tiles * tiles * sizeof *list.pairs, error));
+    PS_TRY_OUT(status, ps_buffer_upload(device, &self->blocks, list.first_tiles,
+                                        list.num * sizeof *list.first_tiles, "tile pairs", error));
+    PS_TRY_OUT(status, ps_buffer_upload(device, &self->pairs, list.pairs,
+                                        list.num * tiles * tiles * sizeof *list.pairs, "tile pairs",
+                                        error));
 out:
     free(list.first_tiles);
     free(list.pairs);
@@ -104,8 +99,8 @@ pspec_status ps_torus_product_create(ps_torus_product *out, const ps_torus_layou
         out->point_flops = (double)out->num_blocks * 2 * layout->block_tiles * (double)lanes *
                            ps_torus_phase_flops(split->dimension, layout->real_bytes);
     } else {
-        PS_TRY(upload(device, &out->pairs, split->pairs, split->num_pairs * sizeof *split->pairs,
-                      error));
+        PS_TRY(ps_buffer_upload(device, &out->pairs, split->pairs,
+                                split->num_pairs * sizeof *split->pairs, "tile pairs", error));
     }
     return ps_buffer_create(device, &out->sums,
                             layout->group * split->num_pairs * lanes * 8 * lanes *
@@ -114,9 +109,7 @@ pspec_status ps_torus_product_create(ps_torus_product *out, const ps_torus_layou
 }
 
 void ps_torus_product_free(ps_torus_product *product) {
-    ps_buffer_release(&product->pairs);
-    ps_buffer_release(&product->blocks);
-    ps_buffer_release(&product->sums);
+    PS_BUFFERS_RELEASE(&product->pairs, &product->blocks, &product->sums);
     *product = (ps_torus_product){0};
 }
 

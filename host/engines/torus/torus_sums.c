@@ -51,11 +51,11 @@ static pspec_status create_buffers(ps_torus_sums *self, size_t batch, size_t gro
                                    ps_device *device, ps_error *error) {
     const size_t tile_bytes = self->lanes * self->real_bytes;
     const size_t tiles = self->num_tiles;
-    PS_TRY(ps_buffer_create(device, &self->frequencies, tiles * self->dimension * tile_bytes,
-                            "frequencies", error));
-    PS_TRY(ps_buffer_create(device, &self->sums, batch * self->num_chunks * tiles * 4 * tile_bytes,
-                            "partial sums", error));
-    PS_TRY(ps_buffer_create(device, &self->totals, batch * tiles * 4 * tile_bytes, "sums", error));
+    const ps_wanted_buffer wanted[] = {
+        {&self->frequencies, tiles * self->dimension * tile_bytes, "frequencies"},
+        {&self->sums, batch * self->num_chunks * tiles * 4 * tile_bytes, "partial sums"},
+        {&self->totals, batch * tiles * 4 * tile_bytes, "sums"}};
+    PS_TRY(PS_BUFFERS_CREATE(device, wanted, error));
     if (!self->has_table) {
         return PSPEC_OK;
     }
@@ -83,10 +83,7 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
 }
 
 void ps_torus_sums_free(ps_torus_sums *self) {
-    ps_buffer_release(&self->frequencies);
-    ps_buffer_release(&self->sums);
-    ps_buffer_release(&self->totals);
-    ps_buffer_release(&self->table);
+    PS_BUFFERS_RELEASE(&self->frequencies, &self->sums, &self->totals, &self->table);
     *self = (ps_torus_sums){0};
 }
 

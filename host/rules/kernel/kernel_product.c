@@ -106,10 +106,7 @@ void ps_kernel_product_destroy(ps_kernel_product *self) {
     if (self == NULL) {
         return;
     }
-    ps_buffer_release(&self->points);
-    ps_buffer_release(&self->x);
-    ps_buffer_release(&self->power);
-    ps_buffer_release(&self->partials);
+    PS_BUFFERS_RELEASE(&self->points, &self->x, &self->power, &self->partials);
     free(self->host);
     free(self->padded);
     free(self);

@@ -136,19 +136,15 @@ pspec_status ps_gaussian_device_create(ps_gaussian_device *d, ps_device *device,
     ps_defines_add(&defines, "-DDIMENSION=%u", shape->dimension);
     PS_TRY(ps_kernel_get(device, &d->kernel, "samplers/gaussian.cl", "gaussian_sums", defines.text,
                          error));
-    PS_TRY(ps_buffer_create(device, &d->points, shape->dimension * shape->stride * sizeof(double),
-                            "points by cells", error));
-    PS_TRY(ps_buffer_create(device, &d->begins, (shape->num_cells + 1) * sizeof(uint32_t),
-                            "cells of points", error));
-    return ps_buffer_create(device, &d->sums,
-                            (1 + shape->dimension) * shape->stride * sizeof(double),
-                            "forces on points", error);
+    const ps_wanted_buffer wanted[] = {
+        {&d->points, shape->dimension * shape->stride * sizeof(double), "points by cells"},
+        {&d->begins, (shape->num_cells + 1) * sizeof(uint32_t), "cells of points"},
+        {&d->sums, (1 + shape->dimension) * shape->stride * sizeof(double), "forces on points"}};
+    return PS_BUFFERS_CREATE(device, wanted, error);
 }
 
 void ps_gaussian_device_destroy(ps_gaussian_device *d) {
-    ps_buffer_release(&d->points);
-    ps_buffer_release(&d->begins);
-    ps_buffer_release(&d->sums);
+    PS_BUFFERS_RELEASE(&d->points, &d->begins, &d->sums);
 }
 
 static pspec_status launch(ps_gaussian_device *d, const ps_gaussian_sums *s, size_t first,

@@ -55,14 +55,13 @@ static pspec_status create_buffers(ps_step_pairs *p, ps_error *error) {
     const size_t num_counts = count_copies(l) * (l->num_bins + 1);
     PS_TRY(PS_NEW(&p->coordinates, plane, "points", error));
     PS_TRY(PS_NEW(&p->copies, num_counts, "counts of pairs", error));
-    PS_TRY(ps_buffer_create(p->device, &p->points, plane * sizeof(double), "points", error));
-    PS_TRY(ps_buffer_create(p->device, &p->counts, num_counts * sizeof(uint32_t), "counts of pairs",
-                            error));
-    PS_TRY(ps_buffer_create(p->device, &p->table, (l->num_bins + 1) * sizeof(double),
-                            "forces over distances", error));
-    PS_TRY(ps_buffer_create(p->device, &p->forces, l->num_blocks * plane * sizeof(double),
-                            "forces of blocks", error));
-    return ps_buffer_create(p->device, &p->sums, plane * sizeof(double), "forces", error);
+    const ps_wanted_buffer wanted[] = {
+        {&p->points, plane * sizeof(double), "points"},
+        {&p->counts, num_counts * sizeof(uint32_t), "counts of pairs"},
+        {&p->table, (l->num_bins + 1) * sizeof(double), "forces over distances"},
+        {&p->forces, l->num_blocks * plane * sizeof(double), "forces of blocks"},
+        {&p->sums, plane * sizeof(double), "forces"}};
+    return PS_BUFFERS_CREATE(p->device, wanted, error);
 }
 
 pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t num, size_t num_bins,
@@ -77,10 +76,7 @@ pspec_status ps_step_pairs_create(ps_step_pairs *p, ps_device *device, size_t nu
 }
 
 void ps_step_pairs_destroy(ps_step_pairs *p) {
-    ps_buffer *const buffers[] = {&p->points, &p->counts, &p->table, &p->forces, &p->sums};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&p->points, &p->counts, &p->table, &p->forces, &p->sums);
     free(p->coordinates);
     free(p->copies);
 }

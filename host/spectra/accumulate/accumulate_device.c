@@ -39,12 +39,6 @@ unsigned ps_accumulate_lanes(const ps_accumulator_options *options,
     return lanes;
 }
 
-static pspec_status upload(ps_device_accumulator *self, ps_buffer *buffer, const void *data,
-                           size_t bytes, ps_error *error) {
-    PS_TRY(ps_buffer_create(self->device, buffer, bytes, "bins", error));
-    return ps_buffer_write(self->device, buffer, 0, data, bytes, error);
-}
-
 static pspec_status upload_blocks(ps_device_accumulator *self, ps_error *error) {
     ps_accumulate_blocks blocks = {0};
     pspec_status status = PSPEC_OK;
@@ -53,14 +47,17 @@ static pspec_status upload_blocks(ps_device_accumulator *self, ps_error *error) 
     self->num_blocks = blocks.num_blocks;
     self->num_pieces = blocks.num_pieces;
     self->num_members = blocks.num_members;
-    PS_TRY_OUT(status, upload(self, &self->first_rings, blocks.first_rings,
-                              (blocks.num_blocks + 1) * sizeof *blocks.first_rings, error));
-    PS_TRY_OUT(status, upload(self, &self->rings, blocks.rings,
-                              blocks.num_pieces * sizeof *blocks.rings, error));
-    PS_TRY_OUT(status, upload(self, &self->members, blocks.members,
-                              blocks.num_members * sizeof *blocks.members, error));
-    PS_TRY_OUT(status, upload(self, &self->bin_pieces, blocks.bin_pieces,
-                              blocks.num_bins * sizeof *blocks.bin_pieces, error));
+    PS_TRY_OUT(status, ps_buffer_upload(self->device, &self->first_rings, blocks.first_rings,
+                                        (blocks.num_blocks + 1) * sizeof *blocks.first_rings,
+                                        "bins", error));
+    PS_TRY_OUT(status, ps_buffer_upload(self->device, &self->rings, blocks.rings,
+                                        blocks.num_pieces * sizeof *blocks.rings, "bins", error));
+    PS_TRY_OUT(status,
+               ps_buffer_upload(self->device, &self->members, blocks.members,
+                                blocks.num_members * sizeof *blocks.members, "bins", error));
+    PS_TRY_OUT(status,
+               ps_buffer_upload(self->device, &self->bin_pieces, blocks.bin_pieces,
+                                blocks.num_bins * sizeof *blocks.bin_pieces, "bins", error));
 out:
     ps_accumulate_blocks_free(&blocks);
     return status;
@@ -133,12 +130,8 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
     if (accumulator == NULL) {
         return;
     }
-    ps_buffer *const buffers[] = {&accumulator->first_rings, &accumulator->rings,
-                                  &accumulator->members,     &accumulator->bin_pieces,
-                                  &accumulator->piece_sums,  &accumulator->bin_sums};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&accumulator->first_rings, &accumulator->rings, &accumulator->members,
+                       &accumulator->bin_pieces, &accumulator->piece_sums, &accumulator->bin_sums);
     ps_device_states_free(&accumulator->states);
     ps_readings_release(&accumulator->bins_read);
     free(accumulator);

@@ -155,12 +155,8 @@ static pspec_status create_offsets(ps_sphere_grid_table *table, const making *se
                      ? ps_divide_up((num / 2 - least + 1) / 2, shape->lanes) * shape->num_angles
                      : 0;
     }
-    pspec_status status = ps_buffer_create(self->device, &table->offsets, num * sizeof(uint64_t),
-                                           "places of orders", error);
-    if (status == PSPEC_OK) {
-        status = ps_buffer_write(self->device, &table->offsets, 0, offsets, num * sizeof(uint64_t),
-                                 error);
-    }
+    const pspec_status status = ps_buffer_upload(self->device, &table->offsets, offsets,
+                                                 num * sizeof(uint64_t), "places of orders", error);
     free(offsets);
     return status;
 }
@@ -176,22 +172,15 @@ static pspec_status create_begins(ps_sphere_grid_table *table, const making *sel
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, bytes, 1, "first angles of orders", error));
     memset(memory, 0xFF, bytes);
-    pspec_status status =
-        ps_buffer_create(self->device, &table->begins, bytes, "first angles of orders", error);
-    if (status == PSPEC_OK) {
-        status = ps_buffer_write(self->device, &table->begins, 0, memory, bytes, error);
-    }
+    const pspec_status status = ps_buffer_upload(self->device, &table->begins, memory, bytes,
+                                                 "first angles of orders", error);
     free(memory);
     return status;
 }
 
 static pspec_status create_buffers(ps_sphere_grid_table *table, making *self, ps_error *error) {
     const size_t pitch = self->rings.ring_pitch;
-    const struct {
-        ps_buffer *buffer;
-        size_t bytes;
-        const char *what;
-    } wanted[] = {
+    const ps_wanted_buffer wanted[] = {
         {&table->numbers, self->shape->table_reals * ps_real_bytes(self->precision),
          "the table of cells"},
         {&self->states, PS_SPHERE_GROUPS * 4 * pitch * sizeof(double), "states of rings"},
@@ -200,11 +189,7 @@ static pspec_status create_buffers(ps_sphere_grid_table *table, making *self, ps
         {&self->diagonal_scales, PS_SPHERE_GROUPS * pitch * sizeof(int32_t),
          "scales of first degrees"},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
-                                error));
-    }
-    return PSPEC_OK;
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 /* ---- kernels ------------------------------------------------------------------------------ */
@@ -265,11 +250,8 @@ double ps_sphere_grid_table_flops(const ps_sphere_shape *shape) {
 }
 
 static void free_making(making *self) {
-    ps_buffer *const buffers[] = {&self->filters, &self->states, &self->scales, &self->diagonals,
-                                  &self->diagonal_scales};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&self->filters, &self->states, &self->scales, &self->diagonals,
+                       &self->diagonal_scales);
     ps_sphere_starts_free(&self->starts);
 }
 
@@ -313,7 +295,5 @@ pspec_status ps_sphere_grid_table_create(ps_sphere_grid_table *out, const ps_sph
 }
 
 void ps_sphere_grid_table_free(ps_sphere_grid_table *table) {
-    ps_buffer_release(&table->numbers);
-    ps_buffer_release(&table->offsets);
-    ps_buffer_release(&table->begins);
+    PS_BUFFERS_RELEASE(&table->numbers, &table->offsets, &table->begins);
 }

@@ -103,13 +103,8 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
 void ps_sphere_places_free(ps_sphere_places *points) {
     ps_nufft_order_free(&points->order);
     ps_feed_free(&points->vectors);
-    ps_buffer_release(&points->turns);
-    ps_buffer_release(&points->weights);
-    ps_buffer_release(&points->offsets);
-    ps_buffer_release(&points->keys);
-    ps_buffer_release(&points->sorted);
-    ps_buffer_release(&points->heights);
-    ps_buffer_release(&points->starts);
+    PS_BUFFERS_RELEASE(&points->turns, &points->weights, &points->offsets, &points->keys,
+                       &points->sorted, &points->heights, &points->starts);
     free(points->host_weights);
     free(points->host_offsets);
     *points = (ps_sphere_places){0};

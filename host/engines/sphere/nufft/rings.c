@@ -38,38 +38,27 @@ static pspec_status create(ps_sphere_state *self, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, ps_real_bytes(self->precision));
     rings *const own = of(self);
-    const struct {
-        ps_buffer *buffer;
-        size_t bytes;
-        const char *what;
-    } wanted[] = {{&own->rows, bytes.rows, "tiles of orders"},
-                  {&own->strip_turns, bytes.strip_turns, "points of strips"},
-                  {&own->strip_weights, bytes.strip_weights, "weights of strips"},
-                  {&own->strips, bytes.strips, "strips of points"},
-                  {&own->strip_starts, bytes.strip_starts, "starts of strips"},
-                  {&own->states, bytes.states, "states of rings"},
-                  {&own->scales, bytes.scales, "scales of rings"},
-                  {&own->diagonals, bytes.diagonals, "first degrees of rings"},
-                  {&own->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
-                  {&own->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"}};
+    const ps_wanted_buffer wanted[] = {
+        {&own->rows, bytes.rows, "tiles of orders"},
+        {&own->strip_turns, bytes.strip_turns, "points of strips"},
+        {&own->strip_weights, bytes.strip_weights, "weights of strips"},
+        {&own->strips, bytes.strips, "strips of points"},
+        {&own->strip_starts, bytes.strip_starts, "starts of strips"},
+        {&own->states, bytes.states, "states of rings"},
+        {&own->scales, bytes.scales, "scales of rings"},
+        {&own->diagonals, bytes.diagonals, "first degrees of rings"},
+        {&own->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
+        {&own->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"}};
     PS_TRY(ps_sphere_ring_tables_create(&own->tables, shape, self->precision, self->device, error));
     PS_TRY(create_kernels(self, error));
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
-                                error));
-    }
-    return PSPEC_OK;
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 static void free_own(void *own) {
     rings *const self = own;
-    ps_buffer *const buffers[] = {&self->rows,        &self->strip_turns,     &self->strip_weights,
-                                  &self->strips,      &self->states,          &self->scales,
-                                  &self->diagonals,   &self->diagonal_scales, &self->sums,
-                                  &self->strip_starts};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&self->rows, &self->strip_turns, &self->strip_weights, &self->strips,
+                       &self->states, &self->scales, &self->diagonals, &self->diagonal_scales,
+                       &self->sums, &self->strip_starts);
     ps_sphere_ring_tables_free(&self->tables);
 }
 

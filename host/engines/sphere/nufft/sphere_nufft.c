@@ -129,10 +129,7 @@ static void destroy(void *state) {
         self->variant->free(self->own);
     }
     free(self->own);
-    ps_buffer_release(&self->grids);
-    ps_buffer_release(&self->scratch);
-    ps_buffer_release(&self->values);
-    ps_buffer_release(&self->sums);
+    PS_BUFFERS_RELEASE(&self->grids, &self->scratch, &self->values, &self->sums);
     ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
     ps_late_rows_free(&self->rows);
@@ -163,12 +160,12 @@ static pspec_status create_rows(ps_sphere_state *self, size_t batch, ps_error *e
 
 static pspec_status create_buffers(ps_sphere_state *self, ps_error *error) {
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(&self->shape, ps_real_bytes(self->precision));
-    PS_TRY(ps_buffer_create(self->device, &self->grids, bytes.grids, "grids of the sphere", error));
-    PS_TRY(
-        ps_buffer_create(self->device, &self->scratch, bytes.scratch, "rows of transforms", error));
-    return ps_buffer_create(
-        self->device, &self->values, self->shape.at_once * bytes.values + bytes.gaps,
-        self->shape.route == PS_SPHERE_BY_CELLS ? "values on angles" : "values on rings", error);
+    const ps_wanted_buffer wanted[] = {
+        {&self->grids, bytes.grids, "grids of the sphere"},
+        {&self->scratch, bytes.scratch, "rows of transforms"},
+        {&self->values, self->shape.at_once * bytes.values + bytes.gaps,
+         self->shape.route == PS_SPHERE_BY_CELLS ? "values on angles" : "values on rings"}};
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {

@@ -122,24 +122,21 @@ static void fill_ratios(host_tables *host) {
     }
 }
 
-static pspec_status upload(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
-                           ps_error *error) {
-    PS_TRY(ps_buffer_create(device, out, bytes, "a table of the sphere", error));
-    return ps_buffer_write(device, out, 0, data, bytes, error);
-}
-
 static pspec_status upload_all(ps_sphere_starts *self, const host_tables *host, ps_device *device,
                                ps_error *error) {
     const size_t starts = host->num_starts * sizeof(double);
     const size_t rings = host->num_rings * sizeof(double);
-    PS_TRY(upload(device, &self->starts, host->starts, starts, error));
-    PS_TRY(upload(device, &self->start_scales, host->start_scales, starts / 2, error));
-    PS_TRY(upload(device, &self->steps, host->steps, rings, error));
-    PS_TRY(upload(device, &self->step_scales, host->step_scales, rings / 2, error));
-    PS_TRY(upload(device, &self->cosines, host->cosines, rings, error));
-    PS_TRY(upload(device, &self->distances, host->distances, rings, error));
-    PS_TRY(upload(device, &self->squares, host->squares, rings, error));
-    return upload(device, &self->ratios, host->ratios, host->num_orders * sizeof(double), error);
+    static const char what[] = "a table of the sphere";
+    const size_t orders = host->num_orders * sizeof(double);
+    PS_TRY(ps_buffer_upload(device, &self->starts, host->starts, starts, what, error));
+    PS_TRY(
+        ps_buffer_upload(device, &self->start_scales, host->start_scales, starts / 2, what, error));
+    PS_TRY(ps_buffer_upload(device, &self->steps, host->steps, rings, what, error));
+    PS_TRY(ps_buffer_upload(device, &self->step_scales, host->step_scales, rings / 2, what, error));
+    PS_TRY(ps_buffer_upload(device, &self->cosines, host->cosines, rings, what, error));
+    PS_TRY(ps_buffer_upload(device, &self->distances, host->distances, rings, what, error));
+    PS_TRY(ps_buffer_upload(device, &self->squares, host->squares, rings, what, error));
+    return ps_buffer_upload(device, &self->ratios, host->ratios, orders, what, error);
 }
 
 pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
@@ -167,12 +164,8 @@ pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shap
 }
 
 void ps_sphere_starts_free(ps_sphere_starts *starts) {
-    ps_buffer *const buffers[] = {&starts->starts,      &starts->start_scales, &starts->steps,
-                                  &starts->step_scales, &starts->ratios,       &starts->cosines,
-                                  &starts->distances,   &starts->squares};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&starts->starts, &starts->start_scales, &starts->steps, &starts->step_scales,
+                       &starts->ratios, &starts->cosines, &starts->distances, &starts->squares);
     *starts = (ps_sphere_starts){0};
 }
 
@@ -220,9 +213,7 @@ pspec_status ps_sphere_ring_tables_create(ps_sphere_ring_tables *out, const ps_s
 }
 
 void ps_sphere_ring_tables_free(ps_sphere_ring_tables *tables) {
-    ps_buffer_release(&tables->turns);
-    ps_buffer_release(&tables->ring_turns);
-    ps_buffer_release(&tables->along_gains);
+    PS_BUFFERS_RELEASE(&tables->turns, &tables->ring_turns, &tables->along_gains);
     ps_fft_plan_free(&tables->transforms);
     ps_sphere_starts_free(&tables->starts);
     *tables = (ps_sphere_ring_tables){0};

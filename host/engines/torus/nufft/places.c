@@ -11,14 +11,12 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
     const ps_nufft_layout *layout = self->layout;
     const size_t num = layout->parts * layout->part_places;
     const size_t starts = layout->parts * ((size_t)layout->num_keys + 2);
-    PS_TRY(ps_buffer_create(self->device, &self->places, (layout->parts + 1) * sizeof(uint64_t),
-                            "places", error));
-    PS_TRY(ps_buffer_create(self->device, &self->sorted, num * self->dimension * sizeof(uint64_t),
-                            "sorted points", error));
-    PS_TRY(ps_buffer_create(self->device, &self->heights, num * layout->real_bytes,
-                            "sorted weights", error));
-    return ps_buffer_create(self->device, &self->starts, starts * sizeof(uint32_t),
-                            "starts of cells", error);
+    const ps_wanted_buffer wanted[] = {
+        {&self->places, (layout->parts + 1) * sizeof(uint64_t), "places"},
+        {&self->sorted, num * self->dimension * sizeof(uint64_t), "sorted points"},
+        {&self->heights, num * layout->real_bytes, "sorted weights"},
+        {&self->starts, starts * sizeof(uint32_t), "starts of cells"}};
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
@@ -46,10 +44,7 @@ pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout 
 
 void ps_nufft_places_free(ps_nufft_places *places) {
     ps_nufft_order_free(&places->order);
-    ps_buffer_release(&places->places);
-    ps_buffer_release(&places->sorted);
-    ps_buffer_release(&places->heights);
-    ps_buffer_release(&places->starts);
+    PS_BUFFERS_RELEASE(&places->places, &places->sorted, &places->heights, &places->starts);
     ps_torus_points_free(&places->points);
     free(places->host_places);
     *places = (ps_nufft_places){0};

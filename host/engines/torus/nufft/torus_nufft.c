@@ -93,9 +93,7 @@ static double error_of_state(const void *state, double mean_power, double weight
 
 static void destroy(void *state) {
     ps_nufft_state *self = state;
-    ps_buffer_release(&self->means);
-    ps_buffer_release(&self->scales);
-    ps_buffer_release(&self->power);
+    PS_BUFFERS_RELEASE(&self->means, &self->scales, &self->power);
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
         ps_nufft_plan_free(&self->plans[i]);
     }
@@ -109,12 +107,11 @@ static void destroy(void *state) {
 
 static pspec_status create_buffers(ps_nufft_state *self, size_t rows, ps_error *error) {
     const ps_nufft_layout *layout = &self->layout;
-    PS_TRY(ps_buffer_create(self->device, &self->means, layout->parts * layout->real_bytes, "means",
-                            error));
-    PS_TRY(
-        ps_buffer_create(self->device, &self->scales, rows * layout->real_bytes, "scales", error));
-    PS_TRY(ps_buffer_create(self->device, &self->power, rows * layout->stride * layout->real_bytes,
-                            "powers of a batch", error));
+    const ps_wanted_buffer wanted[] = {
+        {&self->means, layout->parts * layout->real_bytes, "means"},
+        {&self->scales, rows * layout->real_bytes, "scales"},
+        {&self->power, rows * layout->stride * layout->real_bytes, "powers of a batch"}};
+    PS_TRY(PS_BUFFERS_CREATE(self->device, wanted, error));
     return ps_buffer_clear(self->device, &self->power, error);
 }
 

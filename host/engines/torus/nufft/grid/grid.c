@@ -104,10 +104,7 @@ static pspec_status create(ps_nufft_state *self, ps_error *error) {
 
 static void free_own(void *own) {
     grid *const self = own;
-    ps_buffer_release(&self->high);
-    ps_buffer_release(&self->low);
-    ps_buffer_release(&self->numbers[0]);
-    ps_buffer_release(&self->numbers[1]);
+    PS_BUFFERS_RELEASE(&self->high, &self->low, &self->numbers[0], &self->numbers[1]);
     for (unsigned i = 0; i < PS_NUFFT_MOST_PASSES; i++) {
         pass *const own_pass = &self->passes[i];
         ps_buffer_release(&own_pass->roots);

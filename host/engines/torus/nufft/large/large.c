@@ -91,10 +91,7 @@ static void free_own(void *own) {
         ps_buffer_release(&self->high[slab]);
         ps_buffer_release(&self->low[slab]);
     }
-    ps_buffer_release(&self->high_strip);
-    ps_buffer_release(&self->low_strip);
-    ps_buffer_release(&self->tile_rows);
-    ps_buffer_release(&self->transformed);
+    PS_BUFFERS_RELEASE(&self->high_strip, &self->low_strip, &self->tile_rows, &self->transformed);
 }
 
 /* ---- spread --------------------------------------------------------------------------------- */

@@ -133,11 +133,8 @@ static void free_own(void *own) {
     for (size_t i = 0; i < 2; i++) {
         ps_fft_plan_free(&self->transforms[i]);
     }
-    ps_buffer *const buffers[] = {&self->gains, &self->lane_turns, &self->tile_turns, &self->grids,
-                                  &self->rows};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    PS_BUFFERS_RELEASE(&self->gains, &self->lane_turns, &self->tile_turns, &self->grids,
+                       &self->rows);
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
