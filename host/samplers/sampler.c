@@ -8,6 +8,7 @@
 #include "samplers/values.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 /* Indices, and sums of an index and a 53-bit offset, stay far inside the doubles; 2^40 points of
  * the plane are 16 TiB. */
@@ -112,12 +113,35 @@ static pspec_status check_size(const ps_sampler_request *request, ps_error *erro
                        "sampler %s: %zu points of %u coordinates exceed the address space",
                        request->sampler->name, request->num_points, request->dimension);
     }
+    return request->sampler->maximum_points > 0
+               ? ps_sampler_limit_points(request, request->sampler->maximum_points, error)
+               : PSPEC_OK;
+}
+
+static pspec_status check_numbers(const ps_sampler_request *request, ps_error *error) {
+    enum { WORDS = 96 };
+    const ps_sampler *const sampler = request->sampler;
+    for (size_t i = 0; sampler->parameters[i].key != NULL; i++) {
+        const ps_sampler_range *const range = &sampler->ranges[i];
+        char what[WORDS];
+        double number = 0;
+        uint64_t count = 0;
+        snprintf(what, sizeof what, "sampler %s: %s", sampler->name, sampler->parameters[i].key);
+        if (range->most > 0) {
+            PS_TRY(range->is_whole
+                       ? ps_parse_count(request->values[i], what, (uint64_t)range->least,
+                                        (uint64_t)range->most, &count, error)
+                       : ps_parse_number(request->values[i], what, range->least, range->most,
+                                         &number, error));
+        }
+    }
     return PSPEC_OK;
 }
 
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) {
     PS_TRY(check_dimension(request, error));
     PS_TRY(check_size(request, error));
+    PS_TRY(check_numbers(request, error));
     const ps_sampler_request own = own_request(request);
     return own.sampler->check != NULL ? own.sampler->check(&own, error) : PSPEC_OK;
 }

@@ -61,6 +61,12 @@ typedef enum ps_sampler_domain {
 /* One key that a sampler understands in NAME:key=value. */
 typedef ps_parameter ps_sampler_parameter;
 
+/* What a parameter that is a number may be; most 0: the sampler reads it by itself. */
+typedef struct ps_sampler_range {
+    double least, most;
+    bool is_whole;
+} ps_sampler_range;
+
 typedef struct ps_sampler ps_sampler;
 typedef struct ps_lender ps_lender;               /* device/lender.h */
 typedef struct ps_distance_kind ps_distance_kind; /* samplers/darts/distance.h */
@@ -110,7 +116,10 @@ struct ps_sampler {
     unsigned maximum_dimension; /* of the torus only; the plane is always among them */
     unsigned minimum_dimension; /* 1 unless it says more */
     size_t minimum_points;      /* 1 unless it says more */
+    uint64_t maximum_points;    /* 0: as many as any sampler makes */
     ps_sampler_parameter parameters[PS_MAX_SAMPLER_PARAMETERS + 1]; /* ended by key == NULL */
+    ps_sampler_range
+        ranges[PS_MAX_SAMPLER_PARAMETERS]; /* of these; then ps_sampler_number has it */
 
     /* What a realization costs on one core of the machine of plan/phases.c: nanoseconds of a
      * coordinate, on the sphere of a point; or, where it is not so simple, seconds. */

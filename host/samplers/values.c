@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 
+#include <math.h>
 #include <string.h>
 
 static pspec_status fail_choice(const ps_sampler_request *request, unsigned i_parameter,
@@ -27,6 +28,14 @@ pspec_status ps_sampler_choice(const ps_sampler_request *request, unsigned i_par
         }
     }
     return fail_choice(request, i_parameter, choices, error);
+}
+
+double ps_sampler_number(const ps_sampler_request *request, unsigned i_parameter) {
+    double number = 0;
+    return ps_parse_number(request->values[i_parameter], "", -HUGE_VAL, HUGE_VAL, &number, NULL) ==
+                   PSPEC_OK
+               ? number
+               : 0;
 }
 
 bool ps_sampler_always(const ps_sampler_request *request) {

@@ -10,6 +10,10 @@ pspec_status ps_sampler_choice(const ps_sampler_request *request, unsigned i_par
                                const char *const *choices, unsigned *choice,
                                ps_error *error) PS_MUST_CHECK;
 
+/* The number that a parameter with a range has; 0 where it has none, which no request has that was
+ * checked. */
+double ps_sampler_number(const ps_sampler_request *request, unsigned i_parameter);
+
 /* For is_deterministic. */
 bool ps_sampler_always(const ps_sampler_request *request);
 bool ps_sampler_never(const ps_sampler_request *request);

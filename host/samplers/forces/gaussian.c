@@ -159,17 +159,6 @@ pspec_status ps_gaussian_make(size_t num, unsigned dimension, double sigma, ps_r
 
 enum { SIGMA };
 
-static pspec_status sigma_of(const ps_sampler_request *request, double *sigma, ps_error *error) {
-    return ps_parse_number(request->values[SIGMA], "sampler gaussian-blue-noise: sigma",
-                           PS_GAUSSIAN_LEAST_SIGMA, PS_GAUSSIAN_MOST_SIGMA, sigma, error);
-}
-
-static pspec_status check_request(const ps_sampler_request *request, ps_error *error) {
-    double sigma = 0;
-    PS_TRY(ps_sampler_limit_points(request, PS_GAUSSIAN_MOST_POINTS, error));
-    return sigma_of(request, &sigma, error);
-}
-
 /* Steps: 2000 to 2800 for N from 256 to 4096 at sigma = 1, 8000 at 0.7, as many as may be at 0.5,
  * 1370 at 1.5 and 2. */
 static double steps_of(double sigma) {
@@ -181,10 +170,7 @@ static double steps_of(double sigma) {
 /* On the host. Microseconds of a point and step are 0.64, 1.65 and 5.2 in the plane at sigma = 0.5,
  * 1 and 2, 26 and 158 in space at 1 and 2 (a core of an EPYC with AVX2, gcc 12 -O2, 2026-11). */
 static double host_seconds(const ps_sampler_request *request) {
-    double sigma = 1;
-    if (sigma_of(request, &sigma, NULL) != PSPEC_OK) {
-        return 0;
-    }
+    const double sigma = ps_sampler_number(request, SIGMA);
     const double s2 = sigma * sigma;
     const double microseconds = request->dimension == PLANE ? 0.3 + 1.3 * s2 : 4 + 20 * s2 * sigma;
     return (double)request->num_points * steps_of(sigma) * microseconds * 1e-6;
@@ -219,8 +205,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
     ps_loan loan = {0};
-    double sigma = 1;
-    PS_TRY(sigma_of(request, &sigma, error));
+    const double sigma = ps_sampler_number(request, SIGMA);
     pspec_status status =
         is_of_device(request) ? ps_loan_begin(&loan, request, true, error) : PSPEC_OK;
     if (status == PSPEC_OK) {
@@ -237,13 +222,14 @@ const ps_sampler ps_sampler_gaussian_blue_noise = {
     .aliases = {"gbn"},
     .minimum_dimension = PLANE,
     .maximum_dimension = SPACE,
+    .maximum_points = PS_GAUSSIAN_MOST_POINTS,
     .parameters = {{"sigma", "1",
                     "0.5 to 2, width of the Gaussians in N^(-1/d); larger ones order more"}},
+    .ranges = {{PS_GAUSSIAN_LEAST_SIGMA, PS_GAUSSIAN_MOST_SIGMA, false}},
     .version = 2,
     .seconds = seconds,
     .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
-    .check = check_request,
     .check_device = check_device,
     .generate = generate,
 };

@@ -145,25 +145,11 @@ pspec_status ps_bnot_make(size_t num, double eps, ps_random *random, const ps_wa
 
 enum { EPS };
 
-static pspec_status eps_of(const ps_sampler_request *request, double *eps, ps_error *error) {
-    return ps_parse_number(request->values[EPS], "sampler bnot: eps", PS_BNOT_LEAST_EPS,
-                           PS_BNOT_MOST_EPS, eps, error);
-}
-
-static pspec_status check(const ps_sampler_request *request, ps_error *error) {
-    double eps = 0;
-    PS_TRY(ps_sampler_limit_points(request, PS_CELLS_MOST_POINTS, error));
-    return eps_of(request, &eps, error);
-}
-
 /* All cells are made 9 times at eps = 10, 27 at 1, 127 at 0.2 and 560 at 0.05, in 1 us each; the
  * gradients between two take a time that grows with sqrt(N) (bench_cells bnot). */
 static double seconds(const ps_sampler_request *request) {
     const double num = (double)request->num_points;
-    double eps = 1;
-    return eps_of(request, &eps, NULL) == PSPEC_OK
-               ? num * (3 + 25 / eps) * (1 + 0.004 * sqrt(num)) * 1e-6
-               : 0;
+    return num * (3 + 25 / ps_sampler_number(request, EPS)) * (1 + 0.004 * sqrt(num)) * 1e-6;
 }
 
 static double work_bytes(const ps_sampler_request *request) {
@@ -173,9 +159,8 @@ static double work_bytes(const ps_sampler_request *request) {
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    double eps = 1;
-    PS_TRY(eps_of(request, &eps, error));
-    return ps_bnot_make(request->num_points, eps, &random, request->watch, points, error);
+    return ps_bnot_make(request->num_points, ps_sampler_number(request, EPS), &random,
+                        request->watch, points, error);
 }
 
 const ps_sampler ps_sampler_bnot = {
@@ -185,12 +170,13 @@ const ps_sampler ps_sampler_bnot = {
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .minimum_points = PS_CELLS_LEAST_POINTS,
+    .maximum_points = PS_CELLS_MOST_POINTS,
     .parameters = {{"eps", "1",
                     "0.02 to 10, how near to the centroids of cells; smaller is more regular"}},
+    .ranges = {{PS_BNOT_LEAST_EPS, PS_BNOT_MOST_EPS, false}},
     .version = 1,
     .seconds = seconds,
     .work_bytes = work_bytes,
     .is_deterministic = ps_sampler_never,
-    .check = check,
     .generate = generate,
 };

@@ -17,7 +17,6 @@ static pspec_status first_index(const ps_sampler_request *request, uint64_t *sta
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     uint64_t start = 0;
-    PS_TRY(ps_sampler_limit_points(request, RADICAL_INVERSE_LIMIT, error));
     return first_index(request, &start, error);
 }
 

@@ -6,10 +6,6 @@
 #include "samplers/radical_inverse.h"
 #include "samplers/values.h"
 
-static pspec_status check(const ps_sampler_request *request, ps_error *error) {
-    return ps_sampler_limit_points(request, RADICAL_INVERSE_LIMIT, error);
-}
-
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     (void)realization;
@@ -31,7 +27,6 @@ const ps_sampler ps_sampler_hammersley = {
     .maximum_dimension = PS_MAX_DIMENSION,
     .nanoseconds = 9.5,
     .is_deterministic = ps_sampler_always,
-    .check = check,
     .generate = generate,
     .by_index = {.name = "hammersley", .needs_doubles = true, .places = hammersley_places},
 };
