@@ -1,26 +1,12 @@
 /* Is the spectrum of a sampler, or of files, the saved one? Or are realizations homogeneous? */
-#include "answers/check/saved_spectrum.h"
 #include "answers/check/check_table.h"
-#include "answers/homogeneity/homogeneity.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "request/options.h"
-#include "answers/spectra/question.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-/* The saved spectrum, and the measured one, which may have been saved, too. */
-typedef struct checked {
-    ps_saved_spectrum saved, measured;
-    ps_request own; /* what is asked of the measured side */
-    ps_question_list list;
-    ps_power_job *job;   /* NULL: nothing is measured */
-    ps_comparison *rows; /* [saved.num_bins] */
-    /* Where that is asked instead, and the others are not there; else NULL. */
-    ps_homogeneity *homogeneity;
-} checked;
 
 /* The question is that of the saved spectrum, but for the seed: realizations must be independent of
  * those that were saved. */
@@ -114,7 +100,7 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
 }
 
 static void discard(void *computed) {
-    checked *const check = computed;
+    ps_check *const check = computed;
     if (check == NULL) {
         return;
     }
@@ -127,7 +113,7 @@ static void discard(void *computed) {
     free(check);
 }
 
-static pspec_status read_other(checked *check, const ps_request *request, ps_error *error) {
+static pspec_status read_other(ps_check *check, const ps_request *request, ps_error *error) {
     const ps_check_side saved = {&check->saved, request->against};
     const ps_check_side other = {&check->measured, request->files[0]};
     check->own = *request;
@@ -137,11 +123,11 @@ static pspec_status read_other(checked *check, const ps_request *request, ps_err
 
 /* Reads the saved spectrum and finds out what it asks of the measured side. *out is for discard,
  * also after an error. */
-static pspec_status ask(checked **out, const ps_request *request, ps_error *error) {
+static pspec_status ask(ps_check **out, const ps_request *request, ps_error *error) {
     bool are_both_saved = false;
     PS_TRY(check_question(request, error));
     PS_TRY(PS_NEW(out, 1, "a check", error));
-    checked *const check = *out;
+    ps_check *const check = *out;
     PS_TRY(ps_saved_spectrum_read(&check->saved, request->against, error));
     PS_TRY(find_both_saved(&are_both_saved, request, error));
     if (are_both_saved) {
@@ -157,7 +143,7 @@ static pspec_status plan_nothing(ps_planner *planner, ps_error *error) {
 }
 
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
-    checked *check = NULL;
+    ps_check *check = NULL;
     if (request->homogeneous) {
         return ps_homogeneity_plan(planner, request, error);
     }
@@ -174,46 +160,45 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
 /* ---- the answer -------------------------------------------------------------------------- */
 
 /* The bins that differ most. */
-static void append_worst(ps_text *text, const ps_check_results *results) {
+static void append_worst(ps_text *text, const ps_check *check) {
     enum { MOST_NAMED = 3 };
-    const ps_saved_spectrum *const measured = results->measured;
+    const ps_saved_spectrum *const measured = &check->measured;
     size_t named[MOST_NAMED];
     size_t num = 0;
-    while (num < MOST_NAMED && num < results->num_different) {
+    while (num < MOST_NAMED && num < check->num_different) {
         size_t worst = SIZE_MAX;
         for (size_t b = 0; b < measured->num_bins; b++) {
-            bool is_new = results->rows[b].differs;
+            bool is_new = check->rows[b].differs;
             for (size_t i = 0; i < num; i++) {
                 is_new = is_new && named[i] != b;
             }
             if (is_new && (worst == SIZE_MAX ||
-                           fabs(results->rows[b].score) > fabs(results->rows[worst].score))) {
+                           fabs(check->rows[b].score) > fabs(check->rows[worst].score))) {
                 worst = b;
             }
         }
         ps_text_append(text, "%s %s %lld (power %.4g, saved %.4g, z = %.3g)", num > 0 ? "," : "",
-                       ps_check_bin_name(results->saved), (long long)measured->bins[worst].key,
-                       measured->bins[worst].power, results->saved->bins[worst].power,
-                       results->rows[worst].score);
+                       ps_check_bin_name(&check->saved), (long long)measured->bins[worst].key,
+                       measured->bins[worst].power, check->saved.bins[worst].power,
+                       check->rows[worst].score);
         named[num++] = worst;
     }
-    ps_text_append(text, "%s", num < results->num_different ? ", ..." : "");
+    ps_text_append(text, "%s", num < check->num_different ? ", ..." : "");
 }
 
-static pspec_status judge(const ps_request *request, const ps_check_results *results,
-                          ps_error *error) {
+static pspec_status judge(const ps_check *check, ps_error *error) {
     ps_text worst = {0};
-    if (results->num_different == 0) {
+    if (check->num_different == 0) {
         return PSPEC_OK;
     }
-    append_worst(&worst, results);
+    append_worst(&worst, check);
     pspec_status status = ps_text_check(&worst, error);
     if (status == PSPEC_OK) {
         status = ps_fail(error, PSPEC_ERROR_CHECK,
                          "not the spectrum of \"%s\": %zu of %zu %ss differ at a false alarm rate "
                          "of %g:%s",
-                         request->against, results->num_different, results->saved->num_bins,
-                         ps_check_bin_name(results->saved), request->false_alarm_rate,
+                         check->own.against, check->num_different, check->saved.num_bins,
+                         ps_check_bin_name(&check->saved), check->own.false_alarm_rate,
                          ps_text_string(&worst));
     }
     ps_text_free(&worst);
@@ -224,7 +209,7 @@ static pspec_status judge(const ps_request *request, const ps_check_results *res
 
 static pspec_status compute_homogeneity(void **out, const ps_request *request,
                                         const ps_answer_hooks *hooks, ps_error *error) {
-    checked *check = NULL;
+    ps_check *check = NULL;
     PS_TRY(PS_NEW(&check, 1, "a check", error));
     *out = check;
     return ps_homogeneity_compute(&check->homogeneity, request, hooks, error);
@@ -232,7 +217,7 @@ static pspec_status compute_homogeneity(void **out, const ps_request *request,
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
-    checked *check = NULL;
+    ps_check *check = NULL;
     if (request->homogeneous) {
         return compute_homogeneity(out, request, hooks, error);
     }
@@ -249,28 +234,22 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
         ps_answer_begin_next(hooks);
     }
     PS_TRY(PS_NEW(&check->rows, check->saved.num_bins, "compared bins", error));
-    return ps_check_compare(check->rows, &saved, &other, request->false_alarm_rate, error);
+    PS_TRY(ps_check_compare(check->rows, &saved, &other, request->false_alarm_rate, error));
+    for (size_t b = 0; b < check->saved.num_bins; b++) {
+        check->num_different += check->rows[b].differs;
+    }
+    return PSPEC_OK;
 }
 
-/* The table is there whatever the verdict. */
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
-    const checked *const check = computed;
-    ps_check_results results = {&check->saved, &check->measured, check->job, check->rows, 0};
+    const ps_check *const check = computed;
+    (void)request;
     if (check->homogeneity != NULL) {
         return ps_homogeneity_tabulate(out, check->homogeneity, error);
     }
-    for (size_t b = 0; b < check->saved.num_bins; b++) {
-        results.num_different += results.rows[b].differs;
-    }
-    PS_TRY(ps_check_table(&out->table, &check->own, &results, error));
-    const pspec_status status = judge(request, &results, error);
-    if (status != PSPEC_ERROR_CHECK) {
-        return status;
-    }
-    out->verdict = *error;
-    *error = (ps_error){0};
-    return PSPEC_OK;
+    PS_TRY(ps_check_table(&out->table, check, error));
+    return ps_verdict_take(out, judge(check, error), error);
 }
 
 static const char *const summary[] = {

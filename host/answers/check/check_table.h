@@ -1,19 +1,22 @@
-/* The table of pointspec check: a row for every ring, shell or degree. */
+/* What a check has found, and its table: a row for every ring, shell or degree. */
 #ifndef PS_ANSWERS_CHECK_CHECK_TABLE_H
 #define PS_ANSWERS_CHECK_CHECK_TABLE_H
 
 #include "answers/check/check_sides.h"
-#include "request/request.h"
-#include "tables/table.h"
+#include "answers/homogeneity/homogeneity.h"
 
-typedef struct ps_check_results {
-    const ps_saved_spectrum *saved, *measured;
-    const ps_power_job *job;   /* that measured, and has run; NULL: the other side was saved, too */
-    const ps_comparison *rows; /* [saved->num_bins] */
+/* The saved spectrum, and the measured one, which may have been saved, too. */
+typedef struct ps_check {
+    ps_saved_spectrum saved, measured;
+    ps_request own; /* what is asked of the measured side */
+    ps_question_list list;
+    ps_power_job *job;   /* that measured, and has run; NULL: the other side was saved, too */
+    ps_comparison *rows; /* [saved.num_bins] */
     size_t num_different;
-} ps_check_results;
+    /* Where that is asked instead, and the others are not there; else NULL. */
+    ps_homogeneity *homogeneity;
+} ps_check;
 
-pspec_status ps_check_table(ps_table **out, const ps_request *arguments,
-                            const ps_check_results *results, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_check_table(ps_table **out, const ps_check *check, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,29 +1,15 @@
 #include "answers/homogeneity/homogeneity.h"
 
-#include "answers/homogeneity/homogeneity_table.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "jobs/spectrum/power_frequencies.h"
-#include "spectra/phases/invariance.h"
 #include "request/options.h"
-#include "answers/spectra/question.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 /* On the sphere turns about the z axis and about the x axis, which make all rotations. */
 enum { MOST_PARTS = 2 };
-
-struct ps_homogeneity {
-    ps_request own;
-    ps_question_list list;
-    size_t num_parts;
-    ps_power_job *job;         /* of the part that came last */
-    size_t num_phases;         /* of a part */
-    ps_phase_label *labels;    /* [num_parts][num_phases] */
-    ps_phase_test *tests;      /* the same */
-    ps_invariance *invariance; /* of the part that is done */
-};
 
 void ps_homogeneity_discard(ps_homogeneity *computed) {
     if (computed == NULL) {
@@ -97,19 +83,15 @@ static pspec_status make_question(ps_question_list *out, const ps_request *own, 
 
 /* ---- before the work --------------------------------------------------------------------- */
 
-static size_t count_tests(const ps_homogeneity *self) {
-    return self->num_parts * self->num_phases;
-}
-
 static pspec_status check_realizations(const ps_homogeneity *self, uint64_t num, ps_error *error) {
     const double rate = self->own.false_alarm_rate;
-    const uint64_t least = ps_phase_tests_least(count_tests(self), rate);
+    const uint64_t least = ps_phase_tests_least(self->num_tests, rate);
     return num >= least
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT,
                          "%llu realization%s cannot tell: among %zu phases even equal ones would "
                          "not be an alarm at a rate of %g; at least %llu realizations are needed",
-                         (unsigned long long)num, num == 1 ? "" : "s", count_tests(self), rate,
+                         (unsigned long long)num, num == 1 ? "" : "s", self->num_tests, rate,
                          (unsigned long long)least);
 }
 
@@ -126,7 +108,7 @@ static pspec_status ask(ps_homogeneity *self, const ps_request *request, ps_erro
     ps_frequencies set = {0};
     PS_TRY(ps_power_frequencies(&set, question, question->sampler->dimension,
                                 (size_t)question->sampler->num_points, &(ps_box){0}, error));
-    self->num_phases = ps_invariance_count(&set);
+    self->num_tests = self->num_parts * ps_invariance_count(&set);
     return check_realizations(self, self->own.num_realizations, error);
 }
 
@@ -163,10 +145,10 @@ static double find_error(const ps_power_job *job) {
 }
 
 static pspec_status begin_tests(ps_homogeneity *self, ps_error *error) {
-    self->num_phases = ps_invariance_count(frequencies_of(self));
+    self->num_tests = self->num_parts * ps_invariance_count(frequencies_of(self));
     PS_TRY(check_realizations(self, self->job->spectrum.num_realizations, error));
-    PS_TRY(PS_NEW(&self->labels, count_tests(self), "phases", error));
-    return PS_NEW(&self->tests, count_tests(self), "phases", error);
+    PS_TRY(PS_NEW(&self->labels, self->num_tests, "phases", error));
+    return PS_NEW(&self->tests, self->num_tests, "phases", error);
 }
 
 static pspec_status add_sets(ps_homogeneity *self, ps_phase_test *tests,
@@ -194,7 +176,7 @@ static pspec_status run_part(ps_homogeneity *self, size_t part, const ps_answer_
     if (part == 0) {
         PS_TRY(begin_tests(self, error));
     }
-    const size_t first = part * self->num_phases;
+    const size_t first = part * (self->num_tests / self->num_parts);
     PS_TRY(ps_invariance_create(&self->invariance, frequencies_of(self), find_error(self->job),
                                 error));
     ps_invariance_label(self->invariance, question->is_turned, self->labels + first);
@@ -209,57 +191,56 @@ pspec_status ps_homogeneity_compute(ps_homogeneity **out, const ps_request *requ
     for (size_t part = 0; part < self->num_parts; part++) {
         PS_TRY(run_part(self, part, hooks, error));
     }
-    return ps_phase_tests_judge(self->tests, count_tests(self), self->own.false_alarm_rate, error);
+    PS_TRY(ps_phase_tests_judge(self->tests, self->num_tests, self->own.false_alarm_rate, error));
+    for (size_t i = 0; i < self->num_tests; i++) {
+        self->num_different += self->tests[i].differs;
+    }
+    return PSPEC_OK;
 }
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static size_t find_worst(const ps_homogeneity_results *results) {
+static size_t find_worst(const ps_homogeneity *self) {
     size_t worst = 0;
-    for (size_t i = 1; i < results->num_tests; i++) {
-        worst = results->tests[i].p_value < results->tests[worst].p_value ? i : worst;
+    for (size_t i = 1; i < self->num_tests; i++) {
+        worst = self->tests[i].p_value < self->tests[worst].p_value ? i : worst;
     }
     return worst;
 }
 
-static pspec_status judge(const ps_homogeneity *self, const ps_homogeneity_results *results,
-                          ps_error *error) {
+static pspec_status judge(const ps_homogeneity *self, ps_error *error) {
     const ps_frequencies *const set = frequencies_of(self);
-    const size_t worst = find_worst(results);
+    const size_t worst = find_worst(self);
     ps_text label = {0};
-    if (results->num_different == 0) {
+    if (self->num_different == 0) {
         return PSPEC_OK;
     }
-    pspec_status status = ps_phase_label_write(&results->labels[worst], set, &label, error);
+    pspec_status status = ps_phase_label_write(&self->labels[worst], set, &label, error);
     if (status == PSPEC_OK) {
         status = ps_fail(error, PSPEC_ERROR_CHECK,
                          "not homogeneous: %s change the law of these realizations; %zu of %zu "
                          "phases are not uniform at a false alarm rate of %g, first of all %s "
                          "(their mean has the length %.3g, p = %.2g)",
                          set->kind == PS_FREQUENCIES_DEGREES ? "rotations" : "translations",
-                         results->num_different, results->num_tests, self->own.false_alarm_rate,
-                         ps_text_string(&label), results->tests[worst].resultant,
-                         results->tests[worst].p_value);
+                         self->num_different, self->num_tests, self->own.false_alarm_rate,
+                         ps_text_string(&label), self->tests[worst].resultant,
+                         self->tests[worst].p_value);
     }
     ps_text_free(&label);
     return status;
 }
 
-pspec_status ps_homogeneity_tabulate(ps_answer *out, const ps_homogeneity *computed,
-                                     ps_error *error) {
-    ps_homogeneity_results results = {.job = computed->job,
-                                      .num_tests = count_tests(computed),
-                                      .labels = computed->labels,
-                                      .tests = computed->tests};
-    for (size_t i = 0; i < results.num_tests; i++) {
-        results.num_different += results.tests[i].differs;
-    }
-    PS_TRY(ps_homogeneity_table(&out->table, &computed->own, &results, error));
-    const pspec_status status = judge(computed, &results, error);
-    if (status != PSPEC_ERROR_CHECK) {
-        return status;
+pspec_status ps_verdict_take(ps_answer *out, pspec_status judged, ps_error *error) {
+    if (judged != PSPEC_ERROR_CHECK) {
+        return judged;
     }
     out->verdict = *error;
     *error = (ps_error){0};
     return PSPEC_OK;
+}
+
+pspec_status ps_homogeneity_tabulate(ps_answer *out, const ps_homogeneity *computed,
+                                     ps_error *error) {
+    PS_TRY(ps_homogeneity_table(&out->table, computed, error));
+    return ps_verdict_take(out, judge(computed, error), error);
 }

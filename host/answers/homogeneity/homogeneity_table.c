@@ -1,4 +1,4 @@
-#include "answers/homogeneity/homogeneity_table.h"
+#include "answers/homogeneity/homogeneity.h"
 
 #include "answers/spectra/spectrum_header.h"
 #include "base/memory.h"
@@ -61,8 +61,8 @@ typedef struct ring {
     const ps_phase_test *worst;
 } ring;
 
-static size_t ring_of(const ps_homogeneity_results *results, const ps_frequencies *set, size_t i) {
-    const int32_t *const k = results->labels[i].k;
+static size_t ring_of(const ps_homogeneity *self, const ps_frequencies *set, size_t i) {
+    const int32_t *const k = self->labels[i].k;
     return is_on_sphere(set) ? (size_t)k[0]
                              : (size_t)ps_ring_of_norm2(ps_frequency_norm2(k, set->dimension));
 }
@@ -72,12 +72,11 @@ static double joint_p_value(const ring *one) {
     return fmin(1, (double)one->num * one->worst->p_value);
 }
 
-static pspec_status add_row(ps_table *table, const ps_homogeneity_results *results,
-                            const ps_frequencies *set, size_t number, const ring *one,
-                            ps_error *error) {
+static pspec_status add_row(ps_table *table, const ps_homogeneity *self, const ps_frequencies *set,
+                            size_t number, const ring *one, ps_error *error) {
     ps_text label = {0};
     pspec_status status =
-        ps_phase_label_write(&results->labels[one->worst - results->tests], set, &label, error);
+        ps_phase_label_write(&self->labels[one->worst - self->tests], set, &label, error);
     if (status == PSPEC_OK) {
         const double p_value = joint_p_value(one);
         const ps_cell cells[NUM_COLUMNS] = {
@@ -96,25 +95,25 @@ static pspec_status add_row(ps_table *table, const ps_homogeneity_results *resul
     return status;
 }
 
-static pspec_status add_rows(ps_table *table, const ps_homogeneity_results *results,
-                             const ps_frequencies *set, ps_error *error) {
+static pspec_status add_rows(ps_table *table, const ps_homogeneity *self, const ps_frequencies *set,
+                             ps_error *error) {
     size_t last = 0;
     ring *rings = NULL;
     pspec_status status = PSPEC_OK;
-    for (size_t i = 0; i < results->num_tests; i++) {
-        const size_t number = ring_of(results, set, i);
+    for (size_t i = 0; i < self->num_tests; i++) {
+        const size_t number = ring_of(self, set, i);
         last = number > last ? number : last;
     }
     PS_TRY(PS_NEW(&rings, last + 1, "rings of phases", error));
-    for (size_t i = 0; i < results->num_tests; i++) {
-        ring *const one = &rings[ring_of(results, set, i)];
-        if (one->num++ == 0 || results->tests[i].p_value < one->worst->p_value) {
-            one->worst = &results->tests[i];
+    for (size_t i = 0; i < self->num_tests; i++) {
+        ring *const one = &rings[ring_of(self, set, i)];
+        if (one->num++ == 0 || self->tests[i].p_value < one->worst->p_value) {
+            one->worst = &self->tests[i];
         }
     }
     for (size_t b = 0; status == PSPEC_OK && b <= last; b++) {
         if (rings[b].num > 0) {
-            status = add_row(table, results, set, b, &rings[b], error);
+            status = add_row(table, self, set, b, &rings[b], error);
         }
     }
     free(rings);
@@ -123,53 +122,46 @@ static pspec_status add_rows(ps_table *table, const ps_homogeneity_results *resu
 
 /* ---- header ------------------------------------------------------------------------------ */
 
-static double smallest_p_value(const ps_homogeneity_results *results) {
+static double smallest_p_value(const ps_homogeneity *self) {
     double smallest = 1;
-    for (size_t i = 0; i < results->num_tests; i++) {
-        smallest = fmin(smallest, results->tests[i].adjusted_p_value);
+    for (size_t i = 0; i < self->num_tests; i++) {
+        smallest = fmin(smallest, self->tests[i].adjusted_p_value);
     }
     return smallest;
 }
 
-static pspec_status add_verdict(ps_table *table, const ps_request *arguments,
-                                const ps_homogeneity_results *results, bool on_sphere,
+pspec_status ps_verdict_add(ps_table *table, double false_alarm_rate, const char *different,
+                            double smallest_p_value, bool is_different, ps_error *error) {
+    const ps_meta entries[] = {
+        {"false_alarm_rate", PS_NUMBER(false_alarm_rate)},
+        {"different", PS_TEXT(different)},
+        {"adjusted_p_value", PS_NUMBER(smallest_p_value)},
+        {"verdict", PS_TEXT(is_different ? "different" : "same")},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status add_verdict(ps_table *table, const ps_homogeneity *self, bool on_sphere,
                                 ps_error *error) {
     enum { TEXT_BYTES = 96 };
     char text[TEXT_BYTES];
-    snprintf(text, sizeof text, "%zu of %zu phases", results->num_different, results->num_tests);
+    snprintf(text, sizeof text, "%zu of %zu phases", self->num_different, self->num_tests);
     PS_TRY(ps_table_add_meta(table, "invariance", PS_TEXT(on_sphere ? "rotations" : "translations"),
                              error));
-    PS_TRY(ps_table_add_meta(table, "false_alarm_rate", PS_NUMBER(arguments->false_alarm_rate),
-                             error));
-    PS_TRY(ps_table_add_meta(table, "different", PS_TEXT(text), error));
-    PS_TRY(
-        ps_table_add_meta(table, "adjusted_p_value", PS_NUMBER(smallest_p_value(results)), error));
-    return ps_table_add_meta(table, "verdict",
-                             PS_TEXT(results->num_different > 0 ? "different" : "same"), error);
+    return ps_verdict_add(table, self->own.false_alarm_rate, text, smallest_p_value(self),
+                          self->num_different > 0, error);
 }
 
-static pspec_status fill(ps_table *table, const ps_request *arguments,
-                         const ps_homogeneity_results *results, ps_error *error) {
-    const ps_frequencies *const set = results->job->problem.frequencies;
-    const ps_power_job *const job = results->job;
-    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, true, error));
-    PS_TRY(add_verdict(table, arguments, results, is_on_sphere(set), error));
-    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, false, error));
-    return add_rows(table, results, set, error);
-}
-
-pspec_status ps_homogeneity_table(ps_table **out, const ps_request *arguments,
-                                  const ps_homogeneity_results *results, ps_error *error) {
+pspec_status ps_homogeneity_table(ps_table **out, const ps_homogeneity *self, ps_error *error) {
     const char *columns[NUM_COLUMNS];
-    const bool on_sphere = is_on_sphere(results->job->problem.frequencies);
+    const ps_frequencies *const set = self->job->problem.frequencies;
+    const bool on_sphere = is_on_sphere(set);
     for (size_t i = 0; i < NUM_COLUMNS; i++) {
         columns[i] = i == 0 && on_sphere ? "degree" : torus_columns[i];
     }
     PS_TRY(ps_table_create(out, "check", columns, NUM_COLUMNS, error));
-    const pspec_status status = fill(*out, arguments, results, error);
-    if (status != PSPEC_OK) {
-        ps_table_destroy(*out);
-        *out = NULL;
-    }
-    return status;
+    PS_TRY(ps_header_add_job(*out, &self->own, self->job, true, error));
+    PS_TRY(add_verdict(*out, self, on_sphere, error));
+    PS_TRY(ps_header_add_job(*out, &self->own, self->job, false, error));
+    return add_rows(*out, self, set, error);
 }

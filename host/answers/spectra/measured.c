@@ -9,34 +9,18 @@
 
 /* ---- what is told ---------------------------------------------------------------------------- */
 
-pspec_status ps_told_create(ps_table **out, ps_error *error) {
-    return ps_table_create(out, "", NULL, 0, error);
-}
-
-typedef struct teller {
-    ps_table *table;
-    ps_error *error;
-    pspec_status status; /* the first failure; later entries do nothing */
-} teller;
-
-static void put(teller *self, const char *key, ps_cell value) {
-    if (self->status == PSPEC_OK) {
-        self->status = ps_table_add_meta(self->table, key, value, self->error);
-    }
-}
-
-static void put_random(teller *self, const ps_request *arguments) {
+static void put_random(ps_header *self, const ps_request *arguments) {
     const bool has_samplers = ps_request_has_samplers(arguments);
     if (has_samplers || arguments->frequencies.per_ring > 0) {
-        put(self, "seed", PS_INTEGER(arguments->seed));
+        ps_header_put(self, "seed", PS_INTEGER(arguments->seed));
     }
     if (has_samplers) {
-        put(self, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
+        ps_header_put(self, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
     }
 }
 
 /* Points of a smaller box look like a spectrum of clusters. */
-static void put_empty_axis(teller *self, const ps_power_job *job) {
+static void put_empty_axis(ps_header *self, const ps_power_job *job) {
     char text[192];
     ps_empty_axis empty = {0};
     if (ps_axis_cells_find_empty(&job->sets.first_cells, &empty)) {
@@ -45,12 +29,12 @@ static void put_empty_axis(teller *self, const ps_power_job *job) {
                  "a smaller box, --box X0,X1 takes that for the unit cell",
                  empty.axis + 1, empty.begin, empty.end,
                  empty.end <= empty.begin ? ", through 1" : "");
-        put(self, "empty", PS_TEXT(text));
+        ps_header_put(self, "empty", PS_TEXT(text));
     }
 }
 
 /* That of the first set; of the others what changes powers: their edges. */
-static void put_boxes(teller *self, const ps_power_job *job) {
+static void put_boxes(ps_header *self, const ps_power_job *job) {
     const ps_boxes *const boxes = &job->sets.boxes;
     const ps_frequencies *const set = job->problem.frequencies;
     ps_text text = {0};
@@ -70,11 +54,11 @@ static void put_boxes(teller *self, const ps_power_job *job) {
     if (self->status == PSPEC_OK) {
         self->status = ps_text_check(&text, self->error);
     }
-    put(self, "box_changes", PS_TEXT(ps_text_string(&text)));
+    ps_header_put(self, "box_changes", PS_TEXT(ps_text_string(&text)));
     ps_text_free(&text);
 }
 
-static void put_files(teller *self, const ps_request *arguments, const ps_power_job *job) {
+static void put_files(ps_header *self, const ps_request *arguments, const ps_power_job *job) {
     const bool predicts = job->question->num_sets > 0 && arguments->num_shifts > 0;
     self->status =
         self->status == PSPEC_OK
@@ -82,15 +66,15 @@ static void put_files(teller *self, const ps_request *arguments, const ps_power_
                   self->table, job->question->num_paths, job->spectrum.num_realizations,
                   predicts ? " to predict, the others to measure" : ", one average", self->error)
             : self->status;
-    put(self, "input_format", PS_TEXT(ps_source_format(job->sets.source)));
-    put(self, "input_columns", PS_TEXT(ps_source_columns(job->sets.source)));
+    ps_header_put(self, "input_format", PS_TEXT(ps_source_format(job->sets.source)));
+    ps_header_put(self, "input_columns", PS_TEXT(ps_source_columns(job->sets.source)));
     put_boxes(self, job);
     self->status = self->status == PSPEC_OK
                        ? ps_header_add_lift(self->table, &arguments->reading, self->error)
                        : self->status;
 }
 
-static void put_source(teller *self, const ps_request *arguments, const ps_power_job *job,
+static void put_source(ps_header *self, const ps_request *arguments, const ps_power_job *job,
                        size_t index) {
     const ps_sampler_request *const sampler = job->question->sampler;
     const char *const note = sampler != NULL ? ps_sampler_note(sampler) : NULL;
@@ -98,36 +82,37 @@ static void put_source(teller *self, const ps_request *arguments, const ps_power
                        ? ps_lead_add_source(self->table, arguments, index, self->error)
                        : self->status;
     if (note != NULL) {
-        put(self, "sampler_note", PS_TEXT(note));
+        ps_header_put(self, "sampler_note", PS_TEXT(note));
     }
     if (sampler == NULL) {
         put_files(self, arguments, job);
     }
 }
 
-static void put_computed(teller *self, const ps_power_job *job) {
+static void put_computed(ps_header *self, const ps_power_job *job) {
     const ps_device_limits *const limits = ps_device_get_limits(job->device);
     const ps_candidate *const chosen = job->plan.chosen;
     ps_text skipped = {0};
-    put(self, "device",
-        PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
-    put(self, "engine", PS_TEXT(ps_text_string(&job->description)));
-    put(self, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
-    put(self, "tolerance", PS_NUMBER(job->problem.tolerance));
+    ps_header_put(self, "device",
+                  PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
+    ps_header_put(self, "engine", PS_TEXT(ps_text_string(&job->description)));
+    ps_header_put(self, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
+    ps_header_put(self, "tolerance", PS_NUMBER(job->problem.tolerance));
     if (job->runner.was_replanned) {
-        put(self, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
+        ps_header_put(self, "planned_twice",
+                      PS_TEXT("the powers measured needed a more exact engine"));
     }
     ps_needs_describe(&job->needs, &skipped);
     if (self->status == PSPEC_OK) {
         self->status = ps_text_check(&skipped, self->error);
     }
-    put(self, "skipped", PS_TEXT(ps_text_string(&skipped)));
+    ps_header_put(self, "skipped", PS_TEXT(ps_text_string(&skipped)));
     ps_text_free(&skipped);
 }
 
 static pspec_status tell(ps_table *table, const ps_request *arguments, const ps_power_job *job,
                          size_t index, ps_error *error) {
-    teller self = {table, error, PSPEC_OK};
+    ps_header self = {table, error, PSPEC_OK};
     put_random(&self, arguments);
     put_source(&self, arguments, job, index);
     put_empty_axis(&self, job);
@@ -157,7 +142,7 @@ pspec_status ps_measured_of_jobs(ps_measured **out, const ps_request *arguments,
     PS_TRY(PS_NEW(out, num, "answers of jobs", error));
     for (size_t i = 0; i < num; i++) {
         ps_table *told = NULL;
-        PS_TRY(ps_told_create(&told, error));
+        PS_TRY(ps_table_create(&told, "", NULL, 0, error));
         (*out)[i] = measure(jobs[i]);
         (*out)[i].lead = ps_lead_make(arguments, i);
         (*out)[i].told = told;
@@ -174,15 +159,14 @@ void ps_measured_free(ps_measured *all, size_t num) {
 }
 
 pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
-                               const ps_power_job *const *jobs, size_t num, size_t index,
-                               bool begins, ps_error *error) {
-    ps_measured *all = NULL;
-    pspec_status status = ps_measured_of_jobs(&all, arguments, jobs, num, error);
+                               const ps_power_job *job, bool begins, ps_error *error) {
+    ps_measured *one = NULL;
+    pspec_status status = ps_measured_of_jobs(&one, arguments, &job, 1, error);
     if (status == PSPEC_OK) {
-        status = begins ? ps_header_begin(table, arguments, all, error)
-                        : ps_header_add(table, arguments, all, num, index, error);
+        status = begins ? ps_header_begin(table, arguments, one, error)
+                        : ps_header_add(table, arguments, one, 1, 0, error);
     }
-    ps_measured_free(all, num);
+    ps_measured_free(one, 1);
     return status;
 }
 

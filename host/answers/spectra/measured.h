@@ -22,8 +22,6 @@ typedef struct ps_measured {
 
 /* In the order of headers; ended by NULL. */
 extern const char *const ps_told_keys[];
-/* An empty table for them. */
-pspec_status ps_told_create(ps_table **out, ps_error *error) PS_MUST_CHECK;
 
 /* Of jobs that have run: *out is [num], and freed by ps_measured_free, also after an error. */
 pspec_status ps_measured_of_jobs(ps_measured **out, const ps_request *arguments,
@@ -31,11 +29,10 @@ pspec_status ps_measured_of_jobs(ps_measured **out, const ps_request *arguments,
                                  ps_error *error) PS_MUST_CHECK;
 void ps_measured_free(ps_measured *all, size_t num);
 
-/* Header lines of jobs that have run: where it begins what all have in common, else what is to be
- * said of job `index` (spectrum_header.h). */
+/* Header lines of the only job, which has run: those it begins with, or the others
+ * (spectrum_header.h). */
 pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
-                               const ps_power_job *const *jobs, size_t num, size_t index,
-                               bool begins, ps_error *error) PS_MUST_CHECK;
+                               const ps_power_job *job, bool begins, ps_error *error) PS_MUST_CHECK;
 
 /* What the tables of a kind have: header lines, and the rows of one question after the other. */
 typedef struct ps_spectra_table {

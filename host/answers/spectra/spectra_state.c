@@ -179,7 +179,7 @@ static pspec_status tell_parts(ps_table *told, const ps_parts *parts, ps_error *
 
 static pspec_status tell(ps_table **out, const ps_parts *parts, size_t question,
                          size_t num_questions, ps_error *error) {
-    PS_TRY(ps_told_create(out, error));
+    PS_TRY(ps_table_create(out, "", NULL, 0, error));
     for (const char *const *key = ps_told_keys; *key != NULL; key++) {
         if (strcmp(*key, "merged") != 0) {
             PS_TRY(tell_key(*out, parts, *key, question, num_questions, error));

@@ -66,13 +66,7 @@ pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num
     return num_files > 1 ? ps_table_add_meta(table, "input", PS_TEXT(text), error) : PSPEC_OK;
 }
 
-typedef struct header {
-    ps_table *table;
-    ps_error *error;
-    pspec_status status; /* the first failure; later entries do nothing */
-} header;
-
-static void put(header *head, const char *key, ps_cell value) {
+void ps_header_put(ps_header *head, const char *key, ps_cell value) {
     if (head->status == PSPEC_OK) {
         head->status = ps_table_add_meta(head->table, key, value, head->error);
     }
@@ -93,14 +87,15 @@ static size_t find_key(const char *key) {
 }
 
 /* The entries of these keys, from the first to the last. */
-static void put_told(header *head, const ps_measured *self, const char *first, const char *last) {
+static void put_told(ps_header *head, const ps_measured *self, const char *first,
+                     const char *last) {
     const size_t end = find_key(last);
     for (size_t key = find_key(first); key <= end; key++) {
         for (size_t i = 0; i < ps_table_num_meta(self->told); i++) {
             const char *name = NULL;
             const ps_cell value = ps_table_meta(self->told, i, &name);
             if (strcmp(name, ps_told_keys[key]) == 0) {
-                put(head, name, value);
+                ps_header_put(head, name, value);
             }
         }
     }
@@ -124,11 +119,11 @@ static const char *name_normalization(const ps_request *arguments, const ps_meas
     }
 }
 
-static void put_common(header *head, const ps_request *arguments, const ps_measured *first) {
-    put(head, "pointspec_version", PS_TEXT(PS_VERSION));
-    put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
-    put(head, "command", PS_TEXT(arguments->command_line));
-    put(head, "normalization", PS_TEXT(name_normalization(arguments, first)));
+static void put_common(ps_header *head, const ps_request *arguments, const ps_measured *first) {
+    ps_header_put(head, "pointspec_version", PS_TEXT(PS_VERSION));
+    ps_header_put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
+    ps_header_put(head, "command", PS_TEXT(arguments->command_line));
+    ps_header_put(head, "normalization", PS_TEXT(name_normalization(arguments, first)));
     put_told(head, first, "seed", "merged");
 }
 
@@ -136,12 +131,13 @@ static void put_common(header *head, const ps_request *arguments, const ps_measu
 static const double notable_ratio = 1.1;
 
 /* Averages over sets of different N mix spectra, which change with N. */
-static void put_different_points(header *head, const ps_request *arguments,
+static void put_different_points(ps_header *head, const ps_request *arguments,
                                  const ps_spectrum *spectrum) {
     if (!((double)spectrum->largest_points > notable_ratio * (double)spectrum->smallest_points)) {
         return;
     }
-    put(head, "different_points",
+    ps_header_put(
+        head, "different_points",
         PS_TEXT(arguments->normalization == PSPEC_NORMALIZATION_INTEGRAL
                     ? "every set counts by |S|^2 / W^2, as variances of integrals want it; white "
                       "noise is above 1"
@@ -151,41 +147,43 @@ static void put_different_points(header *head, const ps_request *arguments,
                       "integrals want --normalize integral"));
 }
 
-static void put_points(header *head, bool with_range, const ps_measured *self) {
+static void put_points(ps_header *head, bool with_range, const ps_measured *self) {
     const ps_spectrum *const spectrum = self->spectrum;
     const ps_points_range range = {spectrum->mean_points, spectrum->smallest_points,
                                    spectrum->largest_points};
     head->status = head->status == PSPEC_OK
                        ? ps_header_add_points(head->table, &range, with_range, head->error)
                        : head->status;
-    put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
+    ps_header_put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
     if (spectrum->num_realizations == 1) {
-        put(head, "standard_error",
+        ps_header_put(
+            head, "standard_error",
             PS_TEXT(spectrum->frequencies.rings != NULL
                         ? "one realization: that of the choice of frequencies, none for complete "
                           "rings"
                         : "none: one realization"));
     } else if (!self->is_one_for_all && !is_on_sphere(&spectrum->frequencies)) {
-        put(head, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
+        ps_header_put(head, "noise_level_db",
+                      PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
     }
-    put(head, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
+    ps_header_put(head, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
 }
 
 /* Both signs, as in the table. */
-static void put_subset(header *head, const ps_request *arguments, const ps_frequencies *set) {
+static void put_subset(ps_header *head, const ps_request *arguments, const ps_frequencies *set) {
     char text[128];
     if (arguments->frequencies.per_ring == 0) {
         return;
     }
-    put(head, "per_ring", PS_INTEGER(arguments->frequencies.per_ring));
+    ps_header_put(head, "per_ring", PS_INTEGER(arguments->frequencies.per_ring));
     snprintf(text, sizeof text, "%llu of %llu frequencies of the rings, both signs",
              2 * (unsigned long long)set->num,
              2 * (unsigned long long)ps_frequencies_population(set));
-    put(head, "computed", PS_TEXT(text));
+    ps_header_put(head, "computed", PS_TEXT(text));
 }
 
 /* What |k| is in a box that is no cube. */
-static void put_rings(header *head, const ps_frequencies *set) {
+static void put_rings(ps_header *head, const ps_frequencies *set) {
     char text[160];
     if (set->reach == 0) {
         return;
@@ -194,29 +192,31 @@ static void put_rings(header *head, const ps_frequencies *set) {
              "of |k| in cycles per edge of the cube of the same volume V: k_i V^(1/%u) / L_i, with "
              "|k_i| up to %d",
              set->dimension, (int)set->max_frequency);
-    put(head, "rings", PS_TEXT(text));
+    ps_header_put(head, "rings", PS_TEXT(text));
 }
 
-static void put_frequencies(header *head, const ps_request *arguments, const ps_frequencies *set) {
+static void put_frequencies(ps_header *head, const ps_request *arguments,
+                            const ps_frequencies *set) {
     if (is_on_sphere(set)) {
-        put(head, "domain", PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
-        put(head, "max_degree", PS_INTEGER(set->max_frequency));
+        ps_header_put(head, "domain",
+                      PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
+        ps_header_put(head, "max_degree", PS_INTEGER(set->max_frequency));
         return;
     }
-    put(head, "dimension", PS_INTEGER(set->dimension));
-    put(head, "max_frequency", PS_INTEGER(ps_frequencies_reach(set)));
+    ps_header_put(head, "dimension", PS_INTEGER(set->dimension));
+    ps_header_put(head, "max_frequency", PS_INTEGER(ps_frequencies_reach(set)));
     put_rings(head, set);
     if (arguments->frequencies.path == NULL && set->bins.kind != PS_BINS_ROUND) {
-        put(head, "bins", PS_TEXT(ps_bin_rule_write(&set->bins).text));
+        ps_header_put(head, "bins", PS_TEXT(ps_bin_rule_write(&set->bins).text));
     }
     put_subset(head, arguments, set);
 }
 
-static void put_self_check(header *head, const ps_measured *self) {
+static void put_self_check(ps_header *head, const ps_measured *self) {
     const bool on_sphere = is_on_sphere(&self->spectrum->frequencies);
     char text[96];
     if (isnan(self->self_check)) {
-        put(head, "self_check", PS_TEXT("none"));
+        ps_header_put(head, "self_check", PS_TEXT("none"));
         return;
     }
     if (self->are_pair_sums) {
@@ -226,21 +226,21 @@ static void put_self_check(header *head, const ps_measured *self) {
         snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
                  self->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
     }
-    put(head, "self_check", PS_TEXT(text));
+    ps_header_put(head, "self_check", PS_TEXT(text));
 }
 
 /* Rounding of coordinates in double precision is not worth a line. */
-static void put_lengths(header *head, const ps_measured *self) {
+static void put_lengths(ps_header *head, const ps_measured *self) {
     const double rounding = 1e-15;
     char text[96];
     if (self->length_error > rounding) {
         snprintf(text, sizeof text, "divided by their lengths, which differ from 1 by up to %.2g",
                  self->length_error);
-        put(head, "vectors", PS_TEXT(text));
+        ps_header_put(head, "vectors", PS_TEXT(text));
     }
 }
 
-static void put_look(header *head, const ps_request *arguments, const ps_measured *self) {
+static void put_look(ps_header *head, const ps_request *arguments, const ps_measured *self) {
     const ps_sequential_look *look = self->look;
     char text[160];
     if (look == NULL) {
@@ -251,7 +251,7 @@ static void put_look(header *head, const ps_request *arguments, const ps_measure
              look->corrected <= arguments->accuracy.standard_error ? "reached" : "not reached",
              look->relative_error, is_on_sphere(&self->spectrum->frequencies) ? "degree" : "bin",
              (long long)look->bin, look->corrected);
-    put(head, "relative_standard_error", PS_TEXT(text));
+    ps_header_put(head, "relative_standard_error", PS_TEXT(text));
 }
 
 static bool have_ranges(const ps_measured *all, size_t num) {
@@ -262,7 +262,7 @@ static bool have_ranges(const ps_measured *all, size_t num) {
     return i < num;
 }
 
-static void put_question(header *head, const ps_request *arguments, const ps_measured *self,
+static void put_question(ps_header *head, const ps_request *arguments, const ps_measured *self,
                          bool with_range) {
     put_told(head, self, "sampler", "morph");
     put_points(head, with_range, self);
@@ -274,7 +274,7 @@ static void put_question(header *head, const ps_request *arguments, const ps_mea
     put_lengths(head, self);
     put_frequencies(head, arguments, &self->spectrum->frequencies);
     put_told(head, self, "device", "tolerance");
-    put(head, "predicted_error", PS_NUMBER(self->error));
+    ps_header_put(head, "predicted_error", PS_NUMBER(self->error));
     put_told(head, self, "planned_twice", "planned_twice");
     put_self_check(head, self);
     put_told(head, self, "skipped", "skipped");
@@ -282,14 +282,14 @@ static void put_question(header *head, const ps_request *arguments, const ps_mea
 
 pspec_status ps_header_begin(ps_table *table, const ps_request *arguments, const ps_measured *first,
                              ps_error *error) {
-    header head = {table, error, PSPEC_OK};
+    ps_header head = {table, error, PSPEC_OK};
     put_common(&head, arguments, first);
     return head.status;
 }
 
 pspec_status ps_header_add(ps_table *table, const ps_request *arguments, const ps_measured *all,
                            size_t num, size_t index, ps_error *error) {
-    header head = {table, error, PSPEC_OK};
+    ps_header head = {table, error, PSPEC_OK};
     put_question(&head, arguments, &all[index], have_ranges(all, num));
     return head.status;
 }

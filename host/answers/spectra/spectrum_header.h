@@ -5,6 +5,14 @@
 #include "answers/spectra/measured.h"
 #include "tables/table.h"
 
+/* A header that is being written. */
+typedef struct ps_header {
+    ps_table *table;
+    ps_error *error;
+    pspec_status status; /* the first failure; later entries do nothing */
+} ps_header;
+void ps_header_put(ps_header *head, const char *key, ps_cell value);
+
 /* What all questions have in common. */
 pspec_status ps_header_begin(ps_table *table, const ps_request *arguments, const ps_measured *first,
                              ps_error *error) PS_MUST_CHECK;

@@ -173,12 +173,12 @@ static pspec_status add_choices(ps_table *table, const ps_request *request,
 }
 
 static pspec_status fill(ps_table *table, const ps_request *request, ps_variance_job *const *jobs,
-                         const ps_power_job *const *spectra, size_t num, ps_error *error) {
+                         const ps_measured *spectra, size_t num, ps_error *error) {
     for (size_t i = 0; i < request->num_integrands; i++) {
         PS_TRY(add_integrand(table, request, jobs[0]->integrands[i], i, error));
     }
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_header_add_job(table, request, spectra, num, i, false, error));
+        PS_TRY(ps_header_add(table, request, spectra, num, i, error));
         PS_TRY(add_files(table, jobs[i], error));
         PS_TRY(add_quantile(table, jobs[i], error));
         PS_TRY(add_most_power(table, jobs[i], error));
@@ -192,6 +192,18 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
     return ps_variance_parts_add_all(table, request, jobs, error);
 }
 
+static pspec_status measure(ps_measured **out, const ps_request *request,
+                            ps_variance_job *const *jobs, size_t num, ps_error *error) {
+    const ps_power_job **spectra = NULL;
+    PS_TRY(PS_NEW(&spectra, num, "jobs", error));
+    for (size_t i = 0; i < num; i++) {
+        spectra[i] = jobs[i]->spectrum;
+    }
+    const pspec_status status = ps_measured_of_jobs(out, request, spectra, num, error);
+    free(spectra);
+    return status;
+}
+
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,
                                ps_variance_job *const *jobs, size_t num, const ps_error *verdict,
                                ps_error *error) {
@@ -200,22 +212,15 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
     const ps_lead first = make_lead(request, 0, 0);
     ps_request own = *request; /* what headers say of powers is said of these */
     own.normalization = PSPEC_NORMALIZATION_INTEGRAL;
-    const ps_power_job **spectra = NULL;
-    PS_TRY(PS_NEW(&spectra, num, "jobs", error));
-    for (size_t i = 0; i < num; i++) {
-        spectra[i] = jobs[i]->spectrum;
-    }
-    pspec_status status = ps_lead_create_table(out, "variance", &first, names, num_columns, error);
-    if (status == PSPEC_OK) {
-        status = begin(*out, request, jobs[0], error);
-    }
-    if (status == PSPEC_OK) {
-        status = add_choices(*out, request, jobs, num, verdict, error);
-    }
+    ps_measured *spectra = NULL;
+    PS_TRY(ps_lead_create_table(out, "variance", &first, names, num_columns, error));
+    PS_TRY(begin(*out, request, jobs[0], error));
+    PS_TRY(add_choices(*out, request, jobs, num, verdict, error));
+    pspec_status status = measure(&spectra, &own, jobs, num, error);
     if (status == PSPEC_OK) {
         status = fill(*out, &own, jobs, spectra, num, error);
     }
-    free(spectra);
+    ps_measured_free(spectra, num);
     return status;
 }
 
