@@ -19,20 +19,13 @@ typedef struct asking {
 
 /* ---- the caller's patterns --------------------------------------------------------------- */
 
-static pspec_status next_kept(const ps_caller_set *set, uint64_t realization, pspec_pattern *out,
-                              bool *has_set) {
-    *has_set = realization < set->kept.num;
-    if (*has_set) {
-        *out = ps_kept_patterns_view(&set->kept, (size_t)realization);
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status next(void *payload, uint64_t realization, pspec_pattern *out, bool *has_set,
                          ps_error *error) {
     const ps_caller_set *const set = payload;
     if (set->give == NULL) {
-        return next_kept(set, realization, out, has_set);
+        *has_set = realization < set->num_kept;
+        *out = *has_set ? set->kept[realization] : *out;
+        return PSPEC_OK;
     }
     const int given = set->give(realization, out, set->payload);
     *has_set = given > 0;

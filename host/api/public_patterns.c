@@ -1,6 +1,5 @@
 /* The public library: patterns of a question, in memory or from a function. */
 #include "api/question.h"
-#include "base/memory.h"
 #include "base/process/memory_limit.h"
 
 #include <string.h>
@@ -39,14 +38,24 @@ static pspec_status last_set(pspec_question *self, ps_caller_set **out, ps_error
     return PSPEC_OK;
 }
 
+/* Of num patterns of the shape of one of them; SIZE_MAX: more than there can be. */
+static size_t count_numbers(const pspec_pattern *first, size_t num) {
+    size_t size = 0;
+    return ps_size_multiply(first->num_points, first->dimension + (first->weights != NULL),
+                            &size) &&
+                   ps_size_multiply(size, num, &size)
+               ? size
+               : SIZE_MAX;
+}
+
 static pspec_status check_memory(const pspec_question *self, const pspec_pattern *first, size_t num,
                                  ps_error *error) {
     char needed[PS_SIZE_TEXT];
     char allowed[PS_SIZE_TEXT];
     const uint64_t limit = self->context->memory_limit;
-    double numbers = (double)ps_kept_patterns_size(first, num);
+    double numbers = (double)count_numbers(first, num);
     for (size_t i = 0; i < self->num_sets; i++) {
-        numbers += (double)self->sets[i].kept.used;
+        numbers += (double)self->sets[i].num_numbers;
     }
     const double bytes = numbers * (double)sizeof(double);
     return limit == 0 || bytes <= (double)limit
@@ -55,6 +64,34 @@ static pspec_status check_memory(const pspec_question *self, const pspec_pattern
                          "patterns in memory take %s, above the limit of %s; "
                          "pspec_question_give() asks for one at a time and keeps none",
                          ps_size_show(needed, bytes), ps_size_show(allowed, (double)limit));
+}
+
+/* Copies num patterns of the shape of the first, one behind the other. */
+static pspec_status keep(ps_caller_set *set, const pspec_pattern *first, size_t num,
+                         ps_error *error) {
+    static const char what[] = "patterns in memory";
+    const size_t coordinates = first->num_points * first->dimension;
+    const size_t size = count_numbers(first, num);
+    void *kept = set->kept;
+    double *numbers = NULL;
+    if (size > SIZE_MAX - 1 - set->num_numbers) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "there is no memory for so many %s", what);
+    }
+    PS_TRY(ps_grow(&kept, &set->capacity, set->num_kept + num, sizeof *set->kept, what, error));
+    set->kept = kept;
+    PS_TRY(PS_POOL_NEW(&set->memory, &numbers, size, what, error));
+    double *const weights = numbers + num * coordinates;
+    memcpy(numbers, first->points, num * coordinates * sizeof *numbers);
+    if (first->weights != NULL) {
+        memcpy(weights, first->weights, num * first->num_points * sizeof *weights);
+    }
+    for (size_t i = 0; i < num; i++) {
+        set->kept[set->num_kept++] =
+            (pspec_pattern){first->dimension, first->num_points, numbers + i * coordinates,
+                            first->weights != NULL ? weights + i * first->num_points : NULL};
+    }
+    set->num_numbers += size;
+    return PSPEC_OK;
 }
 
 static pspec_status add(pspec_question *self, const pspec_pattern *first, size_t num,
@@ -74,7 +111,7 @@ static pspec_status add(pspec_question *self, const pspec_pattern *first, size_t
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "the patterns of the set \"%s\" are those that a function gives",
                          ps_text_string(&set->name))
-               : ps_kept_patterns_add(&set->kept, first, num, error);
+               : keep(set, first, num, error);
 }
 
 pspec_status pspec_question_add(pspec_question *question, size_t num_patterns, size_t num_points,
@@ -92,7 +129,7 @@ pspec_status pspec_question_give(pspec_question *question, uint64_t num, pspec_g
     }
     ps_error *const error = &question->context->error;
     PS_TRY(last_set(question, &set, error));
-    if (give == NULL || set->give != NULL || set->kept.num > 0) {
+    if (give == NULL || set->give != NULL || set->num_kept > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        give == NULL ? "there is no function that gives patterns"
                                     : "the set \"%s\" has patterns already",

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "files/decimal.h"
 #include "files/temporary_file.h"
-#include "request/option_inputs.h"
 #include "request/option_text.h"
 
 #include <inttypes.h>
@@ -31,7 +30,8 @@ void pspec_question_reset(pspec_question *question) {
     for (size_t i = 0; question != NULL && i < question->num_sets; i++) {
         ps_text_free(&question->sets[i].name);
         ps_text_free(&question->sets[i].word);
-        ps_kept_patterns_free(&question->sets[i].kept);
+        free(question->sets[i].kept);
+        ps_pool_free(&question->sets[i].memory);
     }
     if (question != NULL) {
         question->num_sets = 0;

@@ -3,17 +3,20 @@
 #ifndef PS_API_QUESTION_H
 #define PS_API_QUESTION_H
 
-#include "api/kept_patterns.h"
 #include "api/public_objects.h"
+#include "base/memory.h"
 #include "base/text.h"
 
 /* Patterns of one average: kept ones, or those that a function of the caller gives. */
 typedef struct ps_caller_set {
     ps_text name; /* PS_CALLER_POINTS: they are the points of the question, as files are */
     ps_text word; /* NAME=NAME, as --set has it */
-    ps_kept_patterns kept;
-    uint64_t num;    /* that give is asked for at most */
-    pspec_give give; /* NULL: none */
+    size_t num_kept, capacity;
+    pspec_pattern *kept; /* with copies of their numbers in memory */
+    ps_pool memory;
+    size_t num_numbers; /* in it */
+    uint64_t num;       /* that give is asked for at most */
+    pspec_give give;    /* NULL: none */
     void *payload;
 } ps_caller_set;
 

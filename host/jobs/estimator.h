@@ -9,12 +9,19 @@
 #define PS_JOBS_ESTIMATOR_H
 
 #include "base/log.h"
-#include "jobs/estimator_pairs.h"
 #include "jobs/pattern_check.h"
 #include "plan/choose.h"
 #include "spectra/spectrum_sums.h"
 
 typedef struct ps_estimator ps_estimator;
+
+/* Told of the realizations, one after the other in their order and before ps_estimator_add returns,
+ * which waits for their rows then: Z(l) = sum_j w_j P_l(z_j) and C_l^2
+ * for l = 0 .. L, borrowed until it returns. */
+typedef struct ps_pair_observer {
+    void (*tell)(void *payload, const double *zonal, const double *c2); /* NULL: nobody asks */
+    void *payload;
+} ps_pair_observer;
 
 typedef struct ps_estimator_options {
     ps_problem problem; /* frequencies enumerated; num_points of the largest set so far known */

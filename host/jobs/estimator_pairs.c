@@ -1,4 +1,4 @@
-#include "jobs/estimator_pairs.h"
+#include "jobs/estimator_private.h"
 
 #include "base/memory.h"
 #include "base/workers.h"

@@ -1,4 +1,4 @@
-#include "jobs/scout.h"
+#include "jobs/source.h"
 
 /* Points that are only counted: few enough to stay in the cache. */
 enum { BLOCK_POINTS = 32768 };

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"
-#include "jobs/scout.h"
 #include "sets/kept_inputs.h"
 
 #include <stdio.h>

@@ -53,6 +53,26 @@ ps_weights_kind ps_weights_find(const char *words, const char *value) {
     return strstr(words, "FILE") != NULL ? PS_WEIGHTS_FILE : PS_WEIGHTS_GIVEN;
 }
 
+/* ---- where the name of a file stands in a value ---------------------------------------------- */
+
+const char *ps_input_all(const char *words, const char *value) {
+    (void)words;
+    return value;
+}
+
+const char *ps_input_of_weights(const char *words, const char *value) {
+    return ps_weights_find(words, value) == PS_WEIGHTS_FILE ? value : NULL;
+}
+
+const char *ps_input_of_named(const char *words, const char *value) {
+    static const char key[] = "file=";
+    const char *const found = strstr(value, key);
+    (void)words;
+    return found != NULL ? found + strlen(key) : NULL;
+}
+
+/* ---- settings --------------------------------------------------------------------------------- */
+
 pspec_status ps_set_weights(const ps_said *said, ps_error *error) {
     const ps_weights_kind kind = ps_weights_find(said->words, said->text);
     if (kind == PS_WEIGHTS_GIVEN) {

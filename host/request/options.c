@@ -2,7 +2,6 @@
 
 #include "frequencies/frequency_sample.h"
 #include "points/points.h"
-#include "request/option_inputs.h"
 #include "request/option_rows.h"
 
 /* 10^10 points of the plane are 160 GB. */

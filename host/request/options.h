@@ -55,6 +55,9 @@ typedef pspec_status ps_option_setter(const ps_said *said, ps_error *error);
 /* The file that a value makes a question read, a part of the value; NULL: none. */
 typedef const char *ps_option_input(const char *words, const char *value);
 
+/* The value itself; that of --weights where it is a file; that of "NAME:file=PATH". */
+ps_option_input ps_input_all, ps_input_of_weights, ps_input_of_named;
+
 /* What kind of points an option is about. */
 typedef enum ps_option_source { PS_OF_BOTH, PS_OF_SAMPLERS, PS_OF_FILES } ps_option_source;
 

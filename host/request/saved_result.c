@@ -1,4 +1,4 @@
-#include "request/saved_result.h"
+#include "request/file_list.h"
 
 #include "base/text.h"
 #include "files/input_file.h"

@@ -1,7 +1,7 @@
 /* Empty pieces of axes: found where points are of a smaller box, never of samplers. */
 #include "harness_estimator.h"
 
-#include "jobs/spectrum/empty_axis.h"
+#include "jobs/spectrum/power_sets.h"
 #include "samplers/sampler.h"
 
 #include <math.h>

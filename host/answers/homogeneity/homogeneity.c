@@ -2,7 +2,6 @@
 
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
-#include "jobs/spectrum/power_frequencies.h"
 #include "request/options.h"
 
 #include <math.h>

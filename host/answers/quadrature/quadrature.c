@@ -3,7 +3,6 @@
 #include "answers/quadrature/quadrature_table.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
-#include "jobs/quadrature/quadrature_phases.h"
 #include "points/lists/weight_list.h"
 
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* The variance of Monte Carlo integration, predicted from spectra and measured beside it. */
 #include "answers/spectra/spectra.h"
 #include "answers/variance/tail_verdict.h"
-#include "answers/variance/variance_question.h"
 #include "answers/variance/variance_table.h"
 #include "base/memory.h"
 

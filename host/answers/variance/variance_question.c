@@ -1,10 +1,9 @@
-#include "answers/variance/variance_question.h"
+#include "answers/variance/variance_table.h"
 
 #include "answers/variance/parts.h"
 #include "base/memory.h"
 #include "request/options.h"
 #include "request/point_source.h"
-#include "request/saved_result.h"
 
 #include <stdlib.h>
 

@@ -7,6 +7,7 @@
 
 #include "jobs/quadrature/quadrature_rules.h"
 #include "jobs/runner.h"
+#include "plan/phases.h"
 #include "spectra/sums.h"
 
 typedef struct ps_quadrature_degree {
@@ -101,5 +102,19 @@ ps_sequential_look ps_quadrature_look(const ps_quadrature_sums *sums, double lea
 
 /* "E^2", "e_l^2 of degree 3", or "nothing above the tolerance". */
 void ps_quadrature_look_name(char *text, size_t size, const ps_sequential_look *look);
+
+/* ---- how long it takes beside its engine, phase by phase -------------------------------------- */
+
+/* Returns by what the seconds of its engines are to be multiplied, as ps_power_job_phases. */
+double ps_quadrature_job_phases(const ps_quadrature_job *job, ps_phases *phases);
+
+/* Adds what the coefficients of a lobe take, made for so many degrees. */
+void ps_phases_lobe(ps_phases *phases, const ps_representer *representer);
+
+/* Adds kappa of sets of so many points and of so many terms, or so many distances of each set in
+ * powers of 2 s - 2, to the phase of that name (ps_cost_rule_seconds). */
+void ps_phases_kappa(ps_phases *phases, const char *name, double points, double terms, double sets);
+void ps_phases_distances(ps_phases *phases, const char *name, double smoothness, double distances,
+                         double sets);
 
 #endif

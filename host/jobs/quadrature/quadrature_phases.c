@@ -1,4 +1,4 @@
-#include "jobs/quadrature/quadrature_phases.h"
+#include "jobs/quadrature/quadrature_job.h"
 
 #include "jobs/point_phases.h"
 #include "jobs/spectrum/power_phases.h"

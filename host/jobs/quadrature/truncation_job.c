@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "rules/truncation.h"
-#include "jobs/quadrature/quadrature_phases.h"
+#include "jobs/quadrature/quadrature_job.h"
 #include "jobs/spectrum/power_phases.h"
 
 #include <math.h>

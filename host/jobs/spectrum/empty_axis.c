@@ -1,4 +1,4 @@
-#include "jobs/spectrum/empty_axis.h"
+#include "jobs/spectrum/power_sets.h"
 
 #include <math.h>
 

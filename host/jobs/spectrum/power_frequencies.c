@@ -1,4 +1,4 @@
-#include "jobs/spectrum/power_frequencies.h"
+#include "jobs/spectrum/power_job.h"
 
 #include "frequencies/frequency_sample.h"
 #include "points/lists/frequency_list.h"

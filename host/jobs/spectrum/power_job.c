@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
-#include "jobs/spectrum/power_frequencies.h"
 #include "store/figures_file.h"
 
 #include <math.h>

@@ -1,7 +1,5 @@
 #include "jobs/spectrum/power_job_private.h"
 
-#include "jobs/spectrum/power_frequencies.h"
-
 #include <math.h>
 #include <stdio.h>
 
