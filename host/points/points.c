@@ -76,70 +76,29 @@ const char *ps_points_format_by_ending(const char *path) {
 
 /* ---- detection --------------------------------------------------------------------------- */
 
-/* How many more bytes must be seen to tell whether a magic is there: 0 when they tell. */
-static size_t missing_bytes(const char *magic, size_t length, const unsigned char *bytes,
-                            size_t num_bytes, bool *is_it) {
-    const size_t there = num_bytes < length ? num_bytes : length;
-    const bool agrees = length > 0 && memcmp(bytes, magic, there) == 0;
-    *is_it = agrees && there == length;
-    return agrees ? length - there : 0;
-}
-
-/* The same for formats that are not read: the largest of them. */
-static size_t missing_of_foreign(const unsigned char *bytes, size_t num_bytes,
-                                 const ps_foreign_format **found) {
-    size_t missing = 0;
-    for (const ps_foreign_format *format = ps_foreign_formats; format->magic != NULL; format++) {
-        bool is_it = false;
-        const size_t more =
-            missing_bytes(format->magic, format->magic_bytes, bytes, num_bytes, &is_it);
-        missing = more > missing ? more : missing;
-        *found = is_it ? format : *found;
-    }
-    return missing;
-}
-
-/* More is waited for only where two bytes say that it comes. */
-static pspec_status refuse_beginning(ps_point_reader *reader, ps_error *error) {
-    const unsigned char *bytes = NULL;
-    size_t num = 0;
-    const ps_foreign_format *found = NULL;
-    PS_TRY(ps_input_peek(&reader->input, 2, &bytes, &num, error));
-    if (ps_foreign_may_be(bytes, num)) {
-        PS_TRY(ps_input_peek(&reader->input, PS_FOREIGN_BYTES, &bytes, &num, error));
-        found = ps_foreign_find(bytes, num < PS_FOREIGN_BYTES ? num : PS_FOREIGN_BYTES);
-    }
-    return found != NULL ? ps_foreign_refuse(reader->input.name, found, error) : PSPEC_OK;
-}
-
 /* Looks no further than needed: a pipe may bring a few bytes and wait. */
 static pspec_status find_magic(ps_point_reader *reader, ps_error *error) {
     const unsigned char *bytes = NULL;
     size_t num_bytes = 0;
-    size_t wanted = 1;
-    size_t missing = 1;
-    const ps_foreign_format *foreign = NULL;
-    while (missing > 0) {
+    bool needs_more = true;
+    for (size_t wanted = 2; needs_more; wanted = num_bytes + 1) {
         PS_TRY(ps_input_peek(&reader->input, wanted, &bytes, &num_bytes, error));
-        missing = missing_of_foreign(bytes, num_bytes, &foreign);
+        const bool are_all = num_bytes < wanted;
+        needs_more = false;
+        const ps_foreign_format *const foreign =
+            ps_foreign_find(bytes, num_bytes, are_all, &needs_more);
         if (foreign != NULL) {
             return ps_foreign_refuse(reader->input.name, foreign, error);
         }
         for (size_t i = 0; i < NUM_FORMATS; i++) {
-            bool is_it = false;
             const char *const magic = formats[i]->magic;
-            const size_t length = magic != NULL ? strlen(magic) : 0;
-            const size_t more = missing_bytes(magic, length, bytes, num_bytes, &is_it);
-            if (is_it) {
+            if (magic != NULL &&
+                ps_magic_begins(magic, strlen(magic), bytes, num_bytes, &needs_more)) {
                 reader->format = formats[i];
                 return PSPEC_OK;
             }
-            missing = more > missing ? more : missing;
         }
-        if (num_bytes < wanted) { /* the input is shorter */
-            missing = 0;
-        }
-        wanted = num_bytes + 1;
+        needs_more = needs_more && !are_all;
     }
     return PSPEC_OK;
 }
@@ -174,7 +133,6 @@ static pspec_status find_format(ps_point_reader *reader, const char *path, ps_er
                                                 "point format \"%s\" is none of " PS_INPUT_FORMATS,
                                                 reader->options.format);
     }
-    PS_TRY(refuse_beginning(reader, error));
     PS_TRY(find_magic(reader, error));
     if (reader->format == NULL) {
         PS_TRY(find_by_name(reader, path, error));

@@ -14,7 +14,7 @@ const char ps_foreign_tables[] =
 #define MAGIC(text) text, sizeof text - 1
 
 /* Shorter signatures could begin a text. */
-const ps_foreign_format ps_foreign_formats[] = {
+static const ps_foreign_format formats[] = {
     {MAGIC("\x89HDF\r\n\x1a\n"), "an HDF5 file", arrays},
     {MAGIC("CDF\x01"), "a NetCDF file", arrays},
     {MAGIC("CDF\x02"), "a NetCDF file", arrays},
@@ -38,8 +38,15 @@ const ps_foreign_format ps_foreign_formats[] = {
     {MAGIC("Pf\n"), "a PFM image", pictures},
     {MAGIC("%PDF"), "a PDF file", pictures},
     {MAGIC("<svg"), "an SVG image", pictures},
-    {NULL, 0, NULL, NULL},
 };
+
+bool ps_magic_begins(const char *magic, size_t magic_bytes, const unsigned char *bytes,
+                     size_t num_bytes, bool *needs_more) {
+    const size_t there = num_bytes < magic_bytes ? num_bytes : magic_bytes;
+    const bool agrees = memcmp(bytes, magic, there) == 0;
+    *needs_more = *needs_more || (agrees && there < magic_bytes);
+    return agrees && there == magic_bytes;
+}
 
 /* ---- formats that could begin a text ------------------------------------------------------ */
 
@@ -114,13 +121,11 @@ static bool is_bzip2(const unsigned char *bytes, size_t num_bytes) {
             memcmp(bytes + LEVEL + 1, "\x17\x72\x45\x38\x50\x90", BLOCK_BYTES) == 0);
 }
 
-bool ps_foreign_may_be(const unsigned char *bytes, size_t num_bytes) {
-    return num_bytes >= 2 && ((bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') ||
-                              memcmp(bytes, "BM", 2) == 0 || memcmp(bytes, "BZ", 2) == 0 ||
-                              memcmp(bytes, "<?", 2) == 0);
-}
-
-const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_bytes) {
+/* More bytes are waited for only where two say that they come. */
+static const ps_foreign_format *find_longer(const unsigned char *bytes, size_t num_bytes,
+                                            bool *needs_more) {
+    static const char *const begins[] = {"P1", "P2", "P3", "P4", "P5", "P6", "BM", "BZ", "<?"};
+    enum { MOST_BYTES = 1024 };
     static const ps_foreign_format netpbm[] = {
         {NULL, 0, "a PBM image", pictures},
         {NULL, 0, "a PGM image", pictures},
@@ -129,9 +134,15 @@ const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_
     static const ps_foreign_format bitmap = {NULL, 0, "a BMP image", pictures};
     static const ps_foreign_format bzip2 = {NULL, 0, "a bzip2 file", UNPACKED("bzip2")};
     static const ps_foreign_format svg = {NULL, 0, "an SVG image", pictures};
-    if (!ps_foreign_may_be(bytes, num_bytes)) {
+    bool may_be = false;
+    for (size_t i = 0; i < sizeof begins / sizeof begins[0]; i++) {
+        may_be = may_be || ps_magic_begins(begins[i], 2, bytes, num_bytes, needs_more);
+    }
+    if (!may_be) {
         return NULL;
     }
+    *needs_more = *needs_more || num_bytes < MOST_BYTES;
+    num_bytes = num_bytes < MOST_BYTES ? num_bytes : MOST_BYTES;
     if (is_netpbm(bytes, num_bytes)) {
         return &netpbm[(bytes[1] - '1') % 3]; /* text and bytes of the same three */
     }
@@ -139,6 +150,21 @@ const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_
         return &bzip2;
     }
     return is_bitmap(bytes, num_bytes) ? &bitmap : is_svg(bytes, num_bytes) ? &svg : NULL;
+}
+
+const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_bytes, bool are_all,
+                                         bool *needs_more) {
+    const ps_foreign_format *const longer = find_longer(bytes, num_bytes, needs_more);
+    if (longer != NULL || (*needs_more && !are_all)) {
+        return longer;
+    }
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
+        if (ps_magic_begins(formats[i].magic, formats[i].magic_bytes, bytes, num_bytes,
+                            needs_more)) {
+            return &formats[i];
+        }
+    }
+    return NULL;
 }
 
 /* ---- refusals ----------------------------------------------------------------------------- */

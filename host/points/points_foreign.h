@@ -18,14 +18,13 @@ typedef struct ps_foreign_format {
 /* Advice for meshes, and for rows with names. */
 extern const char ps_foreign_meshes[], ps_foreign_tables[];
 
-/* Ends with a magic of NULL. */
-extern const ps_foreign_format ps_foreign_formats[];
-
-/* Those that more than a few fixed bytes tell. May these, two at least, begin one? Then the first
- * PS_FOREIGN_BYTES tell which it is, or NULL. */
-enum { PS_FOREIGN_BYTES = 1024 };
-bool ps_foreign_may_be(const unsigned char *bytes, size_t num_bytes);
-const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_bytes);
+/* Is the magic there? *needs_more: these bytes agree with it and end before it does. */
+bool ps_magic_begins(const char *magic, size_t magic_bytes, const unsigned char *bytes,
+                     size_t num_bytes, bool *needs_more);
+/* The format that an input of these first bytes, one at least, has; NULL: none. are_all: no others
+ * follow; else *needs_more: a few of them, up to 1 KiB of all, may tell. */
+const ps_foreign_format *ps_foreign_find(const unsigned char *bytes, size_t num_bytes, bool are_all,
+                                         bool *needs_more);
 
 pspec_status ps_foreign_refuse(const char *file, const ps_foreign_format *format,
                                ps_error *error) PS_MUST_CHECK;
