@@ -39,6 +39,17 @@ static const named_layout *find_named(const char *name) {
     return NULL;
 }
 
+/* The first layout without angles is that of the plane. */
+const char *ps_columns_name(ps_angle_order angles, bool has_weight, bool in_degrees) {
+    for (size_t i = 0; i < NUM_NAMED; i++) {
+        if (named[i].angles == angles && named[i].in_degrees == in_degrees &&
+            named[i].has_weight == has_weight) {
+            return named[i].name;
+        }
+    }
+    return NULL;
+}
+
 unsigned ps_layout_columns(const ps_layout *layout) {
     const bool are_pairs = layout->angles != PS_NO_ANGLES || layout->lift != PS_NO_LIFT;
     const unsigned numbers = are_pairs ? 2 : layout->dimension;
@@ -58,13 +69,7 @@ const char *ps_layout_name(const ps_layout *layout) {
     if (layout->angles == PS_NO_ANGLES) {
         return layout->has_weight_column ? "xyzw, unit vectors" : "xyz, unit vectors";
     }
-    for (size_t i = 0; i < NUM_NAMED; i++) {
-        if (named[i].angles == layout->angles && named[i].in_degrees == layout->in_degrees &&
-            named[i].has_weight == layout->has_weight_column) {
-            return named[i].name;
-        }
-    }
-    return "";
+    return ps_columns_name(layout->angles, layout->has_weight_column, layout->in_degrees);
 }
 
 bool ps_layout_is_plain(const ps_layout *layout) {
@@ -72,6 +77,34 @@ bool ps_layout_is_plain(const ps_layout *layout) {
            (layout->angles == PS_NO_ANGLES ||
             (layout->coordinates == PS_ANGLES && layout->angles == PS_THETA_PHI &&
              !layout->in_degrees));
+}
+
+const char *ps_columns_meaning(const char *names) {
+    const char *const last = names != NULL ? strrchr(names, '=') : NULL;
+    return last != NULL ? last + 1 : NULL;
+}
+
+bool ps_columns_numbers(const char *names, unsigned numbers[], unsigned most, unsigned *num) {
+    enum { LARGEST = 1000000, BASE = 10 };
+    const char *const meaning = ps_columns_meaning(names);
+    const char *const end = meaning != NULL ? meaning - 1 : names + strlen(names);
+    *num = 0;
+    while (names < end) {
+        unsigned value = 0;
+        const char *const first = names;
+        for (; *names >= '0' && *names <= '9' && value < LARGEST; names++) {
+            value = value * BASE + (unsigned)(*names - '0');
+        }
+        if (value == 0 || *first == '0' || (names < end && *names != ',')) {
+            return false;
+        }
+        if (*num < most) {
+            numbers[*num] = value;
+        }
+        ++*num;
+        names += names < end;
+    }
+    return *num > 0;
 }
 
 unsigned ps_columns_told(const ps_point_options *options) {

@@ -37,6 +37,8 @@ typedef struct ps_columns_question {
     const ps_point_options *options;
 } ps_columns_question;
 
+/* The name of a layout of angles, or of the plane, with or without a weight; NULL: it has none. */
+const char *ps_columns_name(ps_angle_order angles, bool has_weight, bool in_degrees);
 /* What follows names of columns, "lon-lat" of "ra,dec=lon-lat", or NULL. */
 const char *ps_columns_meaning(const char *names);
 /* Are the names numbers of columns, counted from 1? Writes the first most of them to numbers, which

@@ -9,76 +9,34 @@ typedef struct slice {
     size_t length;
 } slice;
 
-/* Two names and the layouts of their columns: without and with a weight, then both in degrees. */
+/* Two names and what their columns are. */
 typedef struct named_pair {
     const char *first, *second;
-    const char *const *layouts;
-    bool are_swapped; /* names of the layout in the other order */
+    ps_angle_order angles;
+    bool may_be_swapped; /* the names may also come in the other order */
 } named_pair;
-
-static const char *const plane[] = {"xy", "xyw", NULL, NULL};
-static const char *const theta_phi[] = {"theta-phi", "theta-phi-w", "theta-phi:degrees",
-                                        "theta-phi-w:degrees"};
-static const char *const phi_theta[] = {"phi-theta", "phi-theta-w", "phi-theta:degrees",
-                                        "phi-theta-w:degrees"};
-static const char *const lon_lat[] = {"lon-lat", "lon-lat-w", "lon-lat", "lon-lat-w"};
 
 /* Azimuths count from the first axis to the second: where they do the other way, the mirror image
  * of the points is read, whose spectra are the same. */
 static const named_pair pairs[] = {
-    {"x", "y", plane, false},
-    {"theta", "phi", theta_phi, false},
-    {"phi", "theta", phi_theta, false},
-    {"lon", "lat", lon_lat, false},
-    {"lng", "lat", lon_lat, false},
-    {"long", "lat", lon_lat, false},
-    {"longitude", "latitude", lon_lat, false},
-    {"ra", "dec", lon_lat, false},
-    {"ra", "de", lon_lat, false},
-    {"raj2000", "dej2000", lon_lat, false},
-    {"glon", "glat", lon_lat, false},
-    {"l", "b", lon_lat, false},
-    {"az", "alt", lon_lat, false},
-    {"az", "el", lon_lat, false},
-    {"azimuth", "altitude", lon_lat, false},
-    {"azimuth", "elevation", lon_lat, false},
-    {"lat", "lon", lon_lat, true},
-    {"lat", "lng", lon_lat, true},
-    {"lat", "long", lon_lat, true},
-    {"latitude", "longitude", lon_lat, true},
-    {"dec", "ra", lon_lat, true},
-    {"glat", "glon", lon_lat, true},
-    {"alt", "az", lon_lat, true},
+    {"x", "y", PS_NO_ANGLES, false},
+    {"theta", "phi", PS_THETA_PHI, false},
+    {"phi", "theta", PS_PHI_THETA, false},
+    {"lon", "lat", PS_LON_LAT, true},
+    {"lng", "lat", PS_LON_LAT, true},
+    {"long", "lat", PS_LON_LAT, true},
+    {"longitude", "latitude", PS_LON_LAT, true},
+    {"ra", "dec", PS_LON_LAT, true},
+    {"ra", "de", PS_LON_LAT, false},
+    {"raj2000", "dej2000", PS_LON_LAT, false},
+    {"glon", "glat", PS_LON_LAT, true},
+    {"l", "b", PS_LON_LAT, false},
+    {"az", "alt", PS_LON_LAT, true},
+    {"az", "el", PS_LON_LAT, false},
+    {"azimuth", "altitude", PS_LON_LAT, false},
+    {"azimuth", "elevation", PS_LON_LAT, false},
 };
 enum { NUM_PAIRS = sizeof pairs / sizeof pairs[0] };
-
-const char *ps_columns_meaning(const char *names) {
-    const char *const last = names != NULL ? strrchr(names, '=') : NULL;
-    return last != NULL ? last + 1 : NULL;
-}
-
-bool ps_columns_numbers(const char *names, unsigned numbers[], unsigned most, unsigned *num) {
-    enum { LARGEST = 1000000, BASE = 10 };
-    const char *const meaning = ps_columns_meaning(names);
-    const char *const end = meaning != NULL ? meaning - 1 : names + strlen(names);
-    *num = 0;
-    while (names < end) {
-        unsigned value = 0;
-        const char *const first = names;
-        for (; *names >= '0' && *names <= '9' && value < LARGEST; names++) {
-            value = value * BASE + (unsigned)(*names - '0');
-        }
-        if (value == 0 || *first == '0' || (names < end && *names != ',')) {
-            return false;
-        }
-        if (*num < most) {
-            numbers[*num] = value;
-        }
-        ++*num;
-        names += names < end;
-    }
-    return *num > 0;
-}
 
 /* Letters of either case are the same. */
 static bool is_same(slice name, const char *word) {
@@ -133,14 +91,17 @@ const char *ps_columns_of_names(const char *names, bool *are_swapped) {
     if (num != PAIR && !has_weight) {
         return layout_of_space(found, num);
     }
-    const bool first_in_degrees = drop_degrees(&found[0]);
-    if (drop_degrees(&found[1]) != first_in_degrees) {
+    const bool in_degrees = drop_degrees(&found[0]);
+    if (drop_degrees(&found[1]) != in_degrees) {
         return NULL;
     }
     for (size_t i = 0; i < NUM_PAIRS; i++) {
-        if (is_same(found[0], pairs[i].first) && is_same(found[1], pairs[i].second)) {
-            *are_swapped = pairs[i].are_swapped;
-            return pairs[i].layouts[PAIR * first_in_degrees + has_weight];
+        const named_pair *const pair = &pairs[i];
+        *are_swapped = pair->may_be_swapped && is_same(found[0], pair->second) &&
+                       is_same(found[1], pair->first);
+        if (*are_swapped || (is_same(found[0], pair->first) && is_same(found[1], pair->second))) {
+            return ps_columns_name(pair->angles, has_weight,
+                                   in_degrees || pair->angles == PS_LON_LAT);
         }
     }
     return NULL;
