@@ -1,13 +1,13 @@
 #include "points/columns.h"
 
 #include "base/wide.h"
+#include "files/decimal.h"
 #include "math/lift.h"
 #include "math/morph.h"
 #include "math/pi.h"
 #include "math/unit_vector.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Angles may exceed their range by what rounding to 7 digits does. */
@@ -200,17 +200,8 @@ size_t ps_weights_accept(const double *weights, size_t num) {
 
 /* ---- what is not ------------------------------------------------------------------------- */
 
-enum { NUMBER_BYTES = 32 };
-
-/* The shortest text that gives the number back. */
-static const char *show_number(char text[NUMBER_BYTES], double value) {
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, NUMBER_BYTES, "%.*g", digits, value);
-        double back = 0;
-        if (sscanf(text, "%lf", &back) == 1 && back == value) {
-            break;
-        }
-    }
+static const char *show_number(char text[PS_DECIMAL_BYTES], double value) {
+    ps_decimal_format(text, value);
     return text;
 }
 
@@ -229,7 +220,7 @@ static bool may_be_degrees(const double *row) {
 static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options *options,
                                  const char *where, const double *row, ps_error *error) {
     const bool has_box = options->box.num_axes > 0;
-    char text[NUMBER_BYTES];
+    char text[PS_DECIMAL_BYTES];
     for (unsigned j = 0; j < layout->dimension; j++) { /* first, for nothing else would help */
         if (!isfinite(row[j])) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is not a finite number",
@@ -239,7 +230,7 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
     for (unsigned j = 0; has_box && j < layout->dimension; j++) {
         if (!ps_box_holds(&options->box, j, row[j]) && !options->wrap) {
             const unsigned interval = ps_box_interval(&options->box, j);
-            char ends[2][NUMBER_BYTES];
+            char ends[2][PS_DECIMAL_BYTES];
             return ps_fail(error, PSPEC_ERROR_INPUT,
                            "%s: coordinate %s is outside [%s,%s) of --box; --wrap would reduce it",
                            where, show_number(text, row[j]),
@@ -273,7 +264,7 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
 
 static pspec_status refuse_vector(const ps_layout *layout, const ps_point_options *options,
                                   const char *where, const double *row, ps_error *error) {
-    char text[3][NUMBER_BYTES];
+    char text[3][PS_DECIMAL_BYTES];
     for (int axis = 0; axis < 3; axis++) {
         show_number(text[axis], row[axis]);
     }
@@ -311,7 +302,7 @@ static const char *describe_ranges(const ps_layout *layout) {
 
 static pspec_status refuse_angles(const ps_layout *layout, const char *where, const double *row,
                                   ps_error *error) {
-    char text[2][NUMBER_BYTES];
+    char text[2][PS_DECIMAL_BYTES];
     ps_layout degrees = *layout;
     degrees.in_degrees = true;
     const bool may_be_degrees = !layout->in_degrees && are_angles(layout->angles, true, row);
@@ -337,7 +328,7 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
             return refuse_vector(layout, options, where, row, error);
         }
     }
-    char text[NUMBER_BYTES];
+    char text[PS_DECIMAL_BYTES];
     if (options->above_horizon && layout->coordinates != PS_TORUS_COORDINATES &&
         is_below_horizon(layout, row)) {
         const bool is_vector = layout->angles == PS_NO_ANGLES && layout->lift == PS_NO_LIFT;
