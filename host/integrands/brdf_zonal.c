@@ -108,7 +108,7 @@ static bool is_below(const ps_brdf *brdf) {
 
 /* ---- files --------------------------------------------------------------------------------- */
 
-enum { DEGREES_OF_HALF_TURN = 180 };
+enum { DEGREES_OF_HALF_TURN = 180, LINE = 2 /* behind the numbers of a row: where it stood */ };
 
 /* The height that a number of the first column stands for; nan where it stands for none. */
 static double height_of(const char *unit, double number) {
@@ -121,21 +121,21 @@ static double height_of(const char *unit, double number) {
 }
 
 static pspec_status check_row(const ps_brdf *brdf, const char *path, const char *unit,
-                              const ps_pair *row, size_t i, ps_error *error) {
+                              const double *row, size_t i, ps_error *error) {
     if (isnan(brdf->nodes[i])) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %.17g is no %s of a direction",
-                       path, row->line, row->first, unit);
+                       path, (size_t)row[LINE], row[0], unit);
     }
-    if (!(row->second >= 0)) {
+    if (!(row[1] >= 0)) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, line %zu: the lobe is %.17g, below 0, which no reflection is", path,
-                       row->line, row->second);
+                       (size_t)row[LINE], row[1]);
     }
     const double order = i > 0 ? brdf->nodes[1] - brdf->nodes[0] : 1;
     if (i > 0 && !((brdf->nodes[i] - brdf->nodes[i - 1]) * order > 0)) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, line %zu: %.17g is out of order; directions rise or fall all the way",
-                       path, row->line, row->first);
+                       path, (size_t)row[LINE], row[0]);
     }
     return PSPEC_OK;
 }
@@ -149,14 +149,15 @@ static void reverse(double *values, size_t num) {
 }
 
 static pspec_status fill_nodes(ps_brdf *brdf, const char *path, const char *unit,
-                               const ps_pair *rows, size_t num, ps_error *error) {
+                               const double *rows, size_t num, ps_error *error) {
     PS_TRY(PS_NEW(&brdf->nodes, num, "a lobe", error));
     PS_TRY(PS_NEW(&brdf->values, num, "a lobe", error));
     brdf->num_nodes = num;
     for (size_t i = 0; i < num; i++) {
-        brdf->nodes[i] = height_of(unit, rows[i].first);
-        brdf->values[i] = rows[i].second;
-        PS_TRY(check_row(brdf, path, unit, &rows[i], i, error));
+        const double *const row = rows + i * (LINE + 1);
+        brdf->nodes[i] = height_of(unit, row[0]);
+        brdf->values[i] = row[1];
+        PS_TRY(check_row(brdf, path, unit, row, i, error));
     }
     if (num < 2) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s: one row; a lobe has two at least", path);
@@ -176,7 +177,7 @@ static pspec_status fill_nodes(ps_brdf *brdf, const char *path, const char *unit
 static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *error) {
     const char *const path = values[0];
     const char *const unit = values[1];
-    ps_pair *rows = NULL;
+    double *rows = NULL;
     size_t num = 0;
     if (path[0] == '\0') {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -187,7 +188,7 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "BRDF zonal: of=%s is not one of cosine, degrees, radians", unit);
     }
-    PS_TRY(ps_read_pairs(path, &rows, &num, error));
+    PS_TRY(ps_read_rows(path, LINE, &rows, &num, error));
     const pspec_status status = fill_nodes(brdf, path, unit, rows, num, error);
     free(rows);
     return status;

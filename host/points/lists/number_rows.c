@@ -1,6 +1,5 @@
 #include "points/lists/number_rows.h"
 
-#include "base/memory.h"
 #include "points/lists/number_list.h"
 
 #include <stdio.h>
@@ -47,19 +46,5 @@ pspec_status ps_read_rows(const char *path, unsigned columns, double **rows, siz
 out:
     free(list.values);
     ps_input_close(&input);
-    return status;
-}
-
-pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs, ps_error *error) {
-    enum { COLUMNS = 2 };
-    double *rows = NULL;
-    *pairs = NULL;
-    PS_TRY(ps_read_rows(path, COLUMNS, &rows, num_pairs, error));
-    const pspec_status status = PS_NEW(pairs, *num_pairs, "rows", error);
-    for (size_t i = 0; status == PSPEC_OK && i < *num_pairs; i++) {
-        const double *const row = rows + i * (COLUMNS + 1);
-        (*pairs)[i] = (ps_pair){row[0], row[1], (size_t)row[2]};
-    }
-    free(rows);
     return status;
 }
