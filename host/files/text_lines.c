@@ -123,20 +123,23 @@ pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
     return PSPEC_OK;
 }
 
-static const char *find_after(const ps_lines *lines, size_t num_after) {
+const char *ps_lines_after(const ps_lines *lines, size_t num_after) {
     const char *line = lines->cursor;
     for (size_t i = 0; i < num_after && line < lines->lines_end; i++) {
         line = (const char *)memchr(line, '\n', (size_t)(lines->lines_end - line)) + 1;
     }
-    return line < lines->lines_end ? line : NULL;
+    return line;
 }
 
 pspec_status ps_lines_peek(ps_lines *lines, size_t num_after, const char **line, ps_error *error) {
     make_room(lines);
-    while (find_after(lines, num_after) == NULL && !lines->is_at_end && !is_full(lines)) {
+    *line = NULL;
+    while (ps_lines_after(lines, num_after) == lines->lines_end && !lines->is_at_end &&
+           !is_full(lines)) {
         PS_TRY(read_more(lines, error));
     }
-    *line = find_after(lines, num_after);
+    const char *const found = ps_lines_after(lines, num_after);
+    *line = found < lines->lines_end ? found : NULL;
     return PSPEC_OK;
 }
 

@@ -31,6 +31,9 @@ pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) PS_
 pspec_status ps_lines_peek(ps_lines *lines, size_t num_after, const char **line,
                            ps_error *error) PS_MUST_CHECK;
 
+/* The same among the lines that are there; lines_end when it is none of them. */
+const char *ps_lines_after(const ps_lines *lines, size_t num_after);
+
 /* Moves cursor past the line at it. */
 void ps_lines_skip(ps_lines *lines);
 

@@ -154,8 +154,8 @@ static pspec_status end_tokens(ps_point_reader *reader, ps_rows_read *out, ps_li
     return PSPEC_OK;
 }
 
-/* Points that stand each on a line of its own, as they mostly do, or else a number. Only tokens have
- * '#' lines, and an end that nothing promised. */
+/* Points that stand each on a line of its own, as they mostly do, or else a number. Only tokens
+ * have '#' lines, and an end that nothing promised. */
 static pspec_status read_some(ps_point_reader *reader, ps_line_kind kind, ps_rows_read *out,
                               size_t most, ps_error *error) {
     ps_text_state *const state = reader->state;

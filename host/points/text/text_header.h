@@ -91,8 +91,8 @@ pspec_status ps_row_filter_find(ps_row_filter *out, const char *names, char sepa
  * float32 there. */
 bool ps_row_filter_takes_number(const ps_row_filter *filter, double number, bool is_single);
 
-/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. *is_taken: has it
- * the text of the filter, or another one of the same number? The rows of a file are to come in
+/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. *is_taken: has
+ * it the text of the filter, or another one of the same number? The rows of a file are to come in
  * order. */
 const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
                                double *row, bool *is_taken);

@@ -4,14 +4,6 @@
 
 #include <string.h>
 
-static const char *find_line(const ps_lines *lines, size_t num_after) {
-    const char *line = lines->cursor;
-    for (size_t i = 0; i < num_after && line < lines->lines_end; i++) {
-        line = (const char *)memchr(line, '\n', (size_t)(lines->lines_end - line)) + 1;
-    }
-    return line;
-}
-
 static bool is_open(const char *line, char separator) {
     ps_field field = {.text = line};
     bool is_more = true;
@@ -26,11 +18,11 @@ static bool is_open(const char *line, char separator) {
 pspec_status ps_text_join(ps_text_state *state, size_t num_after, ps_error *error) {
     enum { MOST_LINES = 1000 }; /* of a row: more than a text in a table has */
     ps_lines *const lines = &state->lines;
-    const char *line = find_line(lines, num_after);
+    const char *line = ps_lines_after(lines, num_after);
     const char *next = line;
     size_t num = 0;
     for (; line < lines->lines_end && is_open(line, state->separator); num++) {
-        if (find_line(lines, num_after + 1) == lines->lines_end) {
+        if (ps_lines_after(lines, num_after + 1) == lines->lines_end) {
             PS_TRY(ps_lines_peek(lines, num_after + 1, &next, error));
         }
         if (next == NULL || num == MOST_LINES) {
@@ -39,7 +31,7 @@ pspec_status ps_text_join(ps_text_state *state, size_t num_after, ps_error *erro
                 "%s, line %zu: a quote begins a column, and none closes it within %d lines",
                 lines->input->name, lines->line_number + num_after, (int)MOST_LINES);
         }
-        line = find_line(lines, num_after); /* it may have moved */
+        line = ps_lines_after(lines, num_after); /* it may have moved */
         lines->buffer[strcspn(line, "\n") + (size_t)(line - lines->buffer)] = ' ';
     }
     lines->line_number += num;
