@@ -10,7 +10,7 @@ set xrange [0:3]
 set yrange [0:*]
 set grid linetype 1 linecolor "#d8d8d8" linewidth 0.8
 set key outside right Left reverse noenhanced samplen 2
-# As in host/plots/plot_script.c: Okabe and Ito's colours, which the colour-blind can tell apart, without
+# As in host/plots/plot_look.c: Okabe and Ito's colours, which the colour-blind can tell apart, without
 # their yellow, which is hard to see on white; beyond them dashes change.
 array colours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
 colour(i) = colours[(i - 1) % |colours| + 1]

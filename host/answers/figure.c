@@ -130,6 +130,7 @@ static ps_series *add_series(picture *self, const curve *own, const char *label)
     ps_series *const series = &self->series[self->num++];
     series->label = label;
     series->num_realizations = 1;
+    series->look = self->chart->num_panels > 1 ? PS_LOOK_SMALL : PS_LOOK_LINE;
     return series;
 }
 
@@ -164,7 +165,8 @@ static pspec_status finish(picture *self) {
                                 .y_label = what->y_label,
                                 .axes = chart->axes,
                                 .num_panels = chart->num_panels,
-                                .panels = panels};
+                                .panels = panels,
+                                .shares_axes = true};
     if (self->figure->form != PS_FIGURE_SPECTRA) {
         self->figure->is_log_x = what->is_log_x;
         self->figure->is_log_y = what->is_log_y;

@@ -175,22 +175,41 @@ static pspec_status collect(int source, pid_t child, FILE *complaints, const cha
                                     : "it says nothing more");
 }
 
-pspec_status ps_gnuplot_run(FILE *script, const char *last, ps_text *picture, ps_error *error) {
+/* *out: at its start; to be closed, also after an error, unless it is NULL. */
+static pspec_status make_file(FILE **out, const ps_text *script, ps_error *error) {
+    PS_TRY(ps_temporary_open(out, error));
+    errno = 0;
+    return fwrite(script->data, 1, script->length, *out) == script->length && fflush(*out) == 0 &&
+                   fseeko(*out, 0, SEEK_SET) == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot write a temporary file: %s",
+                         strerror(errno));
+}
+
+static void close_file(FILE *file) {
+    if (file != NULL) {
+        fclose(file);
+    }
+}
+
+pspec_status ps_gnuplot_run(const ps_text *script, const char *last, ps_text *picture,
+                            ps_error *error) {
     ps_text path = {0};
+    FILE *file = NULL;
     FILE *complaints = NULL;
     pspec_status status = PSPEC_OK;
     pid_t child = 0;
     int source = -1;
+    PS_TRY_OUT(status, make_file(&file, script, error));
     PS_TRY_OUT(status, ps_plot_find_gnuplot(&path, error));
     PS_TRY_OUT(status, ps_temporary_open(&complaints, error));
-    const int reason = start_gnuplot(ps_text_string(&path), script, complaints, &source, &child);
+    const int reason = start_gnuplot(ps_text_string(&path), file, complaints, &source, &child);
     status = reason == 0
                  ? collect(source, child, complaints, last, picture, error)
                  : ps_fail(error, PSPEC_ERROR_IO, "cannot run gnuplot: %s", strerror(reason));
 out:
-    if (complaints != NULL) {
-        fclose(complaints);
-    }
+    close_file(file);
+    close_file(complaints);
     ps_text_free(&path);
     return status;
 }

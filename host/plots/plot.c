@@ -3,10 +3,8 @@
 
 #include "base/text.h"
 #include "files/output_file.h"
-#include "files/temporary_file.h"
 #include "plots/plot_script.h"
 
-#include <errno.h>
 #include <string.h>
 #include <strings.h>
 
@@ -32,41 +30,6 @@ static const terminal *find_terminal(const char *path) {
 
 bool ps_plot_is_supported(const char *path) {
     return find_terminal(path) != NULL;
-}
-
-/* Goes back to the start of a file without a name, of which nothing may be missing. */
-static pspec_status rewind_script(FILE *script, ps_error *error) {
-    errno = 0;
-    return fflush(script) == 0 && !ferror(script) && fseeko(script, 0, SEEK_SET) == 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_IO, "cannot write a temporary file: %s",
-                         strerror(errno));
-}
-
-/* *out: at its start; to be closed, also after an error, unless it is NULL. */
-static pspec_status make_script(FILE **out, const ps_figure *figure, const terminal *kind,
-                                ps_error *error) {
-    *out = NULL;
-    PS_TRY(ps_temporary_open(out, error));
-    PS_TRY(ps_script_print_figure(figure, kind->name, *out, error));
-    return rewind_script(*out, error);
-}
-
-static void close_script(FILE *script) {
-    if (script != NULL) {
-        fclose(script);
-    }
-}
-
-static pspec_status read_script(ps_text *out, FILE *script, ps_error *error) {
-    char block[1 << 14];
-    size_t got = 0;
-    while ((got = fread(block, 1, sizeof block, script)) > 0) {
-        ps_text_append_bytes(out, block, got);
-    }
-    return ferror(script)
-               ? ps_fail(error, PSPEC_ERROR_IO, "cannot read a temporary file: %s", strerror(errno))
-               : ps_text_check(out, error);
 }
 
 /* name: for the sentence. */
@@ -103,7 +66,8 @@ static pspec_status escape_ends(ps_text *svg, ps_error *error) {
     return ps_text_check(svg, error);
 }
 
-static pspec_status draw(ps_text *picture, FILE *script, const terminal *kind, ps_error *error) {
+static pspec_status draw(ps_text *picture, const ps_text *script, const terminal *kind,
+                         ps_error *error) {
     PS_TRY(ps_gnuplot_run(script, kind->last, picture, error));
     return kind == svg_terminal ? escape_ends(picture, error) : PSPEC_OK;
 }
@@ -111,7 +75,7 @@ static pspec_status draw(ps_text *picture, FILE *script, const terminal *kind, p
 /* The file is opened first: what cannot be written is not drawn. */
 pspec_status ps_figure_write(const char *path, const ps_figure *figure, ps_error *error) {
     ps_output_file *file = NULL;
-    FILE *script = NULL;
+    ps_text script = {0};
     ps_text picture = {0};
     pspec_status status = PSPEC_OK;
     const terminal *const kind = find_terminal(path);
@@ -121,39 +85,22 @@ pspec_status ps_figure_write(const char *path, const ps_figure *figure, ps_error
                        "%s: pictures end in .png, .svg or .pdf", path);
     }
     PS_TRY(ps_output_open(&file, path, error));
-    PS_TRY_OUT(status, make_script(&script, figure, kind, error));
-    PS_TRY_OUT(status, draw(&picture, script, kind, error));
+    PS_TRY_OUT(status, ps_script_print_figure(&script, figure, kind->name, error));
+    PS_TRY_OUT(status, draw(&picture, &script, kind, error));
     ps_output_write(file, picture.data, 1, picture.length);
     PS_TRY_OUT(status, ps_output_commit(&file, error));
 out:
     ps_output_discard(&file);
-    close_script(script);
+    ps_text_free(&script);
     ps_text_free(&picture);
     return status;
 }
 
 pspec_status ps_figure_write_script(ps_text *script, const ps_figure *figure, ps_error *error) {
-    FILE *file = NULL;
     PS_TRY(check_places(figure->title, figure, error));
-    pspec_status status = make_script(&file, figure, svg_terminal, error);
-    if (status == PSPEC_OK) {
-        status = read_script(script, file, error);
-    }
-    close_script(file);
-    return status;
+    return ps_script_print_figure(script, figure, svg_terminal->name, error);
 }
 
 pspec_status ps_plot_draw_script(ps_text *svg, const ps_text *script, ps_error *error) {
-    FILE *file = NULL;
-    PS_TRY(ps_temporary_open(&file, error));
-    const size_t written = fwrite(script->data, 1, script->length, file);
-    pspec_status status =
-        written == script->length
-            ? rewind_script(file, error)
-            : ps_fail(error, PSPEC_ERROR_IO, "cannot write a temporary file: %s", strerror(errno));
-    if (status == PSPEC_OK) {
-        status = draw(svg, file, svg_terminal, error);
-    }
-    fclose(file);
-    return status;
+    return draw(svg, script, svg_terminal, error);
 }

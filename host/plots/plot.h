@@ -8,14 +8,23 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* How a series of a frame looks; other figures do not look at it. */
+/* How a series looks. Those of spectra have bars of `error`, the band of their profiles and a fit;
+ * the looks behind them are for painters, and for names in keys. */
 typedef enum ps_look {
     PS_LOOK_LINE,  /* marks that a line joins */
+    PS_LOOK_SMALL, /* the same, of small panels */
     PS_LOOK_CURVE, /* a line without marks, on the band from `low` to `high` if there is one */
     PS_LOOK_MARKS, /* marks that nothing joins, with bars of `error` up and down if there are any */
+    PS_LOOK_SIGNS, /* larger ones: two kinds have a colour, and every kind a shape */
     PS_LOOK_BOUND, /* dots in the colour of the kind */
     PS_LOOK_CLOUD, /* small grey marks, of which there are many */
-    PS_LOOK_REFERENCE /* a thin grey line of dashes, to compare others with */
+    PS_LOOK_REFERENCE, /* a thin grey line of dashes, to compare others with */
+    PS_LOOK_FRONT,     /* a grey line that joins some of the marks */
+    PS_LOOK_SPECTRUM,
+    PS_LOOK_THIN, /* the same without bars, where there is less room */
+    PS_LOOK_LEVEL,
+    PS_LOOK_PROFILE,
+    PS_LOOK_FIT
 } ps_look;
 
 /* Places of one thing in a panel; nan is a gap. Where axes are logarithmic what is not above 0 is a
@@ -26,7 +35,6 @@ typedef struct ps_series {
     const char *label;   /* NULL: none; in a frame, the key does not have it */
     /* From 0; series of a kind look the same, and have the same label, in every panel */
     size_t kind;
-    bool is_front; /* among marks: joined by a line, in grey, instead of marked */
     size_t num;
     const double *x, *y;
     const double *error;      /* standard errors, of spectra and of marks; else NULL */
@@ -45,35 +53,36 @@ typedef struct ps_series {
  * it stands, as squares have it of numbers whose rounding is 1e-8 of the largest one at best. */
 double ps_series_floor(const ps_series *series, double most);
 
+/* Is anything of it drawn? No line goes through a single place among others. */
+bool ps_series_is_drawn(const ps_series *series);
+
 /* Appends the slope of a line whose axes are logarithmic to its label, "label: slope -0.5"; nothing
  * where it has none, as of a single place, or of two of which others are rounding. */
 void ps_series_say_slope(const ps_series *series, ps_text *label);
+
+/* What a panel shows. */
+typedef enum ps_frame_form {
+    PS_FRAME_AXES,   /* series against axes of their own */
+    PS_FRAME_PLANE,  /* the same: 0 is in the middle, and both axes have the same unit */
+    PS_FRAME_SQUARE, /* points: both axes from `first` to `last` */
+    PS_FRAME_LINE,   /* the axis of x, points of one coordinate; y is not looked at */
+    PS_FRAME_DISC    /* the unit disc, a side of the sphere */
+} ps_frame_form;
+
+typedef struct ps_frame {
+    ps_frame_form form;
+    double first, last;            /* of a square or a line */
+    const char *x_label, *y_label; /* names of the axes, at the ends of those of a disc; NULL: those
+                                      of the figure */
+    bool is_mirrored;              /* x runs to the left */
+} ps_frame;
 
 typedef struct ps_panel {
     const char *title; /* looked at where there may be several panels */
     size_t num_series;
     const ps_series *series;
+    ps_frame frame;
 } ps_panel;
-
-/* What the axes of a panel of a frame have for themselves; NULL: a label is the figure's. */
-typedef struct ps_panel_axes {
-    const char *x_label, *y_label;
-    bool is_plane; /* 0 is in the middle, and both axes have the same unit */
-} ps_panel_axes;
-
-/* What a panel of points shows. */
-typedef enum ps_frame_form {
-    PS_FRAME_SQUARE, /* both axes from `first` to `last` */
-    PS_FRAME_LINE,   /* the axis of x, points of one coordinate; y is not looked at */
-    PS_FRAME_DISC    /* the unit disc, a side of the sphere */
-} ps_frame_form;
-
-typedef struct ps_point_frame {
-    ps_frame_form form;
-    double first, last;            /* of a square or a line */
-    const char *x_label, *y_label; /* names of the axes; of a disc they stand at their ends */
-    bool is_mirrored;              /* x runs to the left */
-} ps_point_frame;
 
 /* The averaged periodogram on the whole square: [size][size], size odd, DC in the middle, row index
  * along x_1. */
@@ -105,10 +114,9 @@ typedef enum ps_figure_form {
     /* Panels side by side, each with axes and a key of its own, which stands below it. One panel
      * has the page for itself. */
     PS_FIGURE_FRAME,
-    /* Panels of lines, three in a row, with the same axes and one key for all below them. */
+    /* Panels of lines, three in a row, and one key for all below them. */
     PS_FIGURE_PANELS,
-    PS_FIGURE_MARKS, /* the same of marks that nothing joins, each panel with axes of its own */
-    PS_FIGURE_POINTS /* panels of points in frames, whose axes have the same unit */
+    PS_FIGURE_POINTS /* panels of points, whose axes have the same unit */
 } ps_figure_form;
 
 typedef struct ps_figure {
@@ -118,15 +126,12 @@ typedef struct ps_figure {
     ps_plot_axes axes;
     size_t num_panels;
     const ps_panel *panels;
-    /* of a frame: one for each panel; NULL: all have those of the figure */
-    const ps_panel_axes *panel_axes;
+    bool shares_axes; /* panels of lines show the same part of them */
     /* of spectra */
     const ps_plot_image *image; /* NULL: none */
     bool on_sphere;         /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
-    const ps_panel *points; /* in frames[0], beside the spectrum; NULL: none */
-    /* of points */
-    const ps_point_frame *frames; /* one for each panel */
-    size_t num_columns;           /* of panels, 1 to PS_MOST_POINT_COLUMNS */
+    const ps_panel *points; /* beside the spectrum; NULL: none */
+    size_t num_columns;     /* of panels of points, 1 to PS_MOST_POINT_COLUMNS */
 } ps_figure;
 
 enum { PS_MOST_POINT_COLUMNS = 4 };

@@ -7,15 +7,6 @@
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
-/* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
- * transposed so that x_1 runs to the right. */
-typedef struct raster {
-    size_t size;    /* pixels per side, odd */
-    double pixel;   /* width of a pixel in normalised frequency */
-    double maximum; /* power at the bright end of the scale */
-    double *power;  /* [size][size], second index along x_1 */
-} raster;
-
 enum { MAX_PIXELS = 801 }; /* the panel has some 600 pixels; more would not be seen */
 
 /* Half as many frequencies as there are pixels at most, so the middle pixel stays around DC. */
@@ -53,7 +44,7 @@ static int compare_doubles(const void *a, const void *b) {
 
 /* The scale ends where all but one in a thousand pixels lie below, so that a few peaks do not make
  * the rest dark, and never below 2, so that white noise looks alike in all pictures. */
-static pspec_status choose_maximum(raster *out, ps_error *error) {
+static pspec_status choose_maximum(ps_script_raster *out, ps_error *error) {
     const size_t count = out->size * out->size;
     double *sorted = NULL;
     PS_TRY(PS_NEW(&sorted, count, "picture", error));
@@ -70,39 +61,37 @@ static pspec_status choose_maximum(raster *out, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status make_raster(raster *out, const ps_plot_image *image, ps_error *error) {
-    *out = (raster){0};
+/* Blocks averaged until they fit the panel, DC left out, transposed so that x_1 runs to the right.
+ */
+pspec_status ps_script_make_raster(ps_script_raster *out, ps_pool *memory,
+                                   const ps_plot_image *image, ps_error *error) {
     const size_t block = choose_block(image->size);
     const ptrdiff_t half_image = (ptrdiff_t)(image->size / 2);
     const ptrdiff_t half = (half_image + (ptrdiff_t)(block / 2)) / (ptrdiff_t)block;
-    out->size = 2 * (size_t)half + 1;
-    out->pixel = (double)block / image->unit;
-    PS_TRY(PS_NEW(&out->power, out->size * out->size, "picture", error));
+    const size_t size = 2 * (size_t)half + 1;
+    *out = (ps_script_raster){
+        .size = size, .pixel = (double)block / image->unit, .maximum = image->maximum};
+    PS_TRY(PS_POOL_NEW(memory, &out->power, size * size, "picture", error));
     const ptrdiff_t first = half_image - (ptrdiff_t)(block / 2) - half * (ptrdiff_t)block;
-    for (size_t row = 0; row < out->size; row++) {
-        for (size_t column = 0; column < out->size; column++) {
+    for (size_t row = 0; row < size; row++) {
+        for (size_t column = 0; column < size; column++) {
             const ptrdiff_t k_1 = first + (ptrdiff_t)(column * block);
             const ptrdiff_t k_2 = first + (ptrdiff_t)(row * block);
-            out->power[row * out->size + column] = average_block(image, k_1, k_2, block);
+            out->power[row * size + column] = average_block(image, k_1, k_2, block);
         }
     }
-    out->maximum = image->maximum;
-    const pspec_status status = image->maximum > 0 ? PSPEC_OK : choose_maximum(out, error);
-    if (status != PSPEC_OK) {
-        free(out->power);
-        out->power = NULL;
-    }
-    return status;
+    return image->maximum > 0 ? PSPEC_OK : choose_maximum(out, error);
 }
 
 pspec_status ps_plot_find_maximum(double *out, const ps_plot_image *image, ps_error *error) {
-    raster found = {0};
+    ps_script_raster found = {0};
+    ps_pool memory = {0};
     ps_plot_image own = *image;
     own.maximum = 0;
-    PS_TRY(make_raster(&found, &own, error));
+    const pspec_status status = ps_script_make_raster(&found, &memory, &own, error);
     *out = found.maximum;
-    free(found.power);
-    return PSPEC_OK;
+    ps_pool_free(&memory);
+    return status;
 }
 
 /* ---- colours --------------------------------------------------------------------------------- */
@@ -120,29 +109,29 @@ static double tone(double power) {
     return log2(1 + 0.25 * sqrt(fmax(power, 0)));
 }
 
-static void print_raster(const raster *own, FILE *stream) {
-    fputs("$image << EOD\n", stream);
+static void print_raster(ps_text *out, const ps_script_raster *own) {
+    ps_text_append(out, "$image << EOD\n");
     for (size_t row = 0; row < own->size; row++) {
         for (size_t column = 0; column < own->size; column++) {
-            fprintf(stream, "%.4g ", tone(own->power[row * own->size + column]));
+            ps_text_append(out, "%.4g ", tone(own->power[row * own->size + column]));
         }
-        putc('\n', stream);
+        ps_text_append(out, "\n");
     }
-    fputs("EOD\n", stream);
+    ps_text_append(out, "EOD\n");
 }
 
-static void print_palette(double maximum, FILE *stream) {
+static void print_palette(ps_text *out, double maximum) {
     const double white = tone(1);
     const double step = pow(maximum, 1.0 / NUM_STEPS);
-    fputs("set palette defined (", stream);
+    ps_text_append(out, "set palette defined (");
     for (size_t i = 0; i < NUM_STEPS; i++) {
-        fprintf(stream, "%.6g '%s', ", white * (double)i / NUM_STEPS, below[i]);
+        ps_text_append(out, "%.6g '%s', ", white * (double)i / NUM_STEPS, below[i]);
     }
-    fprintf(stream, "%.6g '%s'", white, neutral);
+    ps_text_append(out, "%.6g '%s'", white, neutral);
     for (size_t i = 0; i < NUM_STEPS; i++) {
-        fprintf(stream, ", %.6g '%s'", tone(pow(step, (double)(i + 1))), above[i]);
+        ps_text_append(out, ", %.6g '%s'", tone(pow(step, (double)(i + 1))), above[i]);
     }
-    fprintf(stream, ")\nset cbrange [0:%.6g]\n", tone(maximum));
+    ps_text_append(out, ")\nset cbrange [0:%.6g]\n", tone(maximum));
 }
 
 /* Is there room for a tick beside that of white noise, which is always there, and the last one? */
@@ -151,51 +140,43 @@ static bool has_room(double at, double last, double closest) {
 }
 
 /* Powers at the ticks of the colour box, thinned to what the scale holds. */
-static void print_colour_ticks(double maximum, FILE *stream) {
+static void print_colour_ticks(ps_text *out, double maximum) {
     static const double ticks[] = {0,  0.01, 0.1, 0.3, 1,   2,   4,   8,
                                    20, 50,   100, 300, 1e3, 1e4, 1e5, 1e6};
     const double closest = tone(maximum) / 14;
     double last = -1;
-    fputs("set cbtics (", stream);
+    ps_text_append(out, "set cbtics (");
     for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
         const double at = tone(ticks[i]);
         if (at <= tone(maximum) && has_room(at, last, closest)) {
-            fprintf(stream, "%s'%g' %.6g", last >= 0 ? ", " : "", ticks[i], at);
+            ps_text_append(out, "%s'%g' %.6g", last >= 0 ? ", " : "", ticks[i], at);
             last = at;
         }
     }
-    fputs(")\n", stream);
+    ps_text_append(out, ")\n");
 }
 
-static void print_panel(const raster *own, const ps_script_box *where, FILE *stream) {
+void ps_script_print_image(ps_text *out, const ps_script_panel *panel) {
+    const ps_script_raster *const own = &panel->raster;
+    const ps_script_box *const where = &panel->where;
     const double extent = own->pixel * (double)own->size / 2;
     const double first = -own->pixel * (double)(own->size / 2);
     const double beside = 14; /* pixels, from the image to the colours, and their width */
-    ps_script_print_margins(where, stream);
-    fputs("set size ratio 1\n", stream);
-    print_palette(own->maximum, stream);
-    fprintf(stream,
-            "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
-            (where->right + beside) / where->page_width, 1 - where->bottom / where->page_height,
-            1.4 * beside / where->page_width, (where->bottom - where->top) / where->page_height);
-    print_colour_ticks(own->maximum, stream);
-    fputs("set cblabel 'power' offset -0.6,0\nset xtics out nomirror\nset ytics out nomirror\n"
-          "set xlabel 'normalized frequency k₁ N^{-1/2}' offset 0,0.2\n"
-          "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1.2,0\n",
-          stream);
-    fprintf(stream, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent, -extent,
-            extent);
-    fprintf(stream, "plot $image matrix using (%.9g+$1*%.9g):(%.9g+$2*%.9g):3 with image notitle\n",
-            first, own->pixel, first, own->pixel);
-    fputs("unset label 1\nunset colorbox\nset size noratio\n", stream);
-}
-
-pspec_status ps_script_print_image(const ps_plot_image *image, const ps_script_box *where,
-                                   FILE *stream, ps_error *error) {
-    raster own = {0};
-    PS_TRY(make_raster(&own, image, error));
-    print_raster(&own, stream);
-    print_panel(&own, where, stream);
-    free(own.power);
-    return PSPEC_OK;
+    print_raster(out, own);
+    ps_text_append(out, "set size ratio 1\n");
+    print_palette(out, own->maximum);
+    ps_text_append(
+        out, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
+        (where->right + beside) / where->page_width, 1 - where->bottom / where->page_height,
+        1.4 * beside / where->page_width, (where->bottom - where->top) / where->page_height);
+    print_colour_ticks(out, own->maximum);
+    ps_text_append(out, "set cblabel 'power' offset -0.6,0\n"
+                        "set xtics out nomirror\nset ytics out nomirror\n"
+                        "set xlabel 'normalized frequency k₁ N^{-1/2}' offset 0,0.2\n"
+                        "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1.2,0\n");
+    ps_text_append(out, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent,
+                   -extent, extent);
+    ps_text_append(out,
+                   "plot $image matrix using (%.9g+$1*%.9g):(%.9g+$2*%.9g):3 with image notitle",
+                   first, own->pixel, first, own->pixel);
 }

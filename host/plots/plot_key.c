@@ -1,4 +1,4 @@
-/* The key of a figure: entries in rows below its frames. */
+/* The key of panels: entries in rows below them. */
 #include "plots/plot_script.h"
 
 #include <math.h>
@@ -30,12 +30,22 @@ static double count_formula(const char *formula) {
     return PS_SCRIPT_FORMULA_SIZE * (double)num;
 }
 
-void ps_script_key_add(ps_script_key *key, const char *formula, const char *label) {
-    const double comma = formula != NULL && label != NULL ? 2 : 0;
-    const double own = count_formula(formula) + comma + (double)ps_script_count_characters(label);
-    key->longest = fmin(fmax(key->longest, own), count_letters(key, 1));
-    key->has_formula = key->has_formula || formula != NULL;
-    key->num++;
+static bool is_named(const ps_series *series) {
+    return series->label != NULL || series->formula != NULL;
+}
+
+ps_script_key ps_script_key_of(const ps_panel *panel, ps_script_box where) {
+    ps_script_key key = {.where = where};
+    for (size_t i = 0; i < panel->num_series; i++) {
+        const ps_series *const own = &panel->series[i];
+        const double comma = own->formula != NULL && own->label != NULL ? 2 : 0;
+        const double num =
+            count_formula(own->formula) + comma + (double)ps_script_count_characters(own->label);
+        key.longest = fmin(fmax(key.longest, num), count_letters(&key, 1));
+        key.has_formula = key.has_formula || own->formula != NULL;
+        key.num += is_named(own);
+    }
+    return key;
 }
 
 /* Short labels stand beside each other. */
@@ -57,27 +67,30 @@ double ps_script_key_height(const ps_script_key *key) {
 }
 
 /* gnuplot makes as many columns as it takes to have room. */
-void ps_script_print_key(const ps_script_key *key, FILE *stream) {
+void ps_script_print_key(ps_text *out, const ps_script_key *key) {
     const ps_script_box *const where = &key->where;
     const size_t columns = count_columns(key);
     const double sample = 5.2; /* of its letters */
     const double room = find_width(key, columns) / TAKEN_LETTER - sample;
     if (key->num == 0) {
-        fputs("unset key\n", stream);
+        ps_text_append(out, "unset key\n");
         return;
     }
-    fprintf(stream,
-            "set key at screen %.4g,%.4g center top horizontal Left reverse maxcols %zu "
-            "samplen 2 spacing %g width %.3g\n",
-            (where->left + where->right) / 2 / where->page_width,
-            1 - (where->bottom - BELOW - ps_script_key_height(key)) / where->page_height, columns,
-            find_spacing(key), fmin(room - key->longest, 0));
+    ps_text_append(out,
+                   "set key at screen %.4g,%.4g center top horizontal Left reverse maxcols %zu "
+                   "samplen 2 spacing %g width %.3g\n",
+                   (where->left + where->right) / 2 / where->page_width,
+                   1 - (where->bottom - BELOW - ps_script_key_height(key)) / where->page_height,
+                   columns, find_spacing(key), fmin(room - key->longest, 0));
 }
 
-void ps_script_print_entry(const ps_script_key *key, const char *formula, const char *label,
-                           FILE *stream) {
+void ps_script_print_entry(ps_text *out, const ps_script_key *key, const ps_series *series) {
     char cut[PS_SCRIPT_CUT_BYTES];
-    const double room = count_letters(key, 1) - count_formula(formula);
-    fputs(" title ", stream);
-    ps_script_print_formula(formula, ps_script_cut(cut, label, (size_t)room), stream);
+    const double room = count_letters(key, 1) - count_formula(series->formula);
+    if (key->num == 0 || !is_named(series)) {
+        ps_text_append(out, " notitle");
+        return;
+    }
+    ps_text_append(out, " title ");
+    ps_script_print_formula(out, series->formula, ps_script_cut(cut, series->label, (size_t)room));
 }

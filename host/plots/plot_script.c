@@ -1,181 +1,178 @@
-/* What the scripts of all figures share: texts, colours, axes. */
+/* The gnuplot script of a figure: data, then the panels of its page, each from its beginning. */
 #include "plots/plot_script.h"
 
-#include "base/text.h"
-
-#include <ctype.h>
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
-/* Okabe and Ito's colours, which the colour-blind can tell apart; beyond them dashes change. */
-static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                      "#E69F00", "#56B4E9", "#000000"};
-enum { NUM_COLOURS = sizeof colours / sizeof colours[0] };
+/* ---- data ----------------------------------------------------------------------------------- */
 
-const char ps_script_ticks[] = "set xtics in mirror\nset ytics in mirror\n"
-                               "set grid linecolor '#d8d8d8' linewidth 0.8 dashtype solid\n";
-
-/* ---- words ---------------------------------------------------------------------------------- */
-
-/* A text constant of gnuplot. Only letters, blanks and whole characters beyond ASCII stand as they
- * are: everything else is an octal number, so that no quote, backslash or backtick is left to be
- * understood; digits, too, which would go on with the number before them. What no text has (control
- * characters, bytes that are not UTF-8) would spoil lines and XML. */
-static void print_letters(const char *text, bool is_escaped, FILE *stream) {
-    static const char special[] = "^_{}@&~\\";
-    while (text != NULL && *text != '\0') {
-        const unsigned char byte = (unsigned char)*text;
-        const size_t length = ps_text_character(text);
-        if (is_escaped && strchr(special, byte) != NULL) {
-            fputs("\\134", stream);
+/* Columns 1 and 2 are x and y; where there is more, 3 is the error, 4 and 5 are the ends of the
+ * band, 6 is the fit, NaN for what there is not. */
+static void print_places(ps_text *out, const ps_script_panel *panel, const ps_series *series) {
+    const double *const more[] = {series->error, series->low, series->high, series->fit};
+    const bool has_band = series->low != NULL && series->high != NULL;
+    const bool has_more = series->error != NULL || has_band || series->fit != NULL;
+    const size_t num_more = sizeof more / sizeof more[0] - (series->fit == NULL);
+    for (size_t place = 0; place < series->num; place++) {
+        const bool is_shown = ps_script_is_shown(panel, series, place);
+        ps_script_print_value(out, series->x[place]);
+        ps_script_print_value(out, is_shown ? series->y[place] : NAN);
+        for (size_t i = 0; has_more && i < num_more; i++) {
+            ps_script_print_value(out, more[i] != NULL ? more[i][place] : NAN);
         }
-        if (length > 1) {
-            fwrite(text, 1, length, stream);
-        } else if (length == 0) {
-            fputs(byte < 0x80 ? " " : PS_TEXT_UNKNOWN, stream);
-        } else if (isalpha(byte) || byte == ' ') {
-            putc(byte, stream);
-        } else {
-            fprintf(stream, "\\%03o", byte);
-        }
-        text += length > 0 ? length : 1;
+        ps_text_append(out, "\n");
     }
 }
 
-void ps_script_print_text(const char *text, FILE *stream) {
-    putc('"', stream);
-    print_letters(text, false, stream);
-    putc('"', stream);
-}
-
-void ps_script_print_formula(const char *formula, const char *label, FILE *stream) {
-    enum { SIZE_BYTES = 32 };
-    putc('"', stream);
-    if (formula != NULL) {
-        char size[SIZE_BYTES];
-        snprintf(size, sizeof size, "{/*%g ", PS_SCRIPT_FORMULA_SIZE);
-        print_letters(size, false, stream);
-        print_letters(formula, false, stream);
-        print_letters("}", false, stream);
-    }
-    print_letters(formula != NULL && label != NULL ? ", " : NULL, false, stream);
-    print_letters(label, true, stream);
-    putc('"', stream);
-}
-
-static size_t character(const char *text) {
-    const size_t length = ps_text_character(text);
-    return length > 0 ? length : 1; /* a byte that is none */
-}
-
-size_t ps_script_count_characters(const char *text) {
-    size_t num = 0;
-    for (; text != NULL && *text != '\0'; text += character(text)) {
-        num++;
-    }
-    return num;
-}
-
-static const char *skip_characters(const char *text, size_t num) {
-    for (size_t i = 0; i < num && *text != '\0'; i++) {
-        text += character(text);
-    }
-    return text;
-}
-
-const char *ps_script_cut(char cut[PS_SCRIPT_CUT_BYTES], const char *text, size_t most) {
-    enum { MOST_CUT = 200, LEAST_CUT = 3 }; /* characters have up to four bytes */
-    const size_t num = ps_script_count_characters(text);
-    const size_t room = most > MOST_CUT ? MOST_CUT : most < LEAST_CUT ? LEAST_CUT : most;
-    if (num <= room) {
-        return text;
-    }
-    const int head = (int)(skip_characters(text, room / 2) - text);
-    snprintf(cut, PS_SCRIPT_CUT_BYTES, "%.*s…%s", head, text,
-             skip_characters(text, num - (room - 1 - room / 2)));
-    return cut;
-}
-
-void ps_script_print_value(double value, FILE *stream) {
-    if (isfinite(value)) {
-        fprintf(stream, " %.9g", value);
-    } else {
-        fputs(" NaN", stream);
-    }
-}
-
-void ps_script_print_colour(size_t kind, FILE *stream) {
-    fprintf(stream, "linecolor rgb '%s'", colours[kind % NUM_COLOURS]);
-}
-
-void ps_script_print_style(size_t kind, FILE *stream) {
-    ps_script_print_colour(kind, stream);
-    fprintf(stream, " dashtype %zu", kind / NUM_COLOURS % 4 + 1);
-}
-
-void ps_script_print_label(const char *axis, const char *label, const char *offset, FILE *stream) {
-    fprintf(stream, "set %slabel ", axis);
-    ps_script_print_text(label, stream);
-    fprintf(stream, " offset %s\n", offset);
-}
-
-void ps_script_print_scale(const char *axis, bool is_log, FILE *stream) {
-    if (is_log) {
-        fprintf(stream, "set logscale %s\nset format %s '10^{%%T}'\n", axis, axis);
-    }
-}
-
-void ps_script_print_asked(const ps_figure *figure, FILE *stream) {
-    const ps_plot_axes *const axes = &figure->axes;
-    if (axes->has_x) {
-        fprintf(stream, "set xrange [%.9g:%.9g]\n", axes->x[0], axes->x[1]);
-    }
-    if (axes->has_y) {
-        fprintf(stream, "set yrange [%.9g:%.9g]\n", axes->y[0], axes->y[1]);
-    }
-}
-
-void ps_script_print_margins(const ps_script_box *where, FILE *stream) {
-    fprintf(stream,
-            "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
-            "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
-            where->left / where->page_width, where->right / where->page_width,
-            1 - where->top / where->page_height, 1 - where->bottom / where->page_height);
-}
-
-/* ---- places --------------------------------------------------------------------------------- */
-
-bool ps_script_is_shown(const ps_figure *figure, const ps_series *series, size_t place) {
-    const double x = series->x[place];
-    const double y = series->y[place];
-    return isfinite(x) && isfinite(y) && (!figure->is_log_x || x > 0) &&
-           (!figure->is_log_y || y > 0);
-}
-
-bool ps_script_has_places(const ps_figure *figure, const ps_panel *panel) {
-    for (size_t i = 0; i < panel->num_series; i++) {
-        for (size_t place = 0; place < panel->series[i].num; place++) {
-            if (ps_script_is_shown(figure, &panel->series[i], place)) {
-                return true;
+/* $data0_1 is series 1 of panel 0. */
+static void print_data(ps_text *out, const ps_script_page *page) {
+    for (size_t i = 0; i < page->num_panels; i++) {
+        const ps_script_panel *const own = &page->panels[i];
+        for (size_t j = 0; j < own->panel.num_series; j++) {
+            if (own->panel.series[j].num > 0 || own->panel.frame.form >= PS_FRAME_SQUARE) {
+                ps_text_append(out, "$data%zu_%zu << EOD\n", i, j);
+                print_places(out, own, &own->panel.series[j]);
+                ps_text_append(out, "EOD\n");
             }
         }
     }
-    return false;
 }
 
-static bool is_place(const ps_figure *figure, const ps_series *series, const double *numbers,
-                     size_t place) {
-    return place < series->num && isfinite(numbers[place]) &&
-           (numbers != series->y || ps_script_is_shown(figure, series, place));
+/* ---- panels ---------------------------------------------------------------------------------- */
+
+static bool is_svg(const ps_script_page *page) {
+    return strcmp(page->terminal, "svg") == 0;
 }
 
-bool ps_script_has_lone(const ps_figure *figure, const ps_series *series, const double *numbers) {
-    for (size_t i = 0; i < series->num; i++) {
-        if (is_place(figure, series, numbers, i) && !is_place(figure, series, numbers, i - 1) &&
-            !is_place(figure, series, numbers, i + 1)) {
-            return true;
-        }
+static void print_terminal(ps_text *out, const ps_script_page *page) {
+    if (strcmp(page->terminal, "pdfcairo") == 0) { /* in inches; 100 pixels each */
+        ps_text_append(out,
+                       "set terminal pdfcairo enhanced color size %gin,%gin font 'Sans,11.5'\n",
+                       page->width / 100.0, page->height / 100.0);
+    } else {
+        ps_text_append(out, "set terminal %s enhanced size %d,%d background '#ffffff' font '%s'\n",
+                       page->terminal, page->width, page->height,
+                       is_svg(page) ? "sans-serif,16" : "Sans,12");
     }
-    return false;
+    ps_text_append(out, "set encoding utf8\n");
+}
+
+/* In so many pixels: of what is longer the middle is left out, for N stands at the end. */
+static void print_title(ps_text *out, const ps_script_page *page, const char *title) {
+    enum { LETTER = 11 };
+    char cut[PS_SCRIPT_CUT_BYTES];
+    const size_t room = (size_t)(page->width - page->title_left) / LETTER;
+    ps_text_append(out, "set label 1 ");
+    ps_script_print_text(out, ps_script_cut(cut, title, room));
+    ps_text_append(out, " at screen %.4g,%.4g center noenhanced font ',%d'\n",
+                   (page->title_left + page->width) / 2.0 / page->width, 1 - 26.6 / page->height,
+                   is_svg(page) ? 20 : 15); /* svg counts pixels, the others points */
+}
+
+static void print_margins(ps_text *out, const ps_script_box *where) {
+    ps_text_append(out,
+                   "set lmargin at screen %.5f\nset rmargin at screen %.5f\n"
+                   "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
+                   where->left / where->page_width, where->right / where->page_width,
+                   1 - where->top / where->page_height, 1 - where->bottom / where->page_height);
+}
+
+/* A line at white noise, where it is in sight. */
+static void print_white(ps_text *out, ps_plot_span shown) {
+    if (shown.least < 1 && shown.most > 1) {
+        ps_text_append(out, "set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead back "
+                            "linecolor '#707070' linewidth 1\n");
+    }
+}
+
+/* Where there is nothing to see an axis needs ends. */
+static ps_script_axis with_ends(const ps_script_axis *own, bool has_places) {
+    ps_script_axis out = *own;
+    if (!has_places && !(own->shown.least < own->shown.most)) {
+        out.shown = (ps_plot_span){1, 10};
+    }
+    return out;
+}
+
+static void print_axes(ps_text *out, const ps_script_panel *panel) {
+    const bool has_places = ps_script_has_places(panel);
+    const ps_script_axis x = with_ends(&panel->x, has_places);
+    const ps_script_axis y = with_ends(&panel->y, has_places);
+    ps_text_append(out, panel->is_key
+                            ? "unset border\nunset tics\n"
+                            : "set xtics in mirror\nset ytics in mirror\n"
+                              "set grid linecolor '#d8d8d8' linewidth 0.8 dashtype solid\n");
+    ps_script_print_axis(out, "x", &x);
+    ps_script_print_axis(out, "y", &y);
+    if (panel->has_white) {
+        print_white(out, panel->y.shown);
+    }
+}
+
+/* Bars would blank out what is below their middle; an interval of 0 is as if nothing was said. */
+static const char beginning[] = "reset\nset pointintervalbox 0.01\n"
+                                "set border linewidth 0.8 linecolor '#404040'\n"
+                                "set tics textcolor '#202020'\n";
+
+/* title: of the page, in its first panel; NULL in others. */
+static void print_panel(ps_text *out, const ps_script_page *page, size_t number,
+                        const char *title) {
+    const ps_script_panel *const own = &page->panels[number];
+    ps_text_append(out, "%s", beginning);
+    print_margins(out, &own->where);
+    if (title != NULL) {
+        print_title(out, page, title);
+    }
+    if (own->panel.title != NULL) {
+        ps_text_append(out, "set title ");
+        ps_script_print_text(out, own->panel.title);
+        ps_text_append(out, " noenhanced offset 0,-0.6\n");
+    }
+    ps_script_print_key(out, &own->key);
+    if (own->raster.size > 0) {
+        ps_script_print_image(out, own);
+    } else if (own->panel.frame.form >= PS_FRAME_SQUARE) {
+        ps_script_print_points(out, page, number);
+    } else {
+        print_axes(out, own);
+        ps_text_append(out, "plot ");
+        ps_script_print_series(out, own, number);
+    }
+    ps_text_append(out, "\n");
+}
+
+/* ---- the script ------------------------------------------------------------------------------ */
+
+/* Scales as they were asked for. */
+static ps_figure with_axes(const ps_figure *figure) {
+    ps_figure out = *figure;
+    if (figure->axes.has_log) {
+        out.is_log_x = figure->axes.is_log_x;
+        out.is_log_y = figure->axes.is_log_y;
+    }
+    return out;
+}
+
+pspec_status ps_script_print_figure(ps_text *out, const ps_figure *asked, const char *terminal,
+                                    ps_error *error) {
+    static ps_script_place *const places[] = {[PS_FIGURE_SPECTRA] = ps_script_place_spectra,
+                                              [PS_FIGURE_FRAME] = ps_script_place_frames,
+                                              [PS_FIGURE_PANELS] = ps_script_place_panels,
+                                              [PS_FIGURE_POINTS] = ps_script_place_points};
+    const ps_figure figure = with_axes(asked);
+    ps_script_page page = {.terminal = terminal};
+    ps_pool memory = {0};
+    pspec_status status = places[figure.form](&page, &memory, &figure, error);
+    if (status == PSPEC_OK) {
+        print_terminal(out, &page);
+        print_data(out, &page);
+        ps_text_append(out, "set multiplot\n");
+        for (size_t i = 0; i < page.num_panels; i++) {
+            print_panel(out, &page, i, i == 0 ? figure.title : NULL);
+        }
+        ps_text_append(out, "unset multiplot\n");
+        status = ps_text_check(out, error);
+    }
+    ps_pool_free(&memory);
+    return status;
 }

@@ -1,61 +1,147 @@
-/* The gnuplot script of spectra: image, powers, and what stands below them. */
+/* Pages of spectra: points, image, powers, and what stands below them. */
 #include "plots/plot_script.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { MAX_BARS = 200 };
+/* ---- numbers of curves ----------------------------------------------------------------------- */
 
-/* ---- where things are ------------------------------------------------------------------------ */
+/* At one of their places; nan where there is none. */
+typedef enum number { ERROR, BAR, ANISOTROPY, LEVEL, PROFILE, FIT } number;
 
-/* Pixels: of the image, with its numbers and colours; of the curves. */
-enum {
-    POINTS_WIDTH = 650,
-    IMAGE_WIDTH = 770,
-    CURVES_WIDTH = 630,
-    TOP = 56,
-    BOTTOM = 614,
-    LEFT = 84,
-    RIGHT = 18
-};
-enum { BETWEEN = 20, BETWEEN_ON_SPHERE = 70 }; /* panels with the same axis, and with their own */
+static double take(const double *numbers, size_t bin) {
+    return numbers != NULL ? numbers[bin] : (double)NAN;
+}
+
+/* The bar: where that of a power ends. The level: in dB, of pure noise beside which the anisotropy
+ * of the curve stands. The profile: the upper one. */
+static double take_number(const ps_series *curve, size_t bin, number which) {
+    const double error = take(curve->error, bin);
+    switch (which) {
+    case ERROR:
+        return error;
+    case BAR:
+        return curve->y[bin] + (isfinite(error) ? error : 0);
+    case ANISOTROPY:
+        return take(curve->anisotropy, bin);
+    case LEVEL:
+        return curve->num_realizations >= 2 ? -10 * log10(curve->num_realizations) : (double)NAN;
+    case PROFILE:
+        return curve->low != NULL ? take(curve->high, bin) : (double)NAN;
+    case FIT:
+        return take(curve->fit, bin);
+    }
+    return NAN;
+}
+
+static void widen_by(ps_plot_span *span, const ps_panel *curves, number which) {
+    for (size_t i = 0; i < curves->num_series; i++) {
+        for (size_t bin = 0; bin < curves->series[i].num; bin++) {
+            ps_plot_span_widen(span, take_number(&curves->series[i], bin, which));
+        }
+    }
+}
+
+static bool has(const ps_panel *curves, number which) {
+    ps_plot_span all = ps_plot_span_none();
+    widen_by(&all, curves, which);
+    return !ps_plot_span_is_empty(all);
+}
+
+/* ---- what axes show unless something else was asked for -------------------------------------- */
+
+/* The largest power of a curve with its bar. */
+static double find_top(const ps_series *curve) {
+    double top = 0;
+    for (size_t bin = 0; bin < curve->num; bin++) {
+        const double power = take_number(curve, bin, BAR);
+        top = isfinite(power) ? fmax(top, power) : top;
+    }
+    return top;
+}
+
+/* That of all, but for curves that are louder than all others, which would flatten these: peaks of
+ * lattices beside noise. Loud is what is so many times as large as all others. White noise stays in
+ * sight. */
+static double find_most(const ps_panel *curves) {
+    const double loud = 5;
+    const double least = 1.2;
+    double most = least;
+    bool is_wider = true;
+    while (is_wider) { /* as long as another curve is not loud beside what is in sight */
+        is_wider = false;
+        for (size_t i = 0; i < curves->num_series; i++) {
+            const double top = find_top(&curves->series[i]);
+            if (top > most && (top <= loud * most || curves->num_series == 1)) {
+                most = top;
+                is_wider = true;
+            }
+        }
+    }
+    return most;
+}
+
+/* The upper profile of a curve that is in sight is, too. */
+static double with_profiles(const ps_panel *curves, double most) {
+    ps_plot_span all = {0, most};
+    for (size_t i = 0; i < curves->num_series; i++) {
+        if (find_top(&curves->series[i]) <= most) {
+            widen_by(&all, &(ps_panel){.num_series = 1, .series = &curves->series[i]}, PROFILE);
+        }
+    }
+    return all.most;
+}
+
+static ps_plot_span find_powers(const ps_panel *curves, bool is_log) {
+    const double margin = is_log ? 1.4 : 1.05;
+    if (!is_log) {
+        return (ps_plot_span){0, margin * with_profiles(curves, find_most(curves))};
+    }
+    ps_plot_span all = ps_plot_span_above(curves);
+    ps_plot_span tops = ps_plot_span_none();
+    widen_by(&tops, curves, BAR);
+    ps_plot_span_widen(&all, with_profiles(curves, tops.most));
+    ps_plot_span_widen(&all, 1); /* white noise */
+    return (ps_plot_span){all.least / margin, all.most * margin};
+}
+
+static ps_plot_span find_frequencies(const ps_panel *curves, bool is_log) {
+    const double margin = 1.1;
+    const ps_plot_span places = ps_plot_span_places(curves);
+    if (ps_plot_span_is_empty(places)) {
+        return (ps_plot_span){is_log ? 1 / margin : 0, margin};
+    }
+    return is_log ? (ps_plot_span){places.least / margin, places.most * margin}
+                  : (ps_plot_span){0, places.most};
+}
+
+/* Those of curves and of levels of noise. */
+static ps_plot_span find_anisotropies(const ps_panel *curves) {
+    const double margin = 0.05; /* of what there is */
+    const double least_margin = 0.5;
+    ps_plot_span all = ps_plot_span_none();
+    widen_by(&all, curves, ANISOTROPY);
+    widen_by(&all, curves, LEVEL);
+    const double around = fmax(margin * (all.most - all.least), least_margin);
+    return (ps_plot_span){all.least - around, all.most + around};
+}
+
+/* ---- series ---------------------------------------------------------------------------------- */
+
+typedef struct composer {
+    const ps_figure *figure;
+    const ps_panel *curves;
+    ps_script_page *page;
+    ps_pool *memory;
+    ps_error *error;
+    size_t num_levels; /* of noise, in the panel of anisotropies; 0: there is none */
+    ps_panel powers;
+    ps_script_key key;
+} composer;
 
 /* Anisotropies stand below powers where there are any; on the sphere there are none. */
-static bool has_anisotropy(const ps_figure *figure) {
-    return !figure->on_sphere && ps_spectra_has(figure->panels, ps_spectra_anisotropy);
-}
-
-/* Where curves begin. */
-static int find_left(const ps_figure *figure) {
-    return LEFT + (figure->points != NULL ? POINTS_WIDTH : 0) +
-           (figure->image != NULL ? IMAGE_WIDTH : 0);
-}
-
-static int find_width(const ps_figure *figure) {
-    return figure->image != NULL ? find_left(figure) - LEFT + CURVES_WIDTH
-                                 : find_left(figure) - LEFT + PS_SCRIPT_WIDTH;
-}
-
-/* ---- the key --------------------------------------------------------------------------------- */
-
-static const char profiles_label[] = "lower, upper profile", fit_label[] = "fit near 0";
-
-/* Does a curve go beyond what is shown, though nobody asked for that? */
-static bool is_cut(const ps_figure *figure, const ps_series *curve) {
-    return !figure->is_log_y && !figure->axes.has_y &&
-           ps_spectra_find_top(curve) > ps_spectra_find_most(figure->panels);
-}
-
-static const char *name_curve(char out[PS_SCRIPT_CUT_BYTES], const ps_figure *figure,
-                              const ps_series *curve) {
-    enum { MOST_LETTERS = 150 }; /* more than any key has room for */
-    char cut[PS_SCRIPT_CUT_BYTES];
-    char top[32] = "";
-    if (is_cut(figure, curve)) {
-        snprintf(top, sizeof top, " (to %.3g)", ps_spectra_find_top(curve));
-    }
-    snprintf(out, PS_SCRIPT_CUT_BYTES, "%s%s",
-             ps_script_cut(cut, curve->label != NULL ? curve->label : "", MOST_LETTERS), top);
-    return out;
+static bool has_anisotropy(const composer *self) {
+    return !self->figure->on_sphere && has(self->curves, ANISOTROPY);
 }
 
 /* Is it the first curve with its level of noise? */
@@ -68,318 +154,250 @@ static bool is_first(const ps_panel *curves, size_t index) {
     return i == index && realizations >= 2;
 }
 
-static size_t count_levels(const ps_panel *curves) {
-    size_t num = 0;
-    for (size_t i = 0; i < curves->num_series; i++) {
-        num += is_first(curves, i);
+/* All curves, before which there is room for as many others, and two more behind them. */
+static pspec_status copy_curves(const composer *self, ps_panel *out, ps_series **first) {
+    const size_t num = self->curves->num_series;
+    PS_TRY(PS_POOL_NEW(self->memory, first, 2 * num + 2, "a picture", self->error));
+    *out = (ps_panel){.num_series = num, .series = *first};
+    for (size_t i = 0; i < num; i++) {
+        (*first)[i] = self->curves->series[i];
+        (*first)[i].label = NULL;
+        (*first)[i].look = PS_LOOK_THIN;
     }
-    return num;
+    return PSPEC_OK;
 }
 
-static const char *name_level(char out[PS_SCRIPT_CUT_BYTES], const ps_panel *curves, size_t index) {
-    const ps_series *const curve = &curves->series[index];
-    char of[32] = "";
-    if (count_levels(curves) > 1) {
-        snprintf(of, sizeof of, " of M = %.0f", curve->num_realizations);
+/* Does a curve go beyond what is shown, though nobody asked for that? Its name says how far. */
+static pspec_status name_curve(const composer *self, const ps_series *curve, const char **label) {
+    const ps_figure *const figure = self->figure;
+    const double top = find_top(curve);
+    ps_text text = {0};
+    ps_text_append(&text, "%s", curve->label != NULL ? curve->label : "");
+    if (!figure->is_log_y && !figure->axes.has_y && top > find_most(self->curves)) {
+        ps_text_append(&text, " (to %.3g)", top);
     }
-    snprintf(out, PS_SCRIPT_CUT_BYTES, "pure noise%s, %.1f dB", of, ps_spectra_level(curve, 0));
-    return out;
-}
-
-/* Curves, unless there is one alone; levels of noise, profiles and fits where they are drawn. */
-static ps_script_key make_key(const ps_figure *figure) {
-    const ps_panel *const curves = figure->panels;
-    char name[PS_SCRIPT_CUT_BYTES];
-    ps_script_key key = {.where = {.left = find_left(figure), .right = find_width(figure) - RIGHT}};
-    for (size_t i = 0; curves->num_series > 1 && i < curves->num_series; i++) {
-        ps_script_key_add(&key, NULL, name_curve(name, figure, &curves->series[i]));
-    }
-    for (size_t i = 0; has_anisotropy(figure) && i < curves->num_series; i++) {
-        if (is_first(curves, i)) {
-            ps_script_key_add(&key, NULL, name_level(name, curves, i));
-        }
-    }
-    if (ps_spectra_has(curves, ps_spectra_profile)) {
-        ps_script_key_add(&key, NULL, profiles_label);
-    }
-    if (ps_spectra_has(curves, ps_spectra_fit)) {
-        ps_script_key_add(&key, NULL, fit_label);
-    }
-    return key;
-}
-
-/* ---- places of panels ------------------------------------------------------------------------ */
-
-typedef struct layout {
-    const ps_figure *figure;
-    const ps_panel *curves;
-    ps_script_key key;
-    bool has_lower; /* a panel below the powers */
-    const char *x_label, *y_label;
-    ps_script_box upper, lower, image, points;
-} layout;
-
-void ps_script_size_spectra(const ps_figure *figure, int *width, int *height) {
-    const ps_script_key key = make_key(figure);
-    *width = find_width(figure);
-    *height = PS_SCRIPT_HEIGHT + (int)ceil(ps_script_key_height(&key));
-}
-
-int ps_script_title_left(const ps_figure *figure) {
-    return figure->form == PS_FIGURE_SPECTRA && figure->points != NULL ? POINTS_WIDTH : 0;
-}
-
-/* The image is square; the lower panel has a third, on the sphere a half. */
-static void place(layout *out) {
-    const ps_figure *const figure = out->figure;
-    const double share = figure->on_sphere ? 0.5 : 0.64;
-    const double between = figure->on_sphere ? BETWEEN_ON_SPHERE : BETWEEN;
-    int width = 0;
-    int height = 0;
-    ps_script_size_spectra(figure, &width, &height);
-    const double left = find_left(figure);
-    const double image_left = left - (figure->image != NULL ? IMAGE_WIDTH : 0);
-    const double side = BOTTOM - TOP;
-    const double middle = TOP + share * (BOTTOM - TOP - between);
-    out->upper =
-        (ps_script_box){left, TOP, width - RIGHT, out->has_lower ? middle : BOTTOM, width, height};
-    out->lower = (ps_script_box){left, middle + between, width - RIGHT, BOTTOM, width, height};
-    out->image = (ps_script_box){image_left, TOP, image_left + side, BOTTOM, width, height};
-    out->key.where.page_width = width;
-    out->key.where.page_height = out->key.where.bottom = height;
-    out->points = (ps_script_box){LEFT / 2, TOP, LEFT / 2 + side, BOTTOM, width, height};
-}
-
-static ps_plot_span or_asked(ps_plot_span own, bool is_asked, const double *asked) {
-    return is_asked ? (ps_plot_span){asked[0], asked[1]} : own;
-}
-
-/* ---- curves ---------------------------------------------------------------------------------- */
-
-/* No line goes through a place that stands alone: it is marked. */
-static const char *curve_style(const layout *where, const ps_series *curve, const double *numbers) {
-    return curve->num == 1 ? "points pointtype 7 pointsize 0.6"
-           : ps_script_has_lone(where->figure, curve, numbers)
-               ? "linespoints pointtype 7 pointsize 0.5"
-               : "lines";
-}
-
-/* Bars while they can be told apart, none without a length, a band when there are too many. */
-static void print_errors(const ps_series *curve, size_t number, FILE *stream) {
-    const bool has_bars = curve->num <= MAX_BARS;
-    fprintf(stream, "$data0_%zu using %s ", number,
-            has_bars
-                ? "1:2:($3 > 0 ? $3 : NaN) with yerrorbars pointtype 7 pointsize 0.25 linewidth 0.8"
-                : "1:($2-$3):($2+$3) with filledcurves fillstyle transparent solid 0.3 noborder");
-    ps_script_print_colour(curve->kind, stream);
-    fputs(" notitle, ", stream);
-}
-
-static void print_look(const layout *where, size_t index, const double *numbers, double width,
-                       FILE *stream) {
-    const ps_series *const curve = &where->curves->series[index];
-    fprintf(stream, " with %s linewidth %g ", curve_style(where, curve, numbers),
-            width * ps_script_line_width(where->figure, where->curves, index));
-    ps_script_print_style(curve->kind, stream);
-}
-
-/* All curves once more, of these columns. */
-static void print_thinner(const layout *where, const char *columns, bool is_anisotropy,
-                          FILE *stream) {
-    const double thinner = 0.75;
-    for (size_t i = 0; i < where->curves->num_series; i++) {
-        const ps_series *const curve = &where->curves->series[i];
-        fprintf(stream, "%s$data0_%zu using %s", i > 0 ? ", " : "", i, columns);
-        print_look(where, i, is_anisotropy ? curve->anisotropy : curve->y, thinner, stream);
-        fputs(" notitle", stream);
-    }
-}
-
-/* Profiles as thin dashes, fits as thin lines. */
-static const char profile_style[] = " with lines linewidth 1 dashtype 3 ";
-static const char fit_style[] = " with lines linecolor rgb '#000000' linewidth 1";
-
-static void print_profiles(const ps_panel *curves, FILE *stream) {
-    for (size_t i = 0; i < curves->num_series; i++) {
-        const ps_series *const curve = &curves->series[i];
-        for (int column = 5; curve->low != NULL && curve->high != NULL && column <= 6; column++) {
-            fprintf(stream, ", $data0_%zu using 1:($%d > 0 ? $%d : NaN)%s", i, column, column,
-                    profile_style);
-            ps_script_print_colour(curve->kind, stream);
-            fputs(" notitle", stream);
-        }
-        if (curve->fit != NULL) {
-            fprintf(stream, ", $data0_%zu using 1:($7 > 0 ? $7 : NaN)%s notitle", i, fit_style);
-        }
-    }
+    return ps_text_keep(label, self->memory, &text, self->error);
 }
 
 /* One is grey, as it is of all curves; several have the colours of theirs. */
-static void print_level_style(const ps_panel *curves, size_t index, FILE *stream) {
-    fputs(" with lines dashtype 2 linewidth 1.2 ", stream);
-    if (count_levels(curves) == 1) {
-        fputs("linecolor rgb '#707070'", stream);
-    } else {
-        ps_script_print_colour(curves->series[index].kind, stream);
-    }
+static ps_series make_level(const composer *self, size_t curve) {
+    return (ps_series){.look = PS_LOOK_LEVEL,
+                       .kind = self->num_levels > 1 ? self->curves->series[curve].kind
+                                                    : PS_SCRIPT_GREY};
 }
 
-/* In the order of make_key. */
-static void print_entries(const layout *where, FILE *stream) {
-    const ps_panel *const curves = where->curves;
-    char name[PS_SCRIPT_CUT_BYTES];
-    for (size_t i = 0; curves->num_series > 1 && i < curves->num_series; i++) {
-        fputs(", NaN", stream);
-        print_look(where, i, curves->series[i].y, 1, stream);
-        ps_script_print_entry(&where->key, NULL,
-                              name_curve(name, where->figure, &curves->series[i]), stream);
+static pspec_status name_level(const composer *self, size_t curve, const char **label) {
+    const ps_series *const own = &self->curves->series[curve];
+    ps_text text = {0};
+    ps_text_append(&text, "pure noise");
+    if (self->num_levels > 1) {
+        ps_text_append(&text, " of M = %.0f", own->num_realizations);
     }
-    for (size_t i = 0; has_anisotropy(where->figure) && i < curves->num_series; i++) {
-        if (is_first(curves, i)) {
-            fputs(", NaN", stream);
-            print_level_style(curves, i, stream);
-            ps_script_print_entry(&where->key, NULL, name_level(name, curves, i), stream);
+    ps_text_append(&text, ", %.1f dB", take_number(own, 0, LEVEL));
+    return ps_text_keep(label, self->memory, &text, self->error);
+}
+
+/* In the key are curves, unless there is one alone; levels of noise, profiles and fits where they
+ * are drawn. */
+static pspec_status make_powers(const composer *self, ps_panel *out) {
+    const ps_panel *const curves = self->curves;
+    ps_series *series = NULL;
+    PS_TRY(copy_curves(self, out, &series));
+    for (size_t i = 0; i < curves->num_series; i++) {
+        series[i].look = PS_LOOK_SPECTRUM;
+        if (curves->num_series > 1) {
+            PS_TRY(name_curve(self, &curves->series[i], &series[i].label));
         }
     }
-    if (ps_spectra_has(curves, ps_spectra_profile)) {
-        fprintf(stream, ", NaN%slinecolor rgb '#707070'", profile_style);
-        ps_script_print_entry(&where->key, NULL, profiles_label, stream);
+    for (size_t i = 0; self->num_levels > 0 && i < curves->num_series; i++) {
+        if (is_first(curves, i)) {
+            series[out->num_series] = make_level(self, i);
+            PS_TRY(name_level(self, i, &series[out->num_series++].label));
+        }
     }
-    if (ps_spectra_has(curves, ps_spectra_fit)) {
-        fprintf(stream, ", NaN%s", fit_style);
-        ps_script_print_entry(&where->key, NULL, fit_label, stream);
+    if (has(curves, PROFILE)) {
+        series[out->num_series++] = (ps_series){
+            .look = PS_LOOK_PROFILE, .kind = PS_SCRIPT_GREY, .label = "lower, upper profile"};
     }
+    if (has(curves, FIT)) {
+        series[out->num_series++] = (ps_series){.look = PS_LOOK_FIT, .label = "fit near 0"};
+    }
+    return PSPEC_OK;
 }
 
-/* Scale, ticks and range of an axis. */
-static void print_axis(const char *axis, bool is_log, ps_plot_span shown, FILE *stream) {
-    fprintf(stream, "%sset logscale %s\n", is_log ? "" : "un", axis);
-    if (is_log && shown.least > 0) {
-        ps_script_print_log_ticks(axis, shown, stream);
-    } else {
-        fprintf(stream, "set format %s '%%g'\nset %stics in mirror autofreq\n", axis, axis);
+/* Levels of noise, as lines from one end of the axis to the other, below the curves. */
+static pspec_status make_anisotropies(const composer *self, ps_plot_span shown, ps_panel *out) {
+    const ps_panel *const curves = self->curves;
+    ps_series *series = NULL;
+    size_t num = 0;
+    PS_TRY(copy_curves(self, out, &series));
+    memmove(series + self->num_levels, series, curves->num_series * sizeof *series);
+    out->num_series += self->num_levels;
+    for (size_t i = 0; i < curves->num_series; i++) {
+        ps_series *const own = &series[self->num_levels + i];
+        own->y = own->anisotropy;
+        own->error = own->low = own->high = own->fit = NULL;
+        if (is_first(curves, i)) {
+            double *ends = NULL;
+            PS_TRY(PS_POOL_NEW(self->memory, &ends, 4, "a picture", self->error));
+            ends[0] = shown.least;
+            ends[1] = shown.most;
+            ends[2] = ends[3] = take_number(own, 0, LEVEL);
+            series[num] = make_level(self, i);
+            series[num].num = 2;
+            series[num].x = ends;
+            series[num++].y = ends + 2;
+        }
     }
-    ps_script_print_span(axis, shown, stream);
-}
-
-/* Panels with the same axis say what it is once, at the bottom. */
-static void print_frequencies(const layout *where, bool is_bottom, FILE *stream) {
-    const ps_figure *const figure = where->figure;
-    const ps_plot_span own = ps_spectra_frequencies(figure, where->curves);
-    print_axis("x", figure->is_log_x, or_asked(own, figure->axes.has_x, figure->axes.x), stream);
-    if (is_bottom) {
-        fprintf(stream, "set xlabel '%s' offset 0,0.2\n", where->x_label);
-    } else {
-        fputs("set format x ''\nunset xlabel\n", stream);
-    }
-}
-
-/* A line at white noise, where it is in sight. */
-static void print_white(ps_plot_span shown, FILE *stream) {
-    if (shown.least < 1 && shown.most > 1) {
-        fputs("set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead back linecolor "
-              "'#707070' linewidth 1\n",
-              stream);
-    }
+    return PSPEC_OK;
 }
 
 /* ---- panels ---------------------------------------------------------------------------------- */
 
-static void print_powers(const layout *where, FILE *stream) {
-    const ps_panel *const curves = where->curves;
-    for (size_t i = 0; i < curves->num_series; i++) {
-        print_errors(&curves->series[i], i, stream);
-    }
-    for (size_t i = 0; i < curves->num_series; i++) {
-        fprintf(stream, "%s$data0_%zu using 1:2", i > 0 ? ", " : "", i);
-        print_look(where, i, curves->series[i].y, 1, stream);
-        fputs(" notitle", stream);
-    }
-    print_profiles(curves, stream);
-    print_entries(where, stream);
-    putc('\n', stream);
+/* Pixels: of points and image, with numbers and colours; of the curves. */
+enum {
+    POINTS_WIDTH = 650,
+    IMAGE_WIDTH = 770,
+    CURVES_WIDTH = 630,
+    TOP = 56,
+    BOTTOM = 614,
+    LEFT = 84,
+    RIGHT = 18
+};
+enum { BETWEEN = 20, BETWEEN_ON_SPHERE = 70 }; /* panels with the same axis, and with their own */
+
+static ps_script_panel *add_panel(const composer *self, double left, double right) {
+    ps_script_panel *const out = &self->page->panels[self->page->num_panels++];
+    *out = (ps_script_panel){
+        .where = {left, TOP, right, BOTTOM, self->page->width, self->page->height}};
+    return out;
 }
 
-static void print_power_panel(const layout *where, FILE *stream) {
-    const ps_figure *const figure = where->figure;
-    const ps_panel *const curves = where->curves;
-    const ps_plot_span powers =
-        or_asked(ps_spectra_powers(figure, curves), figure->axes.has_y, figure->axes.y);
-    ps_script_print_margins(&where->upper, stream);
-    fputs(ps_script_ticks, stream);
-    print_axis("y", figure->is_log_y, powers, stream);
-    print_frequencies(where, !where->has_lower || figure->on_sphere, stream);
-    fprintf(stream, "set ylabel '%s%s' offset 0,0\n", where->y_label,
-            ps_spectra_has(curves, ps_spectra_error) ? " ± standard error" : "");
-    ps_script_print_key(&where->key, stream);
-    print_white(powers, stream);
-    fputs("plot ", stream);
-    print_powers(where, stream);
-    fputs("unset arrow 1\nunset label 1\nunset key\n", stream);
+static ps_script_axis make_axis(ps_plot_span shown, bool is_log, const char *label) {
+    return (ps_script_axis){.shown = shown,
+                            .is_log = is_log && shown.least > 0,
+                            .format = is_log && shown.least > 0 ? NULL : "%g",
+                            .label = label,
+                            .offset = "0,0"};
 }
 
-static void print_anisotropy_panel(const layout *where, FILE *stream) {
-    const ps_panel *const curves = where->curves;
-    const ps_plot_span shown = ps_spectra_anisotropies(curves);
-    ps_script_print_margins(&where->lower, stream);
-    print_frequencies(where, true, stream);
-    fprintf(stream,
-            "unset logscale y\nset format y '%%g'\nset ylabel 'anisotropy / dB' offset 0,0\n"
-            "set ytics %g in mirror\n",
-            ps_script_tick_step(shown)); /* few enough for a low panel */
-    ps_script_print_span("y", shown, stream);
-    fputs("plot ", stream);
-    for (size_t i = 0; i < curves->num_series; i++) {
-        if (is_first(curves, i)) {
-            fprintf(stream, "%.9g", ps_spectra_level(&curves->series[i], 0));
-            print_level_style(curves, i, stream);
-            fputs(" notitle, ", stream);
-        }
-    }
-    print_thinner(where, "1:4", true, stream);
-    putc('\n', stream);
+static ps_script_axis make_frequencies(const composer *self, bool is_log, bool is_asked) {
+    const ps_plot_axes *const asked = &self->figure->axes;
+    ps_script_axis out = make_axis(ps_plot_span_asked(find_frequencies(self->curves, is_log),
+                                                      is_asked && asked->has_x, asked->x),
+                                   is_log,
+                                   self->figure->on_sphere ? "normalized degree l N^{-1/2}"
+                                                           : "normalized frequency |k| N^{-1/d}");
+    out.offset = "0,0.2";
+    return out;
+}
+
+static pspec_status place_powers(const composer *self, ps_script_panel *out) {
+    const ps_figure *const figure = self->figure;
+    ps_text label = {0};
+    out->x = make_frequencies(self, figure->is_log_x, true);
+    out->y = make_axis(ps_plot_span_asked(find_powers(self->curves, figure->is_log_y),
+                                          figure->axes.has_y, figure->axes.y),
+                       figure->is_log_y, NULL);
+    out->has_white = true;
+    ps_text_append(&label, "%s%s", figure->y_label != NULL ? figure->y_label : "",
+                   has(self->curves, ERROR) ? " ± standard error" : "");
+    return ps_text_keep(&out->y.label, self->memory, &label, self->error);
+}
+
+/* Panels with the same axis say what it is once, at the bottom. */
+static pspec_status place_anisotropies(const composer *self, ps_script_panel *upper,
+                                       ps_script_panel *out) {
+    const ps_plot_span shown = find_anisotropies(self->curves);
+    out->x = upper->x;
+    upper->x.label = NULL;
+    upper->x.format = "";
+    out->y = make_axis(shown, false, "anisotropy / dB");
+    out->y.step = ps_plot_tick_step(shown); /* few enough for a low panel */
+    return make_anisotropies(self, out->x.shown, &out->panel);
 }
 
 /* Low degrees of good patterns have powers that a linear axis cannot show. */
-static void print_logarithmic_panel(const layout *where, FILE *stream) {
-    ps_figure figure = *where->figure;
-    layout own = *where;
-    figure.is_log_x = figure.is_log_y = true;
-    figure.axes = (ps_plot_axes){0};
-    own.figure = &figure;
-    ps_script_print_margins(&where->lower, stream);
-    print_frequencies(&own, true, stream);
-    print_axis("y", true, ps_spectra_powers(&figure, where->curves), stream);
-    fprintf(stream, "set ylabel '%s' offset 0,0\nplot ", where->y_label);
-    print_thinner(&own, "1:($2 > 0 ? $2 : NaN)", false, stream);
-    print_profiles(where->curves, stream);
-    putc('\n', stream);
+static pspec_status place_logarithms(const composer *self, ps_script_panel *out) {
+    ps_series *series = NULL;
+    PS_TRY(copy_curves(self, &out->panel, &series));
+    for (size_t i = 0; i < out->panel.num_series; i++) {
+        series[i].error = NULL;
+    }
+    out->x = make_frequencies(self, true, false);
+    out->y = make_axis(find_powers(self->curves, true), true,
+                       self->figure->y_label != NULL ? self->figure->y_label : "");
+    return PSPEC_OK;
 }
 
-pspec_status ps_script_print_spectra(const ps_figure *figure, const char *terminal, FILE *stream,
+/* The lower panel has a third, on the sphere a half. */
+static pspec_status place_curves(const composer *self, double left, bool has_lower) {
+    const bool on_sphere = self->figure->on_sphere;
+    const double share = on_sphere ? 0.5 : 0.64;
+    const double between = on_sphere ? BETWEEN_ON_SPHERE : BETWEEN;
+    const double right = self->page->width - RIGHT;
+    ps_script_panel *const upper = add_panel(self, left, right);
+    upper->panel = self->powers;
+    upper->key = self->key;
+    PS_TRY(place_powers(self, upper));
+    if (!has_lower) {
+        return PSPEC_OK;
+    }
+    ps_script_panel *const lower = add_panel(self, left, right);
+    upper->where.bottom = TOP + share * (BOTTOM - TOP - between);
+    lower->where.top = upper->where.bottom + between;
+    return on_sphere ? place_logarithms(self, lower) : place_anisotropies(self, upper, lower);
+}
+
+/* A line is in the middle. */
+static void place_points(const composer *self) {
+    const double side = BOTTOM - TOP;
+    ps_script_panel *const out = add_panel(self, LEFT / 2.0, LEFT / 2.0 + side);
+    out->panel = *self->figure->points;
+    if (out->panel.frame.form == PS_FRAME_LINE) {
+        out->where.top = (TOP + BOTTOM - PS_SCRIPT_LINE_HEIGHT) / 2.0;
+        out->where.bottom = out->where.top + PS_SCRIPT_LINE_HEIGHT;
+    }
+}
+
+/* The page is higher by its key. */
+static void size_page(composer *self, double left) {
+    const ps_figure *const figure = self->figure;
+    ps_script_page *const page = self->page;
+    ps_script_box *const where = &self->key.where;
+    page->title_left = figure->points != NULL ? POINTS_WIDTH : 0;
+    page->width = (int)left - LEFT + (figure->image != NULL ? CURVES_WIDTH : PS_SCRIPT_WIDTH);
+    if (self->powers.num_series > 1) {
+        self->key = ps_script_key_of(&self->powers,
+                                     (ps_script_box){.left = left, .right = page->width - RIGHT});
+    }
+    page->height = PS_SCRIPT_HEIGHT + (int)ceil(ps_script_key_height(&self->key));
+    where->page_width = page->width;
+    where->page_height = where->bottom = page->height;
+}
+
+pspec_status ps_script_place_spectra(ps_script_page *out, ps_pool *memory, const ps_figure *figure,
                                      ps_error *error) {
-    const bool on_sphere = figure->on_sphere;
-    layout where = {
-        .figure = figure,
-        .curves = figure->panels,
-        .key = make_key(figure),
-        .has_lower = on_sphere ? !(figure->is_log_x && figure->is_log_y) : has_anisotropy(figure),
-        .x_label = on_sphere ? "normalized degree l N^{-1/2}" : "normalized frequency |k| N^{-1/d}",
-        .y_label = figure->y_label != NULL ? figure->y_label : ""};
-    place(&where);
+    enum { MOST_PANELS = 4 };
+    composer self = {
+        .figure = figure, .curves = figure->panels, .page = out, .memory = memory, .error = error};
+    const bool has_lower =
+        figure->on_sphere ? !(figure->is_log_x && figure->is_log_y) : has_anisotropy(&self);
+    const double image_left = LEFT + (figure->points != NULL ? POINTS_WIDTH : 0);
+    const double left = image_left + (figure->image != NULL ? IMAGE_WIDTH : 0);
+    for (size_t i = 0; has_anisotropy(&self) && i < self.curves->num_series; i++) {
+        self.num_levels += is_first(self.curves, i);
+    }
+    PS_TRY(PS_POOL_NEW(memory, &out->panels, MOST_PANELS, "a picture", error));
+    PS_TRY(make_powers(&self, &self.powers));
+    size_page(&self, left);
+    PS_TRY(place_curves(&self, left, has_lower));
     if (figure->points != NULL) {
-        ps_script_print_beside(&(ps_script_points){figure->points, &figure->frames[0], where.points,
-                                                   "$points", terminal},
-                               stream);
+        place_points(&self);
     }
     if (figure->image != NULL) {
-        PS_TRY(ps_script_print_image(figure->image, &where.image, stream, error));
-    }
-    print_power_panel(&where, stream);
-    if (where.has_lower && on_sphere) {
-        print_logarithmic_panel(&where, stream);
-    } else if (where.has_lower) {
-        print_anisotropy_panel(&where, stream);
+        ps_script_panel *const image = add_panel(&self, image_left, image_left + BOTTOM - TOP);
+        PS_TRY(ps_script_make_raster(&image->raster, memory, figure->image, error));
     }
     return PSPEC_OK;
 }

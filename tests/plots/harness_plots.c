@@ -10,14 +10,10 @@
 #include <cmocka.h>
 
 char *test_script(const ps_figure *plot) {
-    char *script = NULL;
-    size_t length = 0;
+    ps_text script = {0};
     ps_error error = {0};
-    FILE *const stream = open_memstream(&script, &length);
-    assert_non_null(stream);
-    assert_int_equal(ps_script_print_figure(plot, "svg", stream, &error), PSPEC_OK);
-    assert_int_equal(fclose(stream), 0);
-    return script;
+    assert_int_equal(ps_script_print_figure(&script, plot, "svg", &error), PSPEC_OK);
+    return script.data;
 }
 
 size_t test_script_count(const ps_figure *plot, const char *what) {

@@ -25,7 +25,7 @@ static void make_example(example *out) {
     const ps_series curve = {
         .label = "a", .num = NUM, .x = out->x, .y = out->y, .error = out->y, .anisotropy = out->y};
     out->curves[0] = out->curves[1] = curve;
-    out->panel = (ps_panel){NULL, 2, out->curves};
+    out->panel = (ps_panel){NULL, 2, out->curves, {0}};
     out->plot = (ps_figure){
         .form = PS_FIGURE_SPECTRA,
         .title = "title",

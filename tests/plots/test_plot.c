@@ -47,7 +47,7 @@ static void make_example(example *out, size_t num_curves, bool has_image, bool h
                                      .num_realizations = has_errors ? 10 : 1};
     }
     out->picture = (ps_plot_image){.size = IMAGE_SIZE, .power = out->image, .unit = 8};
-    out->panel = (ps_panel){NULL, num_curves, out->curves};
+    out->panel = (ps_panel){NULL, num_curves, out->curves, {0}};
     out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
                             .title = "it's \"a_b\"\nexit 1; `false` {",
                             .num_panels = 1,
@@ -279,7 +279,7 @@ static void axes_that_were_asked_for(void **state) {
     data.plot.form = PS_FIGURE_FRAME;
     data.plot.is_log_x = data.plot.is_log_y = true;
     data.plot.axes = (ps_plot_axes){.has_log = true, .has_y = true, .y = {-1, 2}};
-    assert_false(test_script_contains(&data.plot, "set logscale"));
+    assert_false(test_script_contains(&data.plot, "\nset logscale"));
     assert_true(test_script_contains(&data.plot, "set yrange [-1:2]\n"));
 }
 
@@ -326,17 +326,17 @@ static void draws_panels(void **state) {
     static const double x[] = {1e-5, 1e-4, 0, 1e-3};
     static const double y[] = {1e-3, (double)NAN, 1e-6, 1e-12};
     const ps_series series[] = {
-        {.label = "it's a front", .is_front = true, .num = 4, .x = x, .y = y},
-        {.label = "a_b {x}", .kind = 3, .num = 4, .x = x, .y = y}};
-    const ps_panel panels[] = {{"first's", 2, series},
-                               {"none", 0, NULL},
-                               {"2", 1, series},
-                               {"3", 2, series},
-                               {"4", 2, series}};
+        {.label = "it's a front", .look = PS_LOOK_FRONT, .num = 4, .x = x, .y = y},
+        {.label = "a_b {x}", .look = PS_LOOK_SIGNS, .kind = 3, .num = 4, .x = x, .y = y}};
+    const ps_panel panels[] = {{"first's", 2, series, {0}},
+                               {"none", 0, NULL, {0}},
+                               {"2", 1, series, {0}},
+                               {"3", 2, series, {0}},
+                               {"4", 2, series, {0}}};
     static const char *const names[] = {"panels.svg", "panels.png", "panels.pdf"};
     ps_error said = {0};
     char path[TEST_PATH_BYTES];
-    ps_figure plot = {.form = PS_FIGURE_MARKS,
+    ps_figure plot = {.form = PS_FIGURE_PANELS,
                       .is_log_x = true,
                       .is_log_y = true,
                       .title = "it's \"a_b\"",

@@ -31,25 +31,25 @@ static void make_looks(ps_series series[NUM_LOOKS]) {
     series[2].label = "white";
 }
 
-/* Columns 1 and 2 are the place, 3 the error, 5 and 6 the band. Neither goes below the end of a
+/* Columns 1 and 2 are the place, 3 the error, 4 and 5 the band. Neither goes below the end of a
  * logarithmic axis, which has no 0: a hundredth of the smallest number. Only what has a label is in
  * the key. */
 static void looks_of_a_frame(void **state) {
     (void)state;
     ps_series series[NUM_LOOKS];
     make_looks(series);
-    const ps_panel panel = {"none", NUM_LOOKS, series};
+    const ps_panel panel = {"none", NUM_LOOKS, series, {0}};
     ps_figure plot = {.form = PS_FIGURE_FRAME,
                       .title = "variance",
                       .is_log_x = true,
                       .is_log_y = true,
                       .num_panels = 1,
                       .panels = &panel};
-    assert_true(test_script_contains(&plot, "\n 64 0.001 NaN NaN 0.0009 0.0011\n"));
-    assert_true(test_script_contains(&plot, "\n 64 0.001 0.0001 NaN NaN NaN\n"));
+    assert_true(test_script_contains(&plot, "\n 64 0.001 NaN 0.0009 0.0011\n"));
+    assert_true(test_script_contains(&plot, "\n 64 0.001 0.0001 NaN NaN\n"));
     assert_true(test_script_contains(&plot, "\n 64 0.001\n"));
     assert_true(test_script_contains(&plot,
-                                     "plot $data0_0 using 1:($5 > 1e-07 ? $5 : 1e-07):6 with "
+                                     "plot $data0_0 using 1:($4 > 1e-07 ? $4 : 1e-07):5 with "
                                      "filledcurves "));
     assert_true(test_script_contains(&plot,
                                      ", $data0_0 using 1:2 with lines linewidth 1.6 linecolor "
@@ -64,9 +64,9 @@ static void looks_of_a_frame(void **state) {
                                      ", $data0_2 using 1:2 with lines linewidth 1 linecolor rgb "
                                      "'#808080' dashtype 2 title \"white\"\n"));
     assert_true(test_script_contains(&plot, "set yrange [1e-07:*]\n")); /* of the band at 16 */
-    assert_false(test_script_contains(&plot, "set title"));
+    assert_false(test_script_contains(&plot, "\nset title"));
     plot.is_log_y = false;
-    assert_true(test_script_contains(&plot, "using 1:($5):6 with filledcurves "));
+    assert_true(test_script_contains(&plot, "using 1:($4):5 with filledcurves "));
     assert_true(test_script_contains(&plot, ":($2-$3):($2+$3) with yerrorbars "));
     assert_false(test_script_contains(&plot, "set yrange"));
 }
@@ -78,7 +78,7 @@ static void ends_of_a_logarithmic_axis(void **state) {
     const double rounding[] = {1e-2, 1e-3, 1e-4, 1e-30};
     ps_series series[NUM_LOOKS];
     make_looks(series);
-    const ps_panel panel = {"none", 1, series};
+    const ps_panel panel = {"none", 1, series, {0}};
     ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .is_log_y = true, .num_panels = 1, .panels = &panel};
     series[0].low = variances;
@@ -103,7 +103,7 @@ static void ticks_of_few_places(void **state) {
     const double points[] = {49, 64, 56, 60};
     ps_series series[NUM_LOOKS];
     make_looks(series);
-    const ps_panel panel = {"none", 1, series};
+    const ps_panel panel = {"none", 1, series, {0}};
     ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .is_log_x = true, .num_panels = 1, .panels = &panel};
     series[0].x = points;
@@ -122,9 +122,13 @@ static void axes_of_panels(void **state) {
     const double rounding[] = {1e-2, 1e-3, 1e-12, 1e-15};
     ps_series series[NUM_LOOKS];
     make_looks(series);
-    const ps_panel panels[] = {{"1", 1, series}, {"2", 1, series + 1}};
-    const ps_figure plot = {
-        .form = PS_FIGURE_PANELS, .title = "", .is_log_y = true, .num_panels = 2, .panels = panels};
+    const ps_panel panels[] = {{"1", 1, series, {0}}, {"2", 1, series + 1, {0}}};
+    const ps_figure plot = {.form = PS_FIGURE_PANELS,
+                            .title = "",
+                            .is_log_y = true,
+                            .num_panels = 2,
+                            .panels = panels,
+                            .shares_axes = true};
     series[1].y = rounding;
     assert_true(test_script_contains(&plot, "set yrange [9.52380952e-16:0.0105]\n"));
     series[1].floor = 1e-10;
@@ -137,7 +141,7 @@ static void single_places_of_a_frame(void **state) {
     (void)state;
     ps_series series[NUM_LOOKS];
     make_looks(series);
-    const ps_panel panel = {"none", NUM_LOOKS, series};
+    const ps_panel panel = {"none", NUM_LOOKS, series, {0}};
     const ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .num_panels = 1, .panels = &panel};
     for (size_t i = 0; i < NUM_LOOKS; i++) {
@@ -146,7 +150,7 @@ static void single_places_of_a_frame(void **state) {
     assert_false(test_script_contains(&plot, "with lines"));
     assert_true(test_script_contains(&plot, "$data0_0 using 1:2 with points pointtype 6 "));
     assert_true(test_script_contains(&plot,
-                                     "plot $data0_0 using 1:2:($1*0.985):($1*1.015):($5):6 with "
+                                     "plot $data0_0 using 1:2:($1*0.985):($1*1.015):($4):5 with "
                                      "boxxyerror fillstyle "));
     assert_true(test_script_contains(&plot, "$data0_2 using 1:2 with points pointtype 1 "));
 }
@@ -159,11 +163,11 @@ static void draws_frames(void **state) {
     make_looks(series);
     const ps_series empty = {
         .look = PS_LOOK_CURVE, .label = "a", .num = NUM_COUNTS, .x = counts, .y = nothing};
-    const ps_panel panels[] = {{"the_first's", NUM_LOOKS, series},
-                               {"nothing", 1, &empty},
-                               {"3", 2, series},
-                               {"4", NUM_LOOKS, series},
-                               {"5", 1, series}};
+    const ps_panel panels[] = {{"the_first's", NUM_LOOKS, series, {0}},
+                               {"nothing", 1, &empty, {0}},
+                               {"3", 2, series, {0}},
+                               {"4", NUM_LOOKS, series, {0}},
+                               {"5", 1, series, {0}}};
     ps_figure plot = {.form = PS_FIGURE_FRAME,
                       .title = "it's \"a_b\"",
                       .x_label = "x",
@@ -194,7 +198,7 @@ static void long_labels_of_a_frame(void **state) {
     (void)state;
     ps_series series[NUM_LOOKS];
     make_looks(series);
-    const ps_panel panels[] = {{"1", NUM_LOOKS, series}, {"2", NUM_LOOKS, series}};
+    const ps_panel panels[] = {{"1", NUM_LOOKS, series, {0}}, {"2", NUM_LOOKS, series, {0}}};
     const ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .num_panels = 2, .panels = panels};
     assert_true(test_script_contains(&plot, " maxcols 4 samplen 2 spacing 1.05 width 0\n"));
@@ -220,8 +224,7 @@ static void planes_of_a_frame(void **state) {
     const double x[] = {1, -3};
     const double y[] = {4, 2};
     const ps_series cloud = {.look = PS_LOOK_CLOUD, .num = 2, .x = x, .y = y};
-    const ps_panel panels[] = {{"parts", 1, &cloud}, {"plane", 1, &cloud}};
-    const ps_panel_axes axes[] = {{"k", NULL, false}, {"real", "imaginary", true}};
+    ps_panel panels[] = {{"parts", 1, &cloud, {0}}, {"plane", 1, &cloud, {0}}};
     ps_figure plot = {.form = PS_FIGURE_FRAME,
                       .title = "",
                       .x_label = "x",
@@ -229,10 +232,11 @@ static void planes_of_a_frame(void **state) {
                       .num_panels = 2,
                       .panels = panels};
     assert_false(test_script_contains(&plot, "set yrange"));
-    plot.panel_axes = axes;
+    panels[0].frame.x_label = "k";
+    panels[1].frame = (ps_frame){PS_FRAME_PLANE, 0, 0, "real", "imaginary", false};
     assert_true(test_script_contains(&plot, "set xlabel \"k\" offset 0,0\nset ylabel \"y\" "));
-    assert_true(
-        test_script_contains(&plot, "set xlabel \"real\" offset 0,0\nset ylabel \"imaginary\""));
+    assert_true(test_script_contains(&plot, "set xlabel \"real\" offset 0,0\n"));
+    assert_true(test_script_contains(&plot, "set ylabel \"imaginary\" offset 0,0\n"));
     /* 4.2 up and down in 526 pixels, so much more in 601 */
     assert_true(test_script_contains(&plot, "set xrange [-4.79885"));
     assert_true(test_script_contains(&plot, "set yrange [-4.2:4.2]\n"));
@@ -279,7 +283,7 @@ static void marks_that_coincide(void **state) {
                           {.look = PS_LOOK_CURVE, .num = 1, .x = counts, .y = near},
                           {.look = PS_LOOK_MARKS, .num = 1, .x = counts, .y = variances},
                           {.look = PS_LOOK_CURVE, .num = 1, .x = counts, .y = far}};
-    const ps_panel panel = {"none", sizeof series / sizeof series[0], series};
+    const ps_panel panel = {"none", sizeof series / sizeof series[0], series, {0}};
     const ps_figure plot = {.form = PS_FIGURE_FRAME,
                             .title = "",
                             .is_log_x = true,
@@ -302,7 +306,7 @@ static void marks_that_coincide(void **state) {
 static void keys_leave_room_for_the_axis(void **state) {
     (void)state;
     ps_series series[6];
-    const ps_panel panel = {"none", 6, series};
+    const ps_panel panel = {"none", 6, series, {0}};
     const ps_figure plot = {
         .form = PS_FIGURE_FRAME, .title = "", .num_panels = 1, .panels = &panel};
     make_looks(series);

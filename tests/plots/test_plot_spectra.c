@@ -5,6 +5,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,7 +34,7 @@ static void make_example(example *out, size_t num_curves) {
                                      .anisotropy = anisotropies,
                                      .num_realizations = 20};
     }
-    out->panel = (ps_panel){NULL, num_curves, out->curves};
+    out->panel = (ps_panel){NULL, num_curves, out->curves, {0}};
     out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
                             .title = "title",
                             .num_panels = 1,
@@ -67,7 +68,7 @@ static ps_plot_span find_range(const ps_figure *plot, const char *axis) {
 static ps_plot_span find_lower_range(const ps_figure *plot) {
     static const char begin[] = "set yrange [";
     char *const script = test_script(plot);
-    const char *const panel = strstr(script, "anisotropy / dB");
+    const char *const panel = strstr(script, "set ylabel \"anisotropy ");
     assert_non_null(panel);
     const ps_plot_span out = read_range(strstr(panel, begin), begin);
     free(script);
@@ -137,7 +138,7 @@ static void the_sphere_has_one_panel_of_logarithms(void **state) {
     assert_int_equal(test_script_count(&data.plot, "\nplot "), 2);
 }
 
-static const char grey[] = "NaN with lines dashtype 2 linewidth 1.2 linecolor rgb '#707070' title ";
+static const char grey[] = "NaN with lines linewidth 1.2 linecolor rgb '#707070' dashtype 2 title ";
 
 /* Curves have the level of their own number of realizations; the key says it once. */
 static void levels_of_noise(void **state) {
@@ -149,11 +150,11 @@ static void levels_of_noise(void **state) {
     assert_int_equal(test_script_count(&data.plot, entry), 1);
     data.curves[1].num_realizations = 1000;
     assert_int_equal(test_script_count(&data.plot,
-                                       "linecolor rgb '#0072B2' title \"pure noise of M "
+                                       "linecolor rgb '#0072B2' dashtype 2 title \"pure noise of M "
                                        "\\075 \\062\\060\\054 "),
                      1);
     assert_int_equal(test_script_count(&data.plot,
-                                       "linecolor rgb '#D55E00' title \"pure noise of M "
+                                       "linecolor rgb '#D55E00' dashtype 2 title \"pure noise of M "
                                        "\\075 \\061\\060\\060\\060\\054 "),
                      1);
     assert_int_equal(test_script_count(&data.plot, "pure noise"), 2);
@@ -202,11 +203,11 @@ static void profiles_and_fits_are_in_the_key(void **state) {
         data.curves[i].fit = fit;
     }
     assert_int_equal(test_script_count(&data.plot,
-                                       "NaN with lines linewidth 1 dashtype 3 linecolor "
-                                       "rgb '#707070' title \"lower\\054 upper profile\""),
+                                       "NaN with lines linewidth 1 linecolor rgb "
+                                       "'#707070' dashtype 3 title \"lower\\054 upper profile\""),
                      1);
     assert_int_equal(test_script_count(&data.plot,
-                                       "NaN with lines linecolor rgb '#000000' linewidth 1 "
+                                       "NaN with lines linewidth 1 linecolor rgb '#000000' "
                                        "title \"fit near \\060\""),
                      1);
     assert_true(find_range(&data.plot, "y").most > 1.7);
@@ -222,18 +223,20 @@ static void rings_that_stand_alone(void **state) {
     (void)state;
     const double peaks[NUM] = {0, 3, 0, 0, 0, 5};
     const double alone[NUM] = {NAN, 9, NAN, NAN, NAN, 9};
-    static const char mark[] = " using 1:2 with linespoints pointtype 7 ";
+    static const char mark[] = "$data0_0 using 1:2 with linespoints pointtype 7 ";
     example data;
     make_example(&data, 1);
     assert_int_equal(test_script_count(&data.plot, "linespoints"), 0);
     data.curves[0].y = peaks;
     assert_int_equal(test_script_count(&data.plot, mark), 1);
     data.curves[0].anisotropy = alone;
-    assert_int_equal(test_script_count(&data.plot, " using 1:4 with linespoints pointtype 7 "), 1);
+    assert_int_equal(
+        test_script_count(&data.plot, "$data1_1 using 1:2 with linespoints pointtype 7 "), 1);
     data.plot.axes = (ps_plot_axes){0}; /* a line goes down to 0 */
     assert_int_equal(test_script_count(&data.plot, mark), 0);
     data.plot.on_sphere = true; /* the lower panel has no 0 */
-    assert_int_equal(test_script_count(&data.plot, "NaN) with linespoints pointtype 7 "), 1);
+    assert_int_equal(
+        test_script_count(&data.plot, "$data1_0 using 1:2 with linespoints pointtype 7 "), 1);
     data.plot = (ps_figure){.form = PS_FIGURE_FRAME,
                             .title = "",
                             .is_log_y = true,
@@ -250,18 +253,17 @@ static void labels_of_powers(void **state) {
     make_example(&data, 1);
     data.plot.axes = (ps_plot_axes){0};
     data.plot.y_label = "sums";
-    assert_int_equal(test_script_count(&data.plot, "set ylabel 'sums' "), 1);
+    assert_int_equal(test_script_count(&data.plot, "set ylabel \"sums\" "), 1);
     data.plot.on_sphere = true;
-    assert_int_equal(test_script_count(&data.plot, "set ylabel 'sums' "), 2);
+    assert_int_equal(test_script_count(&data.plot, "set ylabel \"sums\" "), 2);
 }
 
 /* It stands over what is no panel of points, and loses its middle where it is too long. */
 static void titles_have_their_place(void **state) {
     (void)state;
     static const double x[] = {0.5};
-    static const ps_point_frame frame = {PS_FRAME_SQUARE, 0, 1, "x", "y", false};
     const ps_series series = {.num = 1, .x = x, .y = x};
-    const ps_panel points = {"the first set", 1, &series};
+    const ps_panel points = {"the first set", 1, &series, {PS_FRAME_SQUARE, 0, 1, "x", "y", false}};
     char title[202];
     example data;
     make_example(&data, 1);
@@ -270,7 +272,6 @@ static void titles_have_their_place(void **state) {
     memcpy(title + 196, " end", 5);
     assert_int_equal(test_script_count(&data.plot, "set label 1 \"title\" at screen 0.5,"), 1);
     data.plot.points = &points;
-    data.plot.frames = &frame;
     assert_int_equal(test_script_count(&data.plot, "set label 1 \"title\" at screen 0.697,"), 1);
     data.plot.title = title; /* 90 letters have room */
     assert_int_equal(test_script_count(&data.plot, "aaaaaaaa…aaaaaaaa"), 1);
@@ -303,21 +304,17 @@ static void lines_that_coincide(void **state) {
     double other[NUM];
     example data;
     make_example(&data, 3);
-    data.plot.is_log_y = true;
-    assert_true(ps_script_line_width(&data.plot, &data.panel, 0) >
-                1 + ps_script_line_width(&data.plot, &data.panel, 1));
-    assert_true(ps_script_line_width(&data.plot, &data.panel, 1) >
-                1 + ps_script_line_width(&data.plot, &data.panel, 2));
+    const ps_script_panel panel = {.panel = data.panel, .y.is_log = true};
+    assert_true(ps_script_line_width(&panel, 0) > 1 + ps_script_line_width(&panel, 1));
+    assert_true(ps_script_line_width(&panel, 1) > 1 + ps_script_line_width(&panel, 2));
     for (size_t i = 0; i < NUM; i++) {
         other[i] = powers[i] * (i == 0 ? 1 : 1.1); /* near at one place */
     }
     data.curves[0].y = other;
-    assert_true(ps_script_line_width(&data.plot, &data.panel, 0) ==
-                ps_script_line_width(&data.plot, &data.panel, 2));
+    assert_true(ps_script_line_width(&panel, 0) == ps_script_line_width(&panel, 2));
     data.curves[1].look = PS_LOOK_MARKS;
-    assert_true(ps_script_line_width(&data.plot, &data.panel, 1) ==
-                ps_script_line_width(&data.plot, &data.panel, 2));
-    assert_int_equal(test_script_count(&data.plot, "\nset pointintervalbox 0.01\n"), 1);
+    assert_true(ps_script_line_width(&panel, 1) == ps_script_line_width(&panel, 2));
+    assert_int_equal(test_script_count(&data.plot, "\nset pointintervalbox 0.01\n"), 2);
 }
 
 /* White noise is the middle of the colours, wherever the scale ends. */
@@ -349,19 +346,18 @@ static void points_beside_spectra(void **state) {
     static const double x[] = {0, 0.25, 0.5};
     static const ps_frame_form forms[] = {PS_FRAME_SQUARE, PS_FRAME_LINE, PS_FRAME_DISC};
     const ps_series series = {.num = 3, .x = x, .y = x};
-    const ps_panel points = {"the first set", 1, &series};
+    ps_panel points = {"the first set", 1, &series, {0}};
     example data;
     make_example(&data, 1);
     data.plot.points = &points;
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
-        const ps_point_frame frame = {forms[i], 0, 1, "x", "y", false};
-        data.plot.frames = &frame;
-        assert_int_equal(test_script_count(&data.plot, "$points_0 << EOD\n 0 0\n"),
+        points.frame = (ps_frame){forms[i], 0, 1, "x", "y", false};
+        assert_int_equal(test_script_count(&data.plot, "$data2_0 << EOD\n 0 0\n"),
                          1); /* 0 is no gap */
-        assert_int_equal(test_script_count(&data.plot, ", $points_0 using "), 1);
+        assert_int_equal(test_script_count(&data.plot, ", $data2_0 using "), 1);
         assert_int_equal(test_script_count(&data.plot, "set terminal svg enhanced size 1650,725 "),
                          1);
-        assert_int_equal(test_script_count(&data.plot, "\nunset label\nset border 31 "), 1);
+        assert_int_equal(test_script_count(&data.plot, "\nreset\nset pointintervalbox "), 3);
     }
 }
 

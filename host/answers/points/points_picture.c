@@ -124,18 +124,18 @@ static void write_title(ps_text *title, const ps_drawn_set *set, bool is_one, co
     }
 }
 
-static ps_point_frame make_frame(const ps_drawn_set *set, const view *how, double reach) {
+static ps_frame make_frame(const ps_drawn_set *set, const view *how, double reach) {
     static const char *const names[PS_MAX_DIMENSION] = {"x_1", "x_2", "x_3", "x_4", "x_5", "x_6"};
     const bool is_numbered = set->where == PS_SAMPLES_TORUS && set->dimension > 2;
     const bool is_disc = how->side != 0 && reach >= 1;
-    return (ps_point_frame){.form = is_disc                     ? PS_FRAME_DISC
-                                    : how->first == how->second ? PS_FRAME_LINE
-                                                                : PS_FRAME_SQUARE,
-                            .first = how->side != 0 ? -reach : 0,
-                            .last = reach,
-                            .x_label = is_numbered ? names[how->first] : "x",
-                            .y_label = is_numbered ? names[how->second] : "y",
-                            .is_mirrored = how->side < 0};
+    return (ps_frame){.form = is_disc                     ? PS_FRAME_DISC
+                              : how->first == how->second ? PS_FRAME_LINE
+                                                          : PS_FRAME_SQUARE,
+                      .first = how->side != 0 ? -reach : 0,
+                      .last = reach,
+                      .x_label = is_numbered ? names[how->first] : "x",
+                      .y_label = is_numbered ? names[how->second] : "y",
+                      .is_mirrored = how->side < 0};
 }
 
 static pspec_status fill(ps_series *out, ps_pool *memory, const survey *self, size_t v,
@@ -163,11 +163,11 @@ static pspec_status add_panel(ps_points_picture *self, const survey *how, size_t
     const double reach = ldexp(1, -how->part);
     ps_text title = {0};
     ps_series *series = NULL;
-    ps_panel *const panel = &self->panels[self->num];
+    ps_panel *const panel = &self->panels[self->num++];
     PS_TRY(PS_POOL_NEW(self->memory, &series, 1, "a picture", error));
-    self->frames[self->num++] = make_frame(how->set, &how->views[v], reach);
     write_title(&title, how->set, self->num_sets == 1, &how->views[v], reach);
-    *panel = (ps_panel){.num_series = 1, .series = series};
+    *panel = (ps_panel){
+        .num_series = 1, .series = series, .frame = make_frame(how->set, &how->views[v], reach)};
     PS_TRY(ps_text_keep(&panel->title, self->memory, &title, error));
     return fill(series, self->memory, how, v, watch, error);
 }
@@ -175,8 +175,7 @@ static pspec_status add_panel(ps_points_picture *self, const survey *how, size_t
 /* Room for all panels that there may be. */
 static pspec_status begin(ps_points_picture *self, ps_error *error) {
     const size_t most = self->num_sets * (self->num_sets > 1 ? 2 : MOST_VIEWS);
-    PS_TRY(PS_POOL_NEW(self->memory, &self->panels, most, "a picture", error));
-    return PS_POOL_NEW(self->memory, &self->frames, most, "a picture", error);
+    return PS_POOL_NEW(self->memory, &self->panels, most, "a picture", error);
 }
 
 pspec_status ps_points_picture_add(ps_points_picture *self, const ps_drawn_set *set,
@@ -200,10 +199,10 @@ pspec_status ps_points_picture_add(ps_points_picture *self, const ps_drawn_set *
 /* Nearly a square of panels, but three side by side; sides of a sphere stay together; lines are one
  * below the other. */
 static size_t find_columns(const ps_points_picture *self) {
-    const bool has_sides = self->num > 1 && self->frames[1].is_mirrored;
+    const bool has_sides = self->num > 1 && self->panels[1].frame.is_mirrored;
     const size_t few = 3;
     size_t columns = 1;
-    if (self->frames[0].form == PS_FRAME_LINE) {
+    if (self->panels[0].frame.form == PS_FRAME_LINE) {
         return 1;
     }
     while (columns * columns < self->num && columns < PS_MOST_POINT_COLUMNS) {
@@ -220,7 +219,6 @@ ps_figure ps_points_picture_figure(const ps_points_picture *self, const char *ti
                        .title = title,
                        .num_panels = self->num,
                        .panels = self->panels,
-                       .frames = self->frames,
                        .num_columns = find_columns(self)};
 }
 

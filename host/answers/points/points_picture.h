@@ -26,7 +26,6 @@ typedef struct ps_points_picture {
     size_t num_points; /* of the set that came last */
     size_t num;
     ps_panel *panels; /* of the figure */
-    ps_point_frame *frames;
 } ps_points_picture;
 
 /* Adds the panels of a set, and keeps nothing of it. In the plane one; of more dimensions every

@@ -21,7 +21,6 @@ typedef struct picture {
     double *row;        /* these numbers */
     const char *labels[MOST_LINES];
     ps_panel *panels;
-    ps_panel_axes *axes;
     ps_series *series; /* [NUM_PANELS][MOST_SERIES] */
     ps_pool *memory;
     ps_error *error;
@@ -148,9 +147,10 @@ static pspec_status write_axes(const picture *self) {
     for (unsigned i = 1; i < asked->num_shown; i++) {
         ps_text_append(&axis, ", k_%u = %d", i + 1, (int)asked->shown[i]);
     }
-    PS_TRY(ps_text_keep(&self->axes[REAL].x_label, self->memory, &axis, self->error));
-    self->axes[IMAGINARY].x_label = self->axes[REAL].x_label;
-    self->axes[PLANE] = (ps_panel_axes){"real part", "imaginary part", true};
+    PS_TRY(ps_text_keep(&self->panels[REAL].frame.x_label, self->memory, &axis, self->error));
+    self->panels[IMAGINARY].frame = self->panels[REAL].frame;
+    self->panels[PLANE].frame =
+        (ps_frame){.form = PS_FRAME_PLANE, .x_label = "real part", .y_label = "imaginary part"};
     return PSPEC_OK;
 }
 
@@ -176,7 +176,6 @@ static pspec_status write_words(picture *self) {
 static pspec_status fill(picture *self) {
     PS_TRY(take_numbers(self, &self->row, self->num_row));
     PS_TRY(PS_POOL_NEW(self->memory, &self->panels, NUM_PANELS, "a picture", self->error));
-    PS_TRY(PS_POOL_NEW(self->memory, &self->axes, NUM_PANELS, "a picture", self->error));
     PS_TRY(PS_POOL_NEW(self->memory, &self->series, NUM_PANELS * MOST_SERIES, "a picture",
                        self->error));
     for (size_t panel = 0; panel < NUM_PANELS; panel++) {
@@ -211,7 +210,6 @@ pspec_status ps_scatter_figure(ps_figure *out, ps_pool *memory, const ps_chart *
                        .x_label = "",
                        .y_label = "",
                        .num_panels = NUM_PANELS,
-                       .panels = self.panels,
-                       .panel_axes = self.axes};
+                       .panels = self.panels};
     return PSPEC_OK;
 }

@@ -33,7 +33,7 @@ static pspec_status scale_sums(ps_figure *out, ps_pool *memory, const ps_table *
         series[i] = out->panels->series[i];
         PS_TRY(scale(&series[i], memory, white[i], points, error));
     }
-    *panel = (ps_panel){NULL, num, series};
+    *panel = (ps_panel){.num_series = num, .series = series};
     out->panels = panel;
     return PSPEC_OK;
 }
@@ -81,7 +81,6 @@ static pspec_status add_points(ps_figure *out, ps_pool *memory, const ps_npy_arr
                                 (unsigned)set->shape[1], set->shape[0], set->data};
     PS_TRY(ps_points_picture_add(&picture, &drawn, &(ps_watch){0}, error));
     out->points = picture.panels;
-    out->frames = picture.frames;
     return PSPEC_OK;
 }
 

@@ -158,21 +158,12 @@ static pspec_status name_series(const picture *self, ps_series *series, ps_text 
     return ps_text_keep(&series->label, self->memory, text, self->error);
 }
 
-/* Is a line or a mark of it drawn? No line goes through a single place among others. */
-static bool is_drawn(const ps_series *series) {
-    size_t num = 0;
-    for (size_t i = 0; i < series->num; i++) {
-        num += isfinite(series->y[i]) && series->y[i] > series->floor ? 1 : 0;
-    }
-    return num > 1 || (num == 1 && (series->num == 1 || series->look == PS_LOOK_MARKS));
-}
-
 /* Where there is one sampler the key has its bounds, too; none where no bound was asked for, or
  * there is no such. */
 static pspec_status add_bound(picture *self, const curve *own, column which) {
     ps_series *const line = add_series(self, own, which, PS_LOOK_BOUND);
     ps_text label = {0};
-    if (!is_drawn(line)) {
+    if (!ps_series_is_drawn(line)) {
         self->num_series--;
         return PSPEC_OK;
     }
@@ -222,8 +213,9 @@ static pspec_status add_panel(picture *self, size_t panel) {
     ps_text_append(&label, "white noise");
     PS_TRY(name_series(self, add_series(self, first, WHITE, PS_LOOK_REFERENCE), &label,
                        PS_UNCERTAIN_NONE));
-    self->panels[panel] =
-        (ps_panel){first->integrand, self->num_series - begin, self->series + begin};
+    self->panels[panel] = (ps_panel){.title = first->integrand,
+                                     .num_series = self->num_series - begin,
+                                     .series = self->series + begin};
     return PSPEC_OK;
 }
 
@@ -235,7 +227,7 @@ static const char *find_form(const picture *self, ps_look look, const char *of_o
     const char *form = "";
     for (size_t i = 0; i < self->num_series; i++) {
         const ps_series *const series = &self->series[i];
-        if (series->look == look && is_drawn(series) && form != of_several) {
+        if (series->look == look && ps_series_is_drawn(series) && form != of_several) {
             form = series->num > 1 ? of_several : of_one;
         }
     }

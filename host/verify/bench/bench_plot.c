@@ -73,6 +73,7 @@ static void fill_series(panel *out, const ps_bench_row **sorted, size_t num) {
         snprintf(out->labels[at], sizeof out->labels[at], "%s, %s", row->engine->name,
                  ps_precision_name(row->precision));
         out->series[at].kind = kind;
+        out->series[at].look = PS_LOOK_SIGNS;
         out->series[at].label = out->labels[at];
         add_place(&out->series[at], out->numbers + at * 2 * num, num, row);
         if (row->is_pareto) {
@@ -103,9 +104,10 @@ static pspec_status make_panel(ps_panel *plot, ps_pool *memory, const ps_bench_r
         sorted[i] = &rows[i];
     }
     qsort(sorted, num, sizeof *sorted, compare_seconds);
-    out->series[0] = (ps_series){.label = "Pareto front", .is_front = true};
+    out->series[0] = (ps_series){.label = "Pareto front", .look = PS_LOOK_FRONT};
     fill_series(out, sorted, num);
-    *plot = (ps_panel){rows[0].what->name, pack_series(out), out->series};
+    *plot = (ps_panel){
+        .title = rows[0].what->name, .num_series = pack_series(out), .series = out->series};
     return PSPEC_OK;
 }
 
@@ -139,7 +141,7 @@ static pspec_status make_figure(ps_figure *out, ps_pool *memory, const ps_bench_
         at += num_rows;
     }
     ps_text_append(&title, "run time against error, %s", device);
-    *out = (ps_figure){.form = PS_FIGURE_MARKS,
+    *out = (ps_figure){.form = PS_FIGURE_PANELS,
                        .x_label = "seconds per realization",
                        .y_label = "error",
                        .is_log_x = true,

@@ -54,8 +54,8 @@ static void the_plane_is_one_square_of_all_points(void **state) {
     assert_int_equal(figure.num_panels, 1);
     assert_int_equal(figure.num_columns, 1);
     assert_string_equal(figure.panels[0].title, "");
-    assert_int_equal(figure.frames[0].form, PS_FRAME_SQUARE);
-    assert_true(figure.frames[0].first == 0 && figure.frames[0].last == 1);
+    assert_int_equal(figure.panels[0].frame.form, PS_FRAME_SQUARE);
+    assert_true(figure.panels[0].frame.first == 0 && figure.panels[0].frame.last == 1);
     assert_int_equal(series->num, 64);
     for (size_t i = 0; i < series->num; i++) {
         assert_true(series->x[i] == set.points[2 * i] && series->y[i] == set.points[2 * i + 1]);
@@ -87,8 +87,8 @@ static void the_sphere_has_two_sides(void **state) {
     }
     for (size_t side = 0; side < 2; side++) {
         assert_int_equal(figure.panels[side].series->num, places[side]);
-        assert_int_equal(figure.frames[side].form, PS_FRAME_DISC);
-        assert_int_equal(figure.frames[side].is_mirrored, side == 1);
+        assert_int_equal(figure.panels[side].frame.form, PS_FRAME_DISC);
+        assert_int_equal(figure.panels[side].frame.is_mirrored, side == 1);
     }
     ps_pool_free(&memory);
     free_set(&set);
@@ -115,7 +115,7 @@ static void the_hemisphere_has_one_side(void **state) {
     add(&picture, &set);
     const ps_figure figure = make_figure(&picture);
     assert_int_equal(figure.num_panels, 1);
-    assert_int_equal(figure.frames[0].form, PS_FRAME_DISC);
+    assert_int_equal(figure.panels[0].frame.form, PS_FRAME_DISC);
     assert_int_equal(figure.panels[0].series->num, 100);
     ps_pool_free(&memory);
     free_set(&set);
@@ -139,8 +139,8 @@ static void every_pair_of_coordinates_has_a_panel(void **state) {
                 assert_true(series->y[7] == set.points[7 * d + j]);
             }
         }
-        assert_int_equal(figure.frames[0].form, d == 1 ? PS_FRAME_LINE : PS_FRAME_SQUARE);
-        assert_string_equal(figure.frames[0].x_label, d > 2 ? "x_1" : "x");
+        assert_int_equal(figure.panels[0].frame.form, d == 1 ? PS_FRAME_LINE : PS_FRAME_SQUARE);
+        assert_string_equal(figure.panels[0].frame.x_label, d > 2 ? "x_1" : "x");
         assert_true(figure.num_columns <= PS_MOST_POINT_COLUMNS);
         ps_pool_free(&memory);
         free_set(&set);
@@ -163,7 +163,7 @@ static void several_sets_are_panels_with_names(void **state) {
     const ps_figure figure = make_figure(&picture);
     assert_int_equal(figure.num_panels, 5);
     assert_string_equal(figure.panels[1].title, "sobol, N = 100");
-    assert_string_equal(figure.frames[1].y_label, "x_2");
+    assert_string_equal(figure.panels[1].frame.y_label, "x_2");
     assert_string_equal(figure.panels[4].title, "white-sphere, N = 100, z < 0, from below");
     ps_pool_free(&memory);
 }
@@ -187,7 +187,7 @@ static void of_too_many_points_a_part_is_shown(void **state) {
         ps_points_picture picture = {.num_sets = 1, .memory = &memory};
         add(&picture, &set);
         const ps_panel *const panel = &picture.panels[0];
-        const ps_point_frame *const frame = &picture.frames[0];
+        const ps_frame *const frame = &picture.panels[0].frame;
         assert_string_equal(panel->title, cases[i].title);
         assert_true(frame->last == cases[i].reach);
         assert_true(frame->form != PS_FRAME_DISC);
@@ -218,7 +218,7 @@ static void a_clump_is_not_lost(void **state) {
     ps_points_picture picture = {.num_sets = 1, .memory = &memory};
     add(&picture, &set);
     assert_int_equal(picture.panels[0].series->num, NUM);
-    assert_true(picture.frames[0].last == 0.5);
+    assert_true(picture.panels[0].frame.last == 0.5);
     ps_pool_free(&memory);
     free(points);
 }
@@ -237,7 +237,7 @@ static void marks_follow_the_number_of_points(void **state) {
         add(&picture, &set);
         const ps_figure figure = make_figure(&picture);
         const double expected = fmin(cases[i].size, 8.6);
-        assert_true(fabs(ps_script_mark_size(&figure, 0) - expected) < 1e-2 * expected);
+        assert_true(fabs(ps_script_mark_size(&figure.panels[0], 860) - expected) < 1e-2 * expected);
         ps_pool_free(&memory);
         free_set(&set);
     }
