@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/watch.h"
+#include "jobs/variance/rates.h"
 #include "plots/plot.h"
 #include "request/request.h"
 #include "tables/table.h"
@@ -49,7 +50,17 @@ typedef enum ps_picture_need {
     PS_NEEDS_PICTURES
 } ps_picture_need;
 
-enum { PS_MOST_LINES = 3 };
+/* A line of every curve: a column, or a header entry, against those of x. */
+typedef struct ps_picture_line {
+    const char *y;                  /* NULL ends a list of them */
+    const char *error, *low, *high; /* columns beside it; NULL: none */
+    ps_look look;                   /* unless panels or spectra have looks of their own */
+    const char *formula;            /* in the key; NULL: none */
+    const char *name;               /* in the key; NULL: that of the curve; "": none */
+    bool is_of_all;                 /* the same for all curves of a panel: once, and last */
+} ps_picture_line;
+
+enum { PS_MOST_LINES = 5 };
 
 /* One of the pictures of a kind. A command draws the last of its own whose need is met. */
 struct ps_picture_kind {
@@ -58,14 +69,15 @@ struct ps_picture_kind {
     ps_dealing dealing;
     unsigned by;
     ps_picture_need needs;
-    bool has_panels; /* of its own, and labels that tell its curves apart */
-    /* Columns, or of PS_OF_COUNTS header entries, against each other */
-    const char *x, *y[PS_MOST_LINES];
-    const char *formulas[PS_MOST_LINES]; /* in the key, of y; NULL: none */
+    const char *panels; /* the column that tells panels of its own apart; NULL: it has none */
+    const char *x;
+    ps_picture_line lines[PS_MOST_LINES + 1];
     const char *x_label, *y_label;
+    bool is_of_entries;      /* x and y are header entries of a question, not columns */
     bool is_log_x, is_log_y; /* of spectra: where they are in panels */
-    bool is_spectrum;        /* y is a power */
-    const char *error;       /* the column of errors of a spectrum */
+    bool is_spectrum; /* y is a power, and stands beside its anisotropy and what was fitted */
+    /* What the header has of the slope of a curve; NULL: nothing */
+    ps_uncertain (*find_slope)(const ps_table *table, const char *sampler, const char *panel);
     /* Of a command; NULL: samplers or lobe, numbers of points, realizations */
     void (*write_title)(ps_text *out, const ps_request *request, const ps_table *table);
 };
@@ -74,15 +86,13 @@ struct ps_picture_kind {
 #define PS_PICTURE_OF_DEGREES(file, words, column, degrees, numbers)                               \
     {                                                                                              \
         .suffix = (file), .what = (words), .make = ps_lines_figure, .by = PS_BY_SCENE,             \
-        .x = "degree", .y = {(column)}, .x_label = (degrees), .y_label = (numbers),                \
+        .x = "degree", .lines = {{.y = (column)}}, .x_label = (degrees), .y_label = (numbers),     \
         .is_log_y = true                                                                           \
     }
 
-/* A line for each question, and for each y; spectra as PS_FIGURE_SPECTRA has them where there is
- * one panel. */
+/* A curve for each question, of PS_OF_COUNTS for those that differ in the number of points alone,
+ * and its lines; spectra as PS_FIGURE_SPECTRA has them where there is one panel. */
 ps_make_figure ps_lines_figure;
-/* Header entries of the questions that differ in the number of points alone: a line each. */
-ps_make_figure ps_counts_figure;
 
 /* The entry `key` behind the header entry number `number`, from 0 on, that is called `first`, and
  * before the next such; where there is none of these, of all. Missing: there is no such entry. */

@@ -261,7 +261,7 @@ static const ps_picture_kind pictures[] = {{.suffix = "-scores",
                                             .make = ps_lines_figure,
                                             .by = PS_BY_SCENE,
                                             .x = "bin",
-                                            .y = {"z_score"},
+                                            .lines = {{.y = "z_score"}},
                                             .x_label = "ring",
                                             .y_label = "in standard errors"},
                                            {.make = NULL}};

@@ -87,17 +87,17 @@ static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_error *error
     return ps_spectra_merge(out, parts, &table_kind, error);
 }
 
-static const ps_picture_kind pictures[] = {{.make = ps_spectra_figure,
-                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
-                                            .x = "normalized_degree",
-                                            .y = {"power"},
-                                            .x_label = "normalized degree l N^{-1/2}",
-                                            .y_label = "power",
-                                            .is_log_x = true,
-                                            .is_log_y = true,
-                                            .is_spectrum = true,
-                                            .error = "standard_error"},
-                                           {.make = NULL}};
+static const ps_picture_kind pictures[] = {
+    {.make = ps_spectra_figure,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .x = "normalized_degree",
+     .lines = {{.y = "power", .error = "standard_error", .low = "lower", .high = "upper"}},
+     .x_label = "normalized degree l N^{-1/2}",
+     .y_label = "power",
+     .is_log_x = true,
+     .is_log_y = true,
+     .is_spectrum = true},
+    {.make = NULL}};
 
 static const ps_field_row *const fields[] = {ps_fields_asked,
                                              ps_fields_points,

@@ -132,7 +132,7 @@ static const ps_picture_kind pictures[] = {
      .make = ps_lines_figure,
      .by = PS_BY_SCENE | PS_BY_COMMAND,
      .x = "degree",
-     .y = {"error"},
+     .lines = {{.y = "error"}},
      .x_label = "largest degree L",
      .y_label = "worst-case error E(L)",
      .is_log_y = true},

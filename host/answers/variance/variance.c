@@ -117,12 +117,23 @@ static const char *const summary[] = {"points", "points_smallest", "points_large
                                       "shifts", "most_power",      "most_power_is",  NULL};
 static const char *const sentences[] = {"rates", "crossing", "ranking", NULL};
 /* A question is a row for each integrand. */
-static const ps_picture_kind pictures[] = {{.make = ps_variance_figure,
-                                            .dealing = PS_OF_COUNTS,
-                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
-                                            .has_panels = true,
-                                            .write_title = ps_variance_write_title},
-                                           {.make = NULL}};
+static const ps_picture_kind pictures[] = {
+    {.make = ps_variance_figure,
+     .dealing = PS_OF_COUNTS,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .panels = "integrand",
+     .x = "points",
+     .lines = {{.y = "predicted", .low = "lower", .high = "upper", .look = PS_LOOK_CURVE},
+               {.y = "measured", .error = "measured_error", .look = PS_LOOK_MARKS, .name = ""},
+               {.y = "best_bound", .look = PS_LOOK_BOUND, .name = "best bound"},
+               {.y = "worst_bound", .look = PS_LOOK_BOUND, .name = "worst bound"},
+               {.y = "white", .look = PS_LOOK_REFERENCE, .name = "white noise", .is_of_all = true}},
+     .x_label = "points N",
+     .is_log_x = true,
+     .is_log_y = true,
+     .find_slope = ps_variance_find_slope,
+     .write_title = ps_variance_write_title},
+    {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
     {"trials", "", PS_ENTRY, 0, "", "what a trial is, where there are any"},

@@ -30,6 +30,9 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
  * sampler has a colour. Predictions are lines on a band from lower to upper, measurements are marks
  * with bars of their errors, and white noise is a line of dashes. */
 ps_make_figure ps_variance_figure;
+/* The exponent that the header has of the curve; nan: it was not asked for. */
+ps_uncertain ps_variance_find_slope(const ps_table *table, const char *sampler,
+                                    const char *integrand);
 void ps_variance_write_title(ps_text *out, const ps_request *request, const ps_table *table);
 
 /* The number of sets of all samplers, or nan; with a text, which may be NULL, that of each. */

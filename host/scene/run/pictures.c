@@ -249,7 +249,7 @@ static pspec_status list_sets(ps_pictures *out, const ps_scene_result *asked,
 static pspec_status list_counts(ps_pictures *out, const ps_scene_result *asked,
                                 const ps_picture_kind *kind, ps_error *error) {
     layout how = find_layout(asked, find_points(asked), false);
-    if (kind->has_panels) {
+    if (kind->panels != NULL) {
         how.panel = asked->num_entries;
         how.chunk = 0;
     }

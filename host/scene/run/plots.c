@@ -212,7 +212,8 @@ static bool is_there(const artist *self, const ps_picture *what) {
     ps_plot_image image;
     return (!kind->is_spectrum || ps_table_find_column(table, kind->x, &column)) &&
            (kind->needs != PS_NEEDS_PICTURES || ps_spectra_find_image(&image, table)) &&
-           (kind->make != ps_lines_figure || ps_table_num_rows(table) >= FEWEST_ROWS);
+           (kind->make != ps_lines_figure || kind->is_of_entries ||
+            ps_table_num_rows(table) >= FEWEST_ROWS);
 }
 
 static pspec_status draw(const artist *self, const ps_picture *what) {

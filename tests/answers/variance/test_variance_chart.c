@@ -1,5 +1,6 @@
 /* The picture of variances: which rows become which series, of several tables
  * and of one. */
+#include "answers/kind.h"
 #include "answers/variance/variance_table.h"
 
 #include <math.h>
@@ -71,7 +72,11 @@ static void assert_white(const ps_series *line, size_t num) {
 typedef void look_at(const ps_figure *figure);
 
 static void draw(const ps_chart_part *parts, size_t num, look_at *look) {
-    const ps_chart chart = {.title = "title", .num_parts = num, .parts = parts};
+    const ps_chart chart = {.what = ps_kind_variance.pictures,
+                            .title = "title",
+                            .num_parts = num,
+                            .parts = parts,
+                            .num_panels = 1};
     ps_pool memory = {0};
     ps_figure figure;
     ps_error error = {0};
