@@ -119,40 +119,34 @@ static void fill(ps_picture *picture, const ps_scene_result *asked, const layout
 
 /* ---- the list -------------------------------------------------------------------------------- */
 
-static pspec_status allocate_curves(ps_picture *picture, size_t num, ps_error *error) {
-    PS_TRY(PS_NEW(&picture->curves, 2 * num, "a picture", error));
-    picture->ends = picture->curves + num;
-    return PSPEC_OK;
+/* Room for so many curves, which may have a panel each. */
+static pspec_status allocate_curves(ps_pictures *list, ps_picture *picture, size_t num,
+                                    ps_error *error) {
+    PS_TRY(PS_POOL_NEW(&list->memory, &picture->curves, num, "a picture", error));
+    return PS_POOL_NEW(&list->memory, &picture->ends, num, "a picture", error);
 }
 
-static pspec_status add(ps_pictures *list, const ps_picture *one, size_t num_curves,
-                        ps_error *error) {
+static pspec_status add(ps_pictures *list, const ps_picture *one, ps_error *error) {
     void *memory = list->all;
     PS_TRY(ps_grow(&memory, &list->capacity, list->num + 1, sizeof *list->all, "pictures", error));
     list->all = memory;
-    ps_picture *const picture = &list->all[list->num];
-    *picture = *one;
-    PS_TRY(allocate_curves(picture, num_curves, error));
-    list->num++;
+    list->all[list->num++] = *one;
     return PSPEC_OK;
 }
 
-/* Panels first .. first + num - 1 of a picture as one of its own. */
-static pspec_status add_page(ps_pictures *list, const ps_picture *whole, size_t first, size_t num,
-                             ps_error *error) {
-    const size_t begin = first > 0 ? whole->ends[first - 1] : 0;
-    const size_t num_curves = whole->ends[first + num - 1] - begin;
-    PS_TRY(add(list, whole, num_curves, error));
-    ps_picture *const picture = &list->all[list->num - 1];
-    picture->num_curves = num_curves;
-    picture->num_panels = num;
-    for (size_t i = 0; i < num_curves; i++) {
-        picture->curves[i] = whole->curves[begin + i];
+/* Panels first .. end - 1 of a picture as one of its own; those before them are one already, and
+ * begin is where their curves end. */
+static pspec_status add_page(ps_pictures *list, const ps_picture *whole, size_t begin, size_t first,
+                             size_t end, ps_error *error) {
+    ps_picture one = *whole;
+    one.curves += begin;
+    one.ends += first;
+    one.num_panels = end - first;
+    for (size_t i = 0; i < one.num_panels; i++) {
+        one.ends[i] -= begin;
     }
-    for (size_t i = 0; i < num; i++) {
-        picture->ends[i] = whole->ends[first + i] - begin;
-    }
-    return PSPEC_OK;
+    one.num_curves = one.ends[one.num_panels - 1];
+    return add(list, &one, error);
 }
 
 /* Pages of panels, as few as there can be, of nearly the same number. */
@@ -161,6 +155,7 @@ static pspec_status add_pages(ps_pictures *list, ps_picture *whole, bool is_chun
     const size_t most = is_chunked ? MOST_PANELS_OF_OTHERS : MOST_PANELS;
     const size_t num_pages = (whole->num_panels + most - 1) / most;
     char suffix[PS_SUFFIX_BYTES];
+    size_t begin = 0;
     snprintf(suffix, sizeof suffix, "%s", whole->suffix);
     for (size_t page = 0; page < num_pages; page++) {
         const size_t first = page * whole->num_panels / num_pages;
@@ -168,7 +163,9 @@ static pspec_status add_pages(ps_pictures *list, ps_picture *whole, bool is_chun
         if (page > 0) {
             snprintf(whole->suffix, sizeof whole->suffix, "%.64s-page-%zu", suffix, page + 1);
         }
-        PS_TRY(add_page(list, whole, first, end - first, error));
+        const size_t next = whole->ends[end - 1];
+        PS_TRY(add_page(list, whole, begin, first, end, error));
+        begin = next;
     }
     return PSPEC_OK;
 }
@@ -187,11 +184,9 @@ static pspec_status add_group(ps_pictures *list, const ps_scene_result *asked, p
     } else {
         snprintf(one.suffix, sizeof one.suffix, "%s", stem);
     }
-    PS_TRY(allocate_curves(&one, how->num_curves, error));
+    PS_TRY(allocate_curves(list, &one, how->num_curves, error));
     fill(&one, asked, how, index);
-    const pspec_status status = add_pages(list, &one, how->chunk > 0, error);
-    free(one.curves);
-    return status;
+    return add_pages(list, &one, how->chunk > 0, error);
 }
 
 /* The entry whose values are numbers of points, if there are several. */
@@ -204,43 +199,27 @@ static size_t find_points(const ps_scene_result *asked) {
     return i;
 }
 
-/* A picture of the questions first .. end - 1, of whose panels nothing is to be said. */
-static pspec_status add_run(ps_pictures *list, const ps_scene_result *asked,
-                            const ps_picture_kind *kind, size_t first, size_t end,
-                            ps_error *error) {
+/* Questions in pictures of nearly the same number, of whose panels nothing is to be said. */
+static pspec_status list_runs(ps_pictures *out, const ps_scene_result *asked,
+                              const ps_picture_kind *kind, size_t num_pictures, ps_error *error) {
     const size_t none = asked->num_entries;
-    const ps_picture one = {
-        .kind = kind, .group = none, .points = none, .panel = none, .num_panels = 1};
-    PS_TRY(add(list, &one, end - first, error));
-    ps_picture *const picture = &list->all[list->num - 1];
-    for (size_t q = first; q < end; q++) {
-        picture->curves[picture->num_curves++] = q;
-    }
-    picture->ends[0] = picture->num_curves;
-    return PSPEC_OK;
-}
-
-/* A picture of every question. */
-static pspec_status list_singles(ps_pictures *out, const ps_scene_result *asked,
-                                 const ps_picture_kind *kind, ps_error *error) {
-    for (size_t q = 0; q < ps_scene_num_questions(asked); q++) {
-        PS_TRY(add_run(out, asked, kind, q, q + 1, error));
-        snprintf(out->all[out->num - 1].suffix, PS_SUFFIX_BYTES, "%s-%zu", kind->suffix, q + 1);
-    }
-    return PSPEC_OK;
-}
-
-/* Sets side by side; pages of them, as few as there can be. */
-static pspec_status list_sets(ps_pictures *out, const ps_scene_result *asked,
-                              const ps_picture_kind *kind, ps_error *error) {
     const size_t num = ps_scene_num_questions(asked);
-    const size_t num_pages = (num + MOST_PANELS - 1) / MOST_PANELS;
-    for (size_t page = 0; page < num_pages; page++) {
-        PS_TRY(
-            add_run(out, asked, kind, page * num / num_pages, (page + 1) * num / num_pages, error));
-        if (page > 0) {
-            snprintf(out->all[out->num - 1].suffix, PS_SUFFIX_BYTES, "-page-%zu", page + 1);
+    for (size_t i = 0; i < num_pictures; i++) {
+        ps_picture one = {
+            .kind = kind, .group = none, .points = none, .panel = none, .num_panels = 1};
+        const size_t begin = i * num / num_pictures;
+        const size_t end = (i + 1) * num / num_pictures;
+        PS_TRY(allocate_curves(out, &one, end - begin, error));
+        for (size_t q = begin; q < end; q++) {
+            one.curves[one.num_curves++] = q;
         }
+        one.ends[0] = one.num_curves;
+        if (kind->dealing == PS_OF_EACH) {
+            snprintf(one.suffix, PS_SUFFIX_BYTES, "%s-%zu", kind->suffix, i + 1);
+        } else if (i > 0) {
+            snprintf(one.suffix, PS_SUFFIX_BYTES, "-page-%zu", i + 1);
+        }
+        PS_TRY(add(out, &one, error));
     }
     return PSPEC_OK;
 }
@@ -282,6 +261,7 @@ static pspec_status list_curves(ps_pictures *out, const ps_scene_result *asked,
 
 pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
     const ps_picture_kind *before = NULL;
+    const size_t num = ps_scene_num_questions(asked);
     for (const ps_picture_kind *kind = asked->kind->pictures; kind->make != NULL; kind++) {
         if (!asked->wants_plot || !is_wanted(asked, kind)) {
             continue;
@@ -296,10 +276,10 @@ pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked, ps
             PS_TRY(list_counts(out, asked, kind, error));
             break;
         case PS_OF_EACH:
-            PS_TRY(list_singles(out, asked, kind, error));
+            PS_TRY(list_runs(out, asked, kind, num, error));
             break;
-        case PS_OF_SETS:
-            PS_TRY(list_sets(out, asked, kind, error));
+        case PS_OF_SETS: /* side by side; pages of them, as few as there can be */
+            PS_TRY(list_runs(out, asked, kind, (num + MOST_PANELS - 1) / MOST_PANELS, error));
             break;
         }
     }
@@ -315,9 +295,7 @@ void ps_picture_say_panels(const ps_picture *picture, const ps_scene_result *ask
 }
 
 void ps_pictures_free(ps_pictures *pictures) {
-    for (size_t i = 0; i < pictures->num; i++) {
-        free(pictures->all[i].curves);
-    }
+    ps_pool_free(&pictures->memory);
     free(pictures->all);
     *pictures = (ps_pictures){0};
 }

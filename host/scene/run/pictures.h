@@ -3,6 +3,7 @@
 #ifndef PS_SCENE_RUN_PICTURES_H
 #define PS_SCENE_RUN_PICTURES_H
 
+#include "base/memory.h"
 #include "scene/scene.h"
 
 /* More curves than this in one frame cannot be told apart. */
@@ -27,6 +28,7 @@ typedef struct ps_picture {
 typedef struct ps_pictures {
     size_t num, capacity;
     ps_picture *all;
+    ps_pool memory; /* of their curves and panels */
 } ps_pictures;
 
 /* Those that the answers may lead to: of some there turns out to be nothing to draw. Freed by
