@@ -2,16 +2,103 @@
 #include "commands/points.h"
 
 #include "answers/output_check.h"
+#include "answers/picture.h"
 #include "answers/points/points.h"
+#include "answers/points/points_picture.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
-#include "commands/points_drawing.h"
 #include "commands/convert.h"
 #include "plan/specs.h"
 #include "request/point_source.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+static bool is_picture_all(const ps_request *request) {
+    return ps_picture_is_all(request, false);
+}
+
+/* Before the work: can the picture be drawn and written, is it no other file of the request? */
+static pspec_status check_picture(const ps_request *request, const ps_answer_hooks *hooks,
+                                  ps_error *error) {
+    if (request->plot == NULL) {
+        return PSPEC_OK;
+    }
+    if (request->num_files > PS_MAX_SAMPLERS && ps_request_only_draws(request) && !request->merge) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%zu files are more than %d, which a picture shows side by side",
+                       request->num_files, PS_MAX_SAMPLERS);
+    }
+    PS_TRY(ps_picture_check(request, is_picture_all(request), hooks, error));
+    return ps_outputs_check(request, false, error);
+}
+
+/* Adds a set of a file: points of the sphere none of which is below the equator are those of a
+ * hemisphere. */
+static pspec_status add_file(ps_points_picture *picture, const char *path, const ps_point_set *set,
+                             const ps_watch *watch, ps_error *error) {
+    bool is_above = set->coordinates == PS_UNIT_VECTORS;
+    for (size_t i = 0; is_above && i < set->num_points; i++) {
+        is_above = set->points[i * set->dimension + 2] >= 0;
+    }
+    const ps_drawn_set drawn = {path,
+                                is_above                              ? PS_SAMPLES_HEMISPHERE
+                                : set->coordinates == PS_UNIT_VECTORS ? PS_SAMPLES_SPHERE
+                                                                      : PS_SAMPLES_TORUS,
+                                set->dimension, set->num_points, set->points};
+    return ps_points_picture_add(picture, &drawn, watch, error);
+}
+
+/* The sampler, how many points, which realization: as pictures of spectra have them. */
+static void write_title(ps_text *title, const ps_points_picture *picture,
+                        const ps_request *request) {
+    const bool is_of_files = request->num_files > 0;
+    if (picture->num_sets > 1 && !is_of_files && request->num_sources == 1) {
+        ps_text_append(title, "%s", ps_request_source_name(request, 0));
+    } else if (picture->num_sets > 1) {
+        ps_text_append(title, "%zu %s", picture->num_sets,
+                       is_of_files                ? "files"
+                       : request->num_counts == 1 ? "samplers"
+                                                  : "sets");
+    } else if (is_of_files && request->merge && request->num_files > 1) {
+        ps_text_append(title, "%zu files, N = %zu", request->num_files, picture->num_points);
+    } else {
+        ps_text_append(title, "%s, N = %zu",
+                       is_of_files ? request->files[0] : ps_request_source_name(request, 0),
+                       picture->num_points);
+    }
+    if (is_of_files) {
+        return;
+    }
+    ps_text_append(title, ", seed %llu", (unsigned long long)request->seed);
+    if (request->num_realizations > 1) {
+        ps_text_append(title, ", the first of %llu realizations",
+                       (unsigned long long)request->num_realizations);
+    }
+}
+
+static pspec_status write_picture(const ps_points_picture *picture, const ps_request *request,
+                                  ps_error *error) {
+    ps_text title = {0};
+    write_title(&title, picture, request);
+    pspec_status status = ps_text_check(&title, error);
+    if (status == PSPEC_OK) {
+        const ps_figure figure = ps_points_picture_figure(picture, ps_text_string(&title));
+        status = ps_figure_write(request->plot, &figure, error);
+    }
+    ps_text_free(&title);
+    return status;
+}
+
+/* Draws what was added to the picture, after the points are written: a failure is then told, and no
+ * error. */
+static pspec_status draw(const ps_points_picture *picture, const ps_request *request,
+                         const ps_answer_hooks *hooks, ps_error *error) {
+    return ps_picture_settle(request, is_picture_all(request), hooks,
+                             write_picture(picture, request, error), error);
+}
 
 /* ---- sample ------------------------------------------------------------------------------ */
 
@@ -204,13 +291,13 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
     ps_points_picture picture = {.num_sets = num, .memory = &memory};
     pspec_status status = PSPEC_OK;
     PS_TRY(ps_points_check_words(request, ps_request_only_draws(request), error));
-    PS_TRY(ps_points_drawing_check(request, hooks, error));
+    PS_TRY(check_picture(request, hooks, error));
     PS_TRY(check_samplers(request, error));
     for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
         status = sample_one(request, i, request->plot != NULL ? &picture : NULL, hooks, error);
     }
     if (status == PSPEC_OK && request->plot != NULL) {
-        status = ps_points_draw(&picture, request, hooks, error);
+        status = draw(&picture, request, hooks, error);
     }
     ps_pool_free(&memory);
     return status;
@@ -254,7 +341,7 @@ static pspec_status convert_all(const ps_request *request, ps_points_picture *pi
         ps_point_set first = {0};
         status = convert_files(request, i, step, is_drawn ? &first : NULL, hooks, error);
         if (status == PSPEC_OK && is_drawn) {
-            status = ps_points_draw_file(picture, request->files[i], &first, &hooks->watch, error);
+            status = add_file(picture, request->files[i], &first, &hooks->watch, error);
         }
         ps_point_set_free(&first);
     }
@@ -272,11 +359,11 @@ pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks 
                        "nothing to convert: name point files (- for standard input)");
     }
     PS_TRY(ps_point_options_check(request, error));
-    PS_TRY(ps_points_drawing_check(request, hooks, error));
+    PS_TRY(check_picture(request, hooks, error));
     PS_TRY(ps_outputs_check(request, false, error));
     pspec_status status = convert_all(request, &picture, hooks, error);
     if (status == PSPEC_OK && request->plot != NULL) {
-        status = ps_points_draw(&picture, request, hooks, error);
+        status = draw(&picture, request, hooks, error);
     }
     ps_pool_free(&memory);
     return status;

@@ -52,12 +52,9 @@ static bool has(const ps_panel *curves, number which) {
 
 /* The largest power of a curve with its bar. */
 static double find_top(const ps_series *curve) {
-    double top = 0;
-    for (size_t bin = 0; bin < curve->num; bin++) {
-        const double power = take_number(curve, bin, BAR);
-        top = isfinite(power) ? fmax(top, power) : top;
-    }
-    return top;
+    ps_plot_span all = {0, 0};
+    widen_by(&all, &(ps_panel){.num_series = 1, .series = curve}, BAR);
+    return all.most;
 }
 
 /* That of all, but for curves that are louder than all others, which would flatten these: peaks of
@@ -321,12 +318,8 @@ static pspec_status place_anisotropies(const composer *self, ps_script_panel *up
 static pspec_status place_logarithms(const composer *self, ps_script_panel *out) {
     ps_series *series = NULL;
     PS_TRY(copy_curves(self, &out->panel, &series));
-    for (size_t i = 0; i < out->panel.num_series; i++) {
-        series[i].error = NULL;
-    }
     out->x = make_frequencies(self, true, false);
-    out->y = make_axis(find_powers(self->curves, true), true,
-                       self->figure->y_label != NULL ? self->figure->y_label : "");
+    out->y = make_axis(find_powers(self->curves, true), true, self->figure->y_label);
     return PSPEC_OK;
 }
 
