@@ -1,6 +1,7 @@
 #include "engines/engine.h"
 
 #include "base/memory.h"
+#include "device/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -134,4 +135,34 @@ void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uin
     for (size_t i = 0; i < num; i++) {
         slots[i] = (uint32_t)i;
     }
+}
+
+/* Brings a row to the host, where it is not there; *row is freed by the caller. */
+static pspec_status read_row(const ps_rows *rows, ps_device *device, void **row, ps_error *error) {
+    const size_t bytes = ps_real_bytes(rows->precision);
+    PS_TRY(ps_allocate(row, rows->stride, bytes, "a row of powers", error));
+    return ps_buffer_read(device, &rows->device, 0, *row, rows->stride * bytes, error);
+}
+
+pspec_status ps_engine_powers(const ps_engine *engine, void *state, const ps_batch *one, size_t num,
+                              ps_device *device, double *powers, ps_error *error) {
+    ps_rows rows = {0};
+    uint32_t *slots = NULL;
+    void *row = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(engine->run(state, one, &rows, error));
+    PS_TRY(ps_rows_wait(&rows, error));
+    PS_TRY_OUT(status, PS_NEW(&slots, num, "slots", error));
+    if (rows.host == NULL) {
+        PS_TRY_OUT(status, read_row(&rows, device, &row, error));
+    }
+    ps_engine_slots(engine, state, num, slots);
+    for (size_t i = 0; i < num; i++) {
+        powers[i] =
+            ps_real_at(rows.precision, rows.host != NULL ? (const void *)rows.host : row, slots[i]);
+    }
+out:
+    free(slots);
+    free(row);
+    return status;
 }

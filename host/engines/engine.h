@@ -238,6 +238,10 @@ void ps_engine_destroy(const ps_engine *engine, void *state); /* NULL allowed */
 size_t ps_engine_stride(const ps_engine *engine, const void *state, size_t num);
 void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots);
 
+/* Runs a batch of one pattern: powers[num] of its frequencies. */
+pspec_status ps_engine_powers(const ps_engine *engine, void *state, const ps_batch *one, size_t num,
+                              ps_device *device, double *powers, ps_error *error) PS_MUST_CHECK;
+
 /* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width
  * on CPUs; on GPUs, where it means work per work-item, GPU_LANES. */
 unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision);

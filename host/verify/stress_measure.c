@@ -26,29 +26,6 @@ typedef struct measurement {
 
 /* ---- running ------------------------------------------------------------------------------- */
 
-static pspec_status read_rows(measurement *self, const ps_rows *rows, const uint32_t *slots,
-                              ps_error *error) {
-    const size_t num = self->sample->frequencies.num;
-    const bool is_single = rows->precision == PS_SINGLE;
-    void *memory = NULL;
-    if (rows->host != NULL) {
-        for (size_t i = 0; i < num; i++) {
-            self->powers[i] = rows->host[slots[i]];
-        }
-        return PSPEC_OK;
-    }
-    const size_t element = is_single ? sizeof(float) : sizeof(double);
-    PS_TRY(ps_allocate(&memory, rows->stride, element, "a row of powers", error));
-    const pspec_status status =
-        ps_buffer_read(self->device, &rows->device, 0, memory, rows->stride * element, error);
-    for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
-        self->powers[i] = is_single ? (double)((const float *)memory)[slots[i]]
-                                    : ((const double *)memory)[slots[i]];
-    }
-    free(memory);
-    return status;
-}
-
 static pspec_status run_engine(measurement *self, ps_error *error) {
     const ps_stress_sample *sample = self->sample;
     const double scale = 1;
@@ -56,19 +33,11 @@ static pspec_status run_engine(measurement *self, ps_error *error) {
                             .patterns = &sample->pattern,
                             .scales = &scale,
                             .exponents = &sample->sums.exponent};
-    ps_rows rows = {0};
-    uint32_t *slots = NULL;
-    PS_TRY(self->engine->run(self->state, &batch, &rows, error));
-    PS_TRY(ps_rows_wait(&rows, error));
-    PS_TRY(PS_NEW(&slots, sample->frequencies.num, "slots", error));
-    ps_engine_slots(self->engine, self->state, sample->frequencies.num, slots);
-    const pspec_status status = read_rows(self, &rows, slots, error);
-    free(slots);
-    PS_TRY(status);
-    if (self->coefficients != NULL) {
-        PS_TRY(self->engine->coefficients(self->state, &batch, NULL, self->coefficients, error));
-    }
-    return PSPEC_OK;
+    PS_TRY(ps_engine_powers(self->engine, self->state, &batch, sample->frequencies.num,
+                            self->device, self->powers, error));
+    return self->coefficients != NULL
+               ? self->engine->coefficients(self->state, &batch, NULL, self->coefficients, error)
+               : PSPEC_OK;
 }
 
 static pspec_status prepare(measurement *self, ps_error *error) {

@@ -1,7 +1,6 @@
 #include "jobs/variance/prediction.h"
 
 #include "base/memory.h"
-#include "device/reals.h"
 #include "plan/choose.h"
 
 #include <math.h>
@@ -12,8 +11,6 @@ typedef struct work {
     const ps_point_way *way;
     const ps_engine *engine;
     void *state;
-    uint32_t *slots;
-    void *row;
 } work;
 
 /* The largest weight becomes 1, so that squares are numbers; 0: all of them are 0. */
@@ -50,26 +47,8 @@ static pspec_status start(work *self, const ps_frequencies *frequencies, ps_erro
     PS_TRY(make_plan(self, &problem, &plan, error));
     PS_TRY(ps_plan_require(&plan, &problem, error));
     self->engine = plan.chosen->engine;
-    PS_TRY(ps_engine_create(self->engine, &self->state, &problem, plan.chosen->precision, 1,
-                            self->way->device, error));
-    PS_TRY(PS_NEW(&self->slots, frequencies->num, "slots", error));
-    ps_engine_slots(self->engine, self->state, frequencies->num, self->slots);
-    return PSPEC_OK;
-}
-
-static pspec_status read_rows(work *self, const ps_rows *rows, double *powers, size_t num,
-                              ps_error *error) {
-    const size_t bytes = ps_real_bytes(rows->precision);
-    if (rows->host == NULL) {
-        PS_TRY(ps_allocate(&self->row, rows->stride, bytes, "a row of powers", error));
-        PS_TRY(ps_buffer_read(self->way->device, &rows->device, 0, self->row, rows->stride * bytes,
-                              error));
-    }
-    const void *const from = rows->host != NULL ? (const void *)rows->host : self->row;
-    for (size_t i = 0; i < num; i++) {
-        powers[i] = ps_real_at(rows->precision, from, self->slots[i]);
-    }
-    return PSPEC_OK;
+    return ps_engine_create(self->engine, &self->state, &problem, plan.chosen->precision, 1,
+                            self->way->device, error);
 }
 
 static bool should_stop(void *payload) {
@@ -88,11 +67,9 @@ static pspec_status run(work *self, const ps_frequencies *frequencies, double *p
                             .scales = &scale,
                             .should_stop = should_stop,
                             .payload = self};
-    ps_rows rows = {0};
     PS_TRY(start(self, frequencies, error));
-    PS_TRY(self->engine->run(self->state, &batch, &rows, error));
-    PS_TRY(ps_rows_wait(&rows, error));
-    return read_rows(self, &rows, powers, frequencies->num, error);
+    return ps_engine_powers(self->engine, self->state, &batch, frequencies->num, self->way->device,
+                            powers, error);
 }
 
 static pspec_status multiply(const ps_integrand *integrand, const ps_frequencies *frequencies,
@@ -122,8 +99,6 @@ out:
     if (self.engine != NULL) {
         ps_engine_destroy(self.engine, self.state);
     }
-    free(self.slots);
-    free(self.row);
     ps_integrand_points_free(&self.points);
     return status;
 }
