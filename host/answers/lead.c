@@ -1,5 +1,7 @@
 #include "answers/lead.h"
 
+#include "pointspec_version.h"
+
 #include <string.h>
 
 enum { MOST_LEAD = 2, MOST_COLUMNS = MOST_LEAD + PS_MOST_COLUMNS_AFTER_LEAD };
@@ -18,6 +20,16 @@ ps_lead ps_lead_make(const ps_request *request, size_t question) {
         add(&out, "points", PS_INTEGER(ps_request_points(request, question)));
     }
     return out;
+}
+
+pspec_status ps_lead_add_origin(ps_table *table, const char *command_line, ps_error *error) {
+    const ps_meta entries[] = {
+        {"pointspec_version", PS_TEXT(PS_VERSION)},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
+        {"command", PS_TEXT(command_line)},
+    };
+    const size_t num = sizeof entries / sizeof entries[0];
+    return ps_table_add_metas(table, entries, command_line != NULL ? num : num - 1, error);
 }
 
 pspec_status ps_lead_add_source(ps_table *table, const ps_request *request, size_t question,

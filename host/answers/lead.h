@@ -1,4 +1,5 @@
-/* The columns that the tables of several questions begin with: what a row is of. */
+/* What tables begin with: header lines, and the columns that say which of several questions a row
+ * is of. */
 #ifndef PS_ANSWERS_LEAD_H
 #define PS_ANSWERS_LEAD_H
 
@@ -19,6 +20,11 @@ typedef struct ps_lead {
  * `points` where it has several numbers
  * of points, of which this is the one that was asked for. */
 ps_lead ps_lead_make(const ps_request *request, size_t question);
+
+/* The first header lines of any table: version, number of the format, and the command line; NULL:
+ * there is none. */
+pspec_status ps_lead_add_origin(ps_table *table, const char *command_line,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* The header line `sampler` of a question: the sampler, or the name of the set; none of files
  * alone. */

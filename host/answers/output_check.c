@@ -32,8 +32,8 @@ static pspec_status compare_files(const char *a, const char *b, bool *are_same, 
     return PSPEC_OK;
 }
 
-static pspec_status check_pair(const ps_request_file *output, const ps_request_file *other,
-                               ps_error *error) {
+static pspec_status check_pair(void *file, const ps_request_file *other, ps_error *error) {
+    const ps_request_file *const output = file;
     bool are_same = false;
     if (strcmp(output->path, "-") == 0 || strcmp(other->path, "-") == 0) {
         return PSPEC_OK;
@@ -43,11 +43,6 @@ static pspec_status check_pair(const ps_request_file *output, const ps_request_f
                               "%s \"%s\" and %s \"%s\" are the same file", output->option.text,
                               output->path, other->option.text, other->path)
                     : PSPEC_OK;
-}
-
-static pspec_status compare_with_input(void *payload, const ps_request_file *input,
-                                       ps_error *error) {
-    return check_pair(payload, input, error);
 }
 
 static pspec_status compare_with_standard_output(void *payload, const ps_request_file *input,
@@ -128,7 +123,7 @@ static pspec_status check_all(ps_request_file *outputs, size_t num, const ps_req
         for (size_t j = i + 1; j < num; j++) {
             PS_TRY(check_pair(&outputs[i], &outputs[j], error));
         }
-        PS_TRY(ps_request_visit_inputs(arguments, compare_with_input, &outputs[i], error));
+        PS_TRY(ps_request_visit_inputs(arguments, check_pair, &outputs[i], error));
         PS_TRY(check_folder(outputs[i].path, error));
     }
     return PSPEC_OK;

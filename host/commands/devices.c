@@ -82,15 +82,9 @@ static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices,
     return ps_text_check(why_none, error);
 }
 
-static pspec_status add_facts(ps_table *table, const ps_request *request, ps_error *error) {
-    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(pspec_version()), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
-    return ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error);
-}
-
 static pspec_status add_header(ps_table *table, const ps_request *request,
                                const ps_device_limits *chosen, ps_error *error) {
-    PS_TRY(add_facts(table, request, error));
+    PS_TRY(ps_lead_add_origin(table, request->command_line, error));
     return ps_table_add_meta(table, "device", PS_TEXT(chosen->name), error);
 }
 
@@ -102,7 +96,7 @@ static pspec_status fill_table(ps_table *table, ps_text *why_none, const ps_requ
     pspec_status status = PSPEC_OK;
     PS_TRY(list_devices(&limits, &num_devices, why_none, error));
     if (num_devices == 0) {
-        return add_facts(table, request, error);
+        return ps_lead_add_origin(table, request->command_line, error);
     }
     PS_TRY_OUT(status,
                ps_device_choose(limits, num_devices, request->limits.device, &chosen, error));

@@ -8,8 +8,6 @@
 #include "store/cache_folder.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
-#include "pointspec_version.h"
-
 #include <errno.h>
 #include <inttypes.h>
 #include <stdint.h>
@@ -207,8 +205,7 @@ static pspec_status run(ps_answer *out, const ps_request *request, const ps_answ
     }
     PS_TRY(
         ps_table_create(&out->table, "doctor", columns, sizeof columns / sizeof columns[0], error));
-    PS_TRY(ps_table_add_meta(out->table, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(out->table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
+    PS_TRY(ps_lead_add_origin(out->table, NULL, error));
     const bool has_folder = ps_cache_default_directory(&folder, &ignored) == PSPEC_OK;
     const ps_doctor doctor = {request->limits.device, has_folder ? ps_text_string(&folder) : NULL,
                               hooks, out->table, &unwritten};

@@ -2,8 +2,6 @@
 #include "commands/plan.h"
 #include "store/host_figures.h"
 
-#include "pointspec_version.h"
-
 const ps_command *const ps_with_fields[] = {
     PS_COMMANDS(PS_KIND_OF, PS_NO_COMMAND, PS_COMMAND_OF, PS_NO_COMMAND) NULL};
 const ps_command *const ps_plannable[] = {
@@ -16,9 +14,7 @@ static pspec_status fill(ps_planner *planner, const ps_command *command, const p
     ps_figures host;
     ps_table *const table = planner->table;
     planner->host = &host;
-    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
-    PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error));
+    PS_TRY(ps_lead_add_origin(table, request->command_line, error));
     /* the total stands before the parts, of which a scene may have hundreds */
     PS_TRY(ps_table_add_meta(table, "seconds", PS_MISSING, error));
     PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));

@@ -81,11 +81,8 @@ static pspec_status add_verdict(ps_table *table, const ps_check *check, ps_error
 }
 
 static pspec_status begin_saved(ps_table *table, const ps_request *arguments, ps_error *error) {
-    const ps_meta entries[] = {{"pointspec_version", PS_TEXT(pspec_version())},
-                               {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-                               {"command", PS_TEXT(arguments->command_line)},
-                               {"measured", PS_TEXT(arguments->files[0])}};
-    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+    PS_TRY(ps_lead_add_origin(table, arguments->command_line, error));
+    return ps_table_add_meta(table, "measured", PS_TEXT(arguments->files[0]), error);
 }
 
 static pspec_status end_saved(ps_table *table, const ps_saved_spectrum *measured, ps_error *error) {

@@ -179,9 +179,6 @@ static pspec_status add_header(ps_table *table, const points_answer *self, ps_er
                                           [PS_SAMPLES_HEMISPHERE] = "hemisphere"};
     const char *const note = ps_sampler_note(&self->sampler);
     const ps_meta entries[] = {
-        {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-        {"command", PS_TEXT(self->arguments->command_line)},
         {"device", PS_TEXT("none")},
         {"engine", PS_TEXT("host")},
         {"precision", PS_TEXT("double")},
@@ -193,6 +190,7 @@ static pspec_status add_header(ps_table *table, const points_answer *self, ps_er
         {"seed", PS_INTEGER(self->sampler.seed)},
         {"skipped", PS_TEXT("none")},
     };
+    PS_TRY(ps_lead_add_origin(table, self->arguments->command_line, error));
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     return note != NULL ? ps_table_add_meta(table, "sampler_note", PS_TEXT(note), error) : PSPEC_OK;
 }

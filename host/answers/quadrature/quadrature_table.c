@@ -33,9 +33,6 @@ static const char *name_weights(const ps_quadrature_question *question) {
 static pspec_status add_question(ps_table *table, const ps_request *arguments,
                                  const ps_quadrature_question *question, ps_error *error) {
     const ps_meta entries[] = {
-        {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-        {"command", PS_TEXT(arguments->command_line)},
         {"tolerance", PS_NUMBER(question->accuracy.tolerance)},
         {"seed", question->sampler != NULL ? PS_INTEGER(arguments->seed) : PS_MISSING},
         {"normalization", PS_TEXT("weights as they are; equal ones are 1/N")},
@@ -43,6 +40,7 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
         {"brdf", PS_TEXT(arguments->brdf)},
         {"smoothness", PS_NUMBER(arguments->smoothness)},
     };
+    PS_TRY(ps_lead_add_origin(table, arguments->command_line, error));
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     return add_remark(table, "note", ps_brdf_note(question->brdf), error);
 }

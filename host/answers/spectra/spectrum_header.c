@@ -4,8 +4,6 @@
 #include "files/decimal.h"
 #include "samplers/morph_words.h"
 
-#include "pointspec_version.h"
-
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -120,9 +118,7 @@ static const char *name_normalization(const ps_request *arguments, const ps_meas
 }
 
 static void put_common(ps_header *head, const ps_request *arguments, const ps_measured *first) {
-    ps_header_put(head, "pointspec_version", PS_TEXT(PS_VERSION));
-    ps_header_put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
-    ps_header_put(head, "command", PS_TEXT(arguments->command_line));
+    head->status = ps_lead_add_origin(head->table, arguments->command_line, head->error);
     ps_header_put(head, "normalization", PS_TEXT(name_normalization(arguments, first)));
     put_told(head, first, "seed", "merged");
 }

@@ -80,9 +80,6 @@ static pspec_status add_header(ps_table *table, const ps_truncation_job *job,
              job->representer.max_degree, job->off);
     const char *const note = ps_brdf_note(job->brdf);
     const ps_meta entries[] = {
-        {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-        {"command", PS_TEXT(request->command_line)},
         {"device", PS_TEXT("none")},
         {"engine", PS_TEXT("host")},
         {"precision", PS_TEXT("double")},
@@ -101,6 +98,7 @@ static pspec_status add_header(ps_table *table, const ps_truncation_job *job,
                        "beyond 32768")},
         {"skipped", PS_TEXT("none")},
     };
+    PS_TRY(ps_lead_add_origin(table, request->command_line, error));
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     return note != NULL ? ps_table_add_meta(table, "note", PS_TEXT(note), error) : PSPEC_OK;
 }

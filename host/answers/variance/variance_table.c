@@ -73,9 +73,6 @@ static pspec_status begin(ps_table *table, const ps_request *request, const ps_v
                           ps_error *error) {
     const ps_variance_trials trials = first->trials;
     const ps_meta entries[] = {
-        {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-        {"command", PS_TEXT(request->command_line)},
         {"normalization", PS_TEXT("mean(N) mean(|S|^2 / W^2), whose weighted sum is a variance")},
         {"seed", PS_INTEGER(request->seed)},
         {"trials", PS_TEXT(request->num_shifts == 0 ? "none"
@@ -91,6 +88,7 @@ static pspec_status begin(ps_table *table, const ps_request *request, const ps_v
                  "numbers, but squares of few estimates are skewed, and 85 to 91 % of those of 20 "
                  "sets")},
     };
+    PS_TRY(ps_lead_add_origin(table, request->command_line, error));
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 

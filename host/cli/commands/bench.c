@@ -74,9 +74,6 @@ static ps_cell rate(double value) {
 static pspec_status add_device(const answer *shown, const ps_figures *peaks, ps_error *error) {
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     const ps_meta entries[] = {
-        {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-        {"command", PS_TEXT(shown->arguments->command_line)},
         {"device", PS_TEXT(limits->name)},
         {"platform", PS_TEXT(limits->platform)},
         {"driver", PS_TEXT(limits->driver)},
@@ -87,6 +84,7 @@ static pspec_status add_device(const answer *shown, const ps_figures *peaks, ps_
         {"sent_bytes_per_second", rate(peaks->sent_bytes)},
         {"launches_per_second", rate(peaks->launches)},
     };
+    PS_TRY(ps_lead_add_origin(shown->table, shown->arguments->command_line, error));
     return ps_table_add_metas(shown->table, entries, sizeof entries / sizeof entries[0], error);
 }
 

@@ -113,9 +113,7 @@ static pspec_status bench_file(ps_table *table, const ps_request *arguments, con
 }
 
 static pspec_status add_header(ps_table *table, const ps_request *arguments, ps_error *error) {
-    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(pspec_version()), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
-    PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error));
+    PS_TRY(ps_lead_add_origin(table, arguments->command_line, error));
     PS_TRY(ps_table_add_meta(
         table, "time",
         PS_TEXT(

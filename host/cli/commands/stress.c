@@ -44,15 +44,13 @@ static pspec_status add_header(const answer *shown, ps_error *error) {
     const ps_request *const arguments = shown->arguments;
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     const ps_meta entries[] = {
-        {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
-        {"command", PS_TEXT(arguments->command_line)},
         {"device", PS_TEXT(limits != NULL ? limits->name : "none")},
         {"platform", PS_TEXT(limits != NULL ? limits->platform : "none")},
         {"driver", PS_TEXT(limits != NULL ? limits->driver : "none")},
         {"error_units", PS_TEXT("of S and c_lm: white noise; of pair sums and distances: (sum "
                                 "|w|)^2; of the host: as its bound")},
     };
+    PS_TRY(ps_lead_add_origin(shown->table, arguments->command_line, error));
     return ps_table_add_metas(shown->table, entries, sizeof entries / sizeof entries[0], error);
 }
 

@@ -1,7 +1,6 @@
 /* The tables of a scene: of every result the rows of all its questions, and a summary with a row
  * for each. */
 #include "base/memory.h"
-#include "pointspec_version.h"
 #include "scene/run/run.h"
 
 #include <errno.h>
@@ -40,8 +39,7 @@ static pspec_status begin(ps_table **out, const ps_run *run, const ps_run_result
                           const char *const *columns, size_t num_columns, ps_error *error) {
     const ps_scene *const scene = run->scene;
     PS_TRY(ps_table_create(out, result->asked->kind->name, columns, num_columns, error));
-    PS_TRY(ps_table_add_meta(*out, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(*out, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
+    PS_TRY(ps_lead_add_origin(*out, NULL, error));
     PS_TRY(
         ps_table_add_meta(*out, "scene", PS_TEXT(scene->title != NULL ? scene->title : ""), error));
     return ps_table_add_meta(*out, "result", PS_TEXT(result->asked->name), error);
