@@ -2,7 +2,8 @@
 #ifndef PS_ANSWERS_QUADRATURE_QUADRATURE_TABLE_H
 #define PS_ANSWERS_QUADRATURE_QUADRATURE_TABLE_H
 
-#include "answers/quadrature/quadrature_question.h"
+#include "jobs/quadrature/quadrature_job.h"
+#include "request/request.h"
 #include "tables/table.h"
 
 /* jobs[num] */
