@@ -4,7 +4,6 @@
 #include "answers/points/points.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
-#include "commands/points.h"
 #include "plan/specs.h"
 
 #include <inttypes.h>
@@ -38,14 +37,14 @@ static pspec_status fail_cheap(const prefetch *self, ps_error *error) {
 }
 
 static pspec_status check_words(const ps_request *request, ps_error *error) {
-    if (request->is_given[PS_OPTION_OUTPUT] || request->format != NULL || request->plot != NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--prefetch writes no points: there is no use for --%s",
-                       request->format != NULL ? "format"
-                       : request->plot != NULL ? "plot"
-                                               : "output");
-    }
-    return ps_points_check_words(request, true, error);
+    const char *const useless = request->format != NULL               ? "format"
+                                : request->plot != NULL               ? "plot"
+                                : request->is_given[PS_OPTION_OUTPUT] ? "output"
+                                                                      : NULL;
+    return useless == NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--prefetch writes no points: there is no use for --%s", useless);
 }
 
 static pspec_status begin(prefetch *out, const ps_request *request, size_t question,

@@ -1,106 +1,22 @@
-/* Points of a sampler, and point files in another format. */
-#include "commands/points.h"
-
+/* pointspec sample: writes realizations of the only sampler, one of them in memory at a time, and
+ * draws the first. Without an output the first of every sampler is only drawn. hooks->warn hears
+ * what the format could not keep, hooks->watch of realizations. */
 #include "answers/output_check.h"
-#include "answers/picture.h"
 #include "answers/points/points.h"
-#include "answers/points/points_picture.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
-#include "commands/convert.h"
+#include "commands/points_drawing.h"
+#include "commands/prefetch.h"
+#include "jobs/point_phases.h"
+#include "jobs/spectrum/power_phases.h"
 #include "plan/specs.h"
 #include "request/point_source.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- pictures ---------------------------------------------------------------------------- */
-
-static bool is_picture_all(const ps_request *request) {
-    return ps_picture_is_all(request, false);
-}
-
-/* Before the work: can the picture be drawn and written, is it no other file of the request? */
-static pspec_status check_picture(const ps_request *request, const ps_answer_hooks *hooks,
-                                  ps_error *error) {
-    if (request->plot == NULL) {
-        return PSPEC_OK;
-    }
-    if (request->num_files > PS_MAX_SAMPLERS && ps_request_only_draws(request) && !request->merge) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%zu files are more than %d, which a picture shows side by side",
-                       request->num_files, PS_MAX_SAMPLERS);
-    }
-    PS_TRY(ps_picture_check(request, is_picture_all(request), hooks, error));
-    return ps_outputs_check(request, false, error);
-}
-
-/* Adds a set of a file: points of the sphere none of which is below the equator are those of a
- * hemisphere. */
-static pspec_status add_file(ps_points_picture *picture, const char *path, const ps_point_set *set,
-                             const ps_watch *watch, ps_error *error) {
-    bool is_above = set->coordinates == PS_UNIT_VECTORS;
-    for (size_t i = 0; is_above && i < set->num_points; i++) {
-        is_above = set->points[i * set->dimension + 2] >= 0;
-    }
-    const ps_drawn_set drawn = {path,
-                                is_above                              ? PS_SAMPLES_HEMISPHERE
-                                : set->coordinates == PS_UNIT_VECTORS ? PS_SAMPLES_SPHERE
-                                                                      : PS_SAMPLES_TORUS,
-                                set->dimension, set->num_points, set->points};
-    return ps_points_picture_add(picture, &drawn, watch, error);
-}
-
-/* The sampler, how many points, which realization: as pictures of spectra have them. */
-static void write_title(ps_text *title, const ps_points_picture *picture,
-                        const ps_request *request) {
-    const bool is_of_files = request->num_files > 0;
-    if (picture->num_sets > 1 && !is_of_files && request->num_sources == 1) {
-        ps_text_append(title, "%s", ps_request_source_name(request, 0));
-    } else if (picture->num_sets > 1) {
-        ps_text_append(title, "%zu %s", picture->num_sets,
-                       is_of_files                ? "files"
-                       : request->num_counts == 1 ? "samplers"
-                                                  : "sets");
-    } else if (is_of_files && request->merge && request->num_files > 1) {
-        ps_text_append(title, "%zu files, N = %zu", request->num_files, picture->num_points);
-    } else {
-        ps_text_append(title, "%s, N = %zu",
-                       is_of_files ? request->files[0] : ps_request_source_name(request, 0),
-                       picture->num_points);
-    }
-    if (is_of_files) {
-        return;
-    }
-    ps_text_append(title, ", seed %llu", (unsigned long long)request->seed);
-    if (request->num_realizations > 1) {
-        ps_text_append(title, ", the first of %llu realizations",
-                       (unsigned long long)request->num_realizations);
-    }
-}
-
-static pspec_status write_picture(const ps_points_picture *picture, const ps_request *request,
-                                  ps_error *error) {
-    ps_text title = {0};
-    write_title(&title, picture, request);
-    pspec_status status = ps_text_check(&title, error);
-    if (status == PSPEC_OK) {
-        const ps_figure figure = ps_points_picture_figure(picture, ps_text_string(&title));
-        status = ps_figure_write(request->plot, &figure, error);
-    }
-    ps_text_free(&title);
-    return status;
-}
-
-/* Draws what was added to the picture, after the points are written: a failure is then told, and no
- * error. */
-static pspec_status draw(const ps_points_picture *picture, const ps_request *request,
-                         const ps_answer_hooks *hooks, ps_error *error) {
-    return ps_picture_settle(request, is_picture_all(request), hooks,
-                             write_picture(picture, request, error), error);
-}
-
-/* ---- sample ------------------------------------------------------------------------------ */
+/* ---- what is asked ------------------------------------------------------------------------ */
 
 static pspec_status fail_without_sampler(ps_error *error) {
     ps_text names = {0};
@@ -111,8 +27,8 @@ static pspec_status fail_without_sampler(ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-pspec_status ps_points_check_words(const ps_request *request, bool may_be_several,
-                                   ps_error *error) {
+/* Several samplers and numbers of points may be where no points are written. */
+static pspec_status check_words(const ps_request *request, ps_error *error) {
     if (request->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "no input file is read, but %s was given; -o FILE names the output",
@@ -121,7 +37,7 @@ pspec_status ps_points_check_words(const ps_request *request, bool may_be_severa
     if (request->num_sources == 0) {
         return fail_without_sampler(error);
     }
-    if (may_be_several) {
+    if (request->prefetch || ps_request_only_draws(request)) {
         return PSPEC_OK;
     }
     return request->num_sources == 1
@@ -131,11 +47,7 @@ pspec_status ps_points_check_words(const ps_request *request, bool may_be_severa
                          request->num_sources);
 }
 
-pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,
-                                    ps_error *error) {
-    PS_TRY(ps_points_check_words(request, false, error));
-    return ps_sampler_request_make(out, request, 0, error);
-}
+/* ---- points ------------------------------------------------------------------------------- */
 
 /* Block by block: the system takes gigabytes in one call, too, but no signal before it has them. */
 static pspec_status write_points(const ps_point_set *set, ps_point_writer *writer,
@@ -284,87 +196,107 @@ static pspec_status check_samplers(const ps_request *request, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
-                              ps_error *error) {
+static pspec_status sample(const ps_request *request, const ps_answer_hooks *hooks,
+                           ps_error *error) {
     const size_t num = ps_request_num_questions(request);
     ps_pool memory = {0};
     ps_points_picture picture = {.num_sets = num, .memory = &memory};
     pspec_status status = PSPEC_OK;
-    PS_TRY(ps_points_check_words(request, ps_request_only_draws(request), error));
-    PS_TRY(check_picture(request, hooks, error));
+    PS_TRY(ps_points_drawing_check(request, hooks, error));
     PS_TRY(check_samplers(request, error));
     for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
         status = sample_one(request, i, request->plot != NULL ? &picture : NULL, hooks, error);
     }
     if (status == PSPEC_OK && request->plot != NULL) {
-        status = draw(&picture, request, hooks, error);
+        status = ps_points_draw(&picture, request, hooks, error);
     }
     ps_pool_free(&memory);
     return status;
 }
 
-/* ---- convert ----------------------------------------------------------------------------- */
+/* ---- what it would take: there is nothing to choose --------------------------------------- */
 
-/* first: gets the first set, for the picture; NULL: nothing is drawn. */
-static pspec_status convert_files(const ps_request *request, size_t i_file, size_t num_files,
-                                  ps_point_set *first, const ps_answer_hooks *hooks,
-                                  ps_error *error) {
-    ps_text loss = {0};
-    const ps_conversion conversion = {
-        .paths = request->files + i_file,
-        .num_paths = num_files,
-        .options = ps_point_options_make(request),
-        .points = request->points,
-        .merge = request->merge,
-        .output = ps_request_only_draws(request) ? NULL : request->output,
-        .format = request->format,
-        .columns = request->to_columns,
-        .watch = hooks->watch,
-        .first = first,
-    };
-    const pspec_status status = ps_convert(&conversion, &loss, error);
-    if (status == PSPEC_OK && loss.length > 0) {
-        ps_answer_warn(hooks, "%s", ps_text_string(&loss));
+/* Points that are only drawn are of one realization, and not written. */
+static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t question,
+                                bool is_drawn, double *bytes, ps_error *error) {
+    const uint64_t limit = request->limits.constraints.memory_limit;
+    ps_sampler_request sampler;
+    PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
+    const double own_bytes = ps_points_bytes(&sampler, 1);
+    PS_TRY(limit > 0 ? ps_points_check_memory(&sampler, 1, limit, error) : PSPEC_OK);
+    *bytes = fmax(*bytes, own_bytes);
+    const double sets = is_drawn ? 1 : (double)request->num_realizations;
+    const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
+    ps_phases_sample(phases, &sampler, sets, &kept);
+    ps_phases_touch(phases, own_bytes);
+    if (!is_drawn) {
+        ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
+                        sets * (double)sampler.num_points * sampler.dimension);
     }
-    ps_text_free(&loss);
-    return status;
+    return PSPEC_OK;
 }
 
-/* Files into one output; those that are only drawn, one by one. */
-static pspec_status convert_all(const ps_request *request, ps_points_picture *picture,
-                                const ps_answer_hooks *hooks, ps_error *error) {
-    const bool is_drawn = request->plot != NULL;
-    const size_t step = request->num_files / picture->num_sets;
-    pspec_status status = PSPEC_OK;
-    ps_answer_begin_next(hooks);
-    for (size_t i = 0; status == PSPEC_OK && i < request->num_files; i += step) {
-        ps_point_set first = {0};
-        status = convert_files(request, i, step, is_drawn ? &first : NULL, hooks, error);
-        if (status == PSPEC_OK && is_drawn) {
-            status = add_file(picture, request->files[i], &first, &hooks->watch, error);
-        }
-        ps_point_set_free(&first);
+static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const bool is_drawn = ps_request_only_draws(request);
+    double bytes = 0; /* of the largest */
+    ps_memory_room room;
+    if (request->num_sources != 1 && !(is_drawn && request->num_sources > 0)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
-    ps_answer_end(hooks);
-    return status;
+    if (!is_drawn) {
+        PS_TRY(ps_sample_check_counts(request, error));
+    }
+    ps_phases_start(&phases, NULL, NULL);
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        PS_TRY(add_sampler(&phases, request, i, is_drawn, &bytes, error));
+    }
+    ps_plan_table_add_picture(&phases, request);
+    ps_memory_room_find(&room, 0);
+    return ps_plan_table_add_host(
+        planner, &phases, bytes,
+        bytes <= (double)room.bytes ? "points of one sampler, one realization at a time"
+                                    : "one realization at a time, but there is no room for it now",
+        error);
 }
 
-pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
-                               ps_error *error) {
-    const bool is_apart = ps_request_only_draws(request) && !request->merge;
-    ps_pool memory = {0};
-    ps_points_picture picture = {.num_sets = is_apart ? request->num_files : 1, .memory = &memory};
-    if (request->num_files == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "nothing to convert: name point files (- for standard input)");
-    }
-    PS_TRY(ps_point_options_check(request, error));
-    PS_TRY(check_picture(request, hooks, error));
-    PS_TRY(ps_outputs_check(request, false, error));
-    pspec_status status = convert_all(request, &picture, hooks, error);
-    if (status == PSPEC_OK && request->plot != NULL) {
-        status = draw(&picture, request, hooks, error);
-    }
-    ps_pool_free(&memory);
-    return status;
+/* ---- the command --------------------------------------------------------------------------- */
+
+/* Writes no table. */
+static pspec_status run(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
+                        ps_error *error) {
+    (void)out;
+    PS_TRY(check_words(request, error));
+    return request->prefetch ? ps_points_prefetch(request, hooks, error)
+                             : sample(request, hooks, error);
 }
+
+const ps_command ps_command_sample = {
+    .name = "sample",
+    .purpose = "generate point sets of the torus or the sphere",
+    .usage = "sample --sampler NAME[:key=value,...] [options]",
+    .description =
+        "Writes realizations of a sampler of the torus [0,1)^D, or of the sphere or hemisphere, "
+        "where "
+        "points are unit vectors x, y, z. Realization r depends on nothing but the sampler, its "
+        "parameters, N, D, the seed and r. UTK text has one point per line, coordinates with 17 "
+        "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
+        "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
+        "sphere, at random. --plot draws the first realization: the unit square, a line, every "
+        "pair of coordinates of more dimensions, both sides of the sphere. Without -o and --format "
+        "the picture is all that is made, and several samplers or N are drawn side by side. Sets "
+        "that "
+        "take long to make, of blue noise, are kept on the disk, for this command and all others, "
+        "up to --kept-sets; --prefetch only fills that store, on all processors, and goes on where "
+        "it was stopped.",
+    .takes = PS_COMMAND_BIT(sample),
+    .samples = PS_DOMAIN_ANY,
+    .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
+                 "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},
+    .formats = PS_POINT_FORMATS,
+    .counted = "realizations",
+    .speaker = "pointspec sample",
+    .makes_points = true,
+    .run = run,
+    .plan = plan,
+};
