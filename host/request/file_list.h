@@ -32,10 +32,11 @@ pspec_status ps_file_lists_make(ps_file_list **out, const ps_request *request,
                                 ps_error *error) PS_MUST_CHECK;
 void ps_file_lists_free(ps_file_list *lists, size_t num);
 
-/* PSPEC_ERROR_INPUT where the file is a saved result, with what it is of, and `why`, "and variances
- * are ..", in the sentence; command: that to use instead. Standard input, pipes and what is not
- * there pass: who reads them says what is wrong. */
-pspec_status ps_saved_result_refuse(const char *path, const char *why, const char *command,
-                                    ps_error *error) PS_MUST_CHECK;
+/* Is the file a table as CSV or JSON, or one beside NPY, that the program or the library saved?
+ * Standard input, pipes and what is not there are none. */
+pspec_status ps_saved_result_find(bool *is_one, const char *path, ps_error *error) PS_MUST_CHECK;
+/* PSPEC_ERROR_INPUT where it is one, with what it is of, and what variances need, in the sentence.
+ */
+pspec_status ps_saved_result_refuse(const char *path, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -94,31 +94,46 @@ static bool find_command(const header *self, char command[VALUE_BYTES]) {
     return true;
 }
 
-static pspec_status refuse_table(const header *self, const char *path, const char *made_by,
-                                 const char *why, const char *command, ps_error *error) {
-    char sampler[VALUE_BYTES];
-    char points[VALUE_BYTES];
-    /* what `sampler` names may be a set of files, and no sampler to be asked again */
-    const bool has_sampler =
-        strstr(self->text, " --set ") == NULL && find_value(self, "sampler", sampler);
-    const bool has_points = find_value(self, "points", points);
-    return ps_fail(
-        error, PSPEC_ERROR_INPUT,
-        "\"%s\" holds no points: pointspec %s saved it%s%s%s%s, %s; use pointspec %s%s%s%s%s", path,
-        made_by, has_sampler ? ", of sampler " : "", has_sampler ? sampler : "",
-        has_points ? ", N = " : "", has_points ? points : "", why, command,
-        has_sampler ? " --sampler " : " on the point files", has_sampler ? sampler : "",
-        has_sampler && has_points ? " -n " : "", has_sampler && has_points ? points : "");
+/* Of what command, "" where the file is none. */
+static pspec_status find_maker(header *out, char command[VALUE_BYTES], const char *path,
+                               ps_error *error) {
+    PS_TRY(read_header(out, path, error));
+    if (!find_command(out, command)) {
+        PS_TRY(read_beside(out, path, error));
+        if (!find_command(out, command)) {
+            command[0] = '\0';
+        }
+    }
+    return PSPEC_OK;
 }
 
-pspec_status ps_saved_result_refuse(const char *path, const char *why, const char *command,
-                                    ps_error *error) {
+pspec_status ps_saved_result_find(bool *is_one, const char *path, ps_error *error) {
+    header head;
+    char made_by[VALUE_BYTES] = "";
+    const pspec_status status = find_maker(&head, made_by, path, error);
+    *is_one = made_by[0] != '\0';
+    return status;
+}
+
+pspec_status ps_saved_result_refuse(const char *path, ps_error *error) {
     header head;
     char made_by[VALUE_BYTES];
-    PS_TRY(read_header(&head, path, error));
-    if (!find_command(&head, made_by)) {
-        PS_TRY(read_beside(&head, path, error));
+    char sampler[VALUE_BYTES];
+    char points[VALUE_BYTES];
+    PS_TRY(find_maker(&head, made_by, path, error));
+    if (made_by[0] == '\0') {
+        return PSPEC_OK;
     }
-    return find_command(&head, made_by) ? refuse_table(&head, path, made_by, why, command, error)
-                                        : PSPEC_OK;
+    /* what `sampler` names may be a set of files, and no sampler to be asked again */
+    const bool has_sampler =
+        strstr(head.text, " --set ") == NULL && find_value(&head, "sampler", sampler);
+    const bool has_points = find_value(&head, "points", points);
+    return ps_fail(
+        error, PSPEC_ERROR_INPUT,
+        "\"%s\" holds no points: pointspec %s saved it%s%s%s%s, and variances are formed "
+        "from sums of each set, which it has not; use pointspec variance%s%s%s%s",
+        path, made_by, has_sampler ? ", of sampler " : "", has_sampler ? sampler : "",
+        has_points ? ", N = " : "", has_points ? points : "",
+        has_sampler ? " --sampler " : " on the point files", has_sampler ? sampler : "",
+        has_sampler && has_points ? " -n " : "", has_sampler && has_points ? points : "");
 }

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
+#include "request/file_list.h"
 #include "spectra/compare.h"
 
 #include <errno.h>
@@ -56,38 +57,10 @@ static pspec_status read_table(ps_saved_spectrum *out, const char *path, ps_erro
 
 /* ---- which ------------------------------------------------------------------------------- */
 
-/* TEXTS: a table as CSV or JSON, which is no saved spectrum, and no points either. */
-typedef enum file_kind { OTHER, TABLE, TEXTS } file_kind;
-
-static bool begins_with(const unsigned char *bytes, size_t num, const char *text, size_t length) {
-    return num >= length && memcmp(bytes, text, length) == 0;
-}
-
-static pspec_status find_kind(file_kind *out, const char *path, ps_error *error) {
-    static const char header[] = "# pointspec_version: ";
-    const unsigned char *bytes = NULL;
-    size_t num = 0;
-    ps_input input = {0};
-    if (ps_table_is_npz(path)) {
-        *out = TABLE;
-        return PSPEC_OK;
-    }
-    pspec_status status = ps_input_open(&input, path, error);
-    if (status == PSPEC_OK) {
-        status = ps_input_peek(&input, sizeof header - 1, &bytes, &num, error);
-    }
-    *out = begins_with(bytes, num, header, sizeof header - 1) || begins_with(bytes, num, "{", 1)
-               ? TEXTS
-               : OTHER;
-    ps_input_close(&input);
-    return status;
-}
-
 /* A stream would lose what is looked at, and points may come by one. */
 pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *error) {
     struct stat facts;
     ps_error reason = {0};
-    file_kind kind = OTHER;
     *is_one = false;
     if (strcmp(path, "-") == 0) {
         return PSPEC_OK;
@@ -95,24 +68,23 @@ pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *er
     if (stat(path, &facts) != 0) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
     }
-    if (!S_ISREG(facts.st_mode)) {
-        return PSPEC_OK;
-    }
-    const pspec_status status = find_kind(&kind, path, &reason);
-    *is_one = status == PSPEC_OK && kind != OTHER;
+    *is_one = ps_table_is_npz(path);
+    const pspec_status status = *is_one ? PSPEC_OK : ps_saved_result_find(is_one, path, &reason);
     return status == PSPEC_OK || status == PSPEC_ERROR_INPUT
                ? PSPEC_OK
                : ps_fail(error, status, "%s", reason.message);
 }
 
-static pspec_status read_either(ps_saved_spectrum *out, const char *path, ps_error *error) {
-    file_kind kind = OTHER;
-    PS_TRY(find_kind(&kind, path, error));
-    return kind == TABLE ? read_table(out, path, error)
-                         : ps_fail(error, PSPEC_ERROR_INPUT,
-                                   "\"%s\" is no saved spectrum: pointspec power and angular "
-                                   "save one with -o FILE.npz",
-                                   path);
+/* What cannot be read is told as such. */
+static pspec_status refuse_other(const char *path, ps_error *error) {
+    ps_input input = {0};
+    const pspec_status status = ps_input_open(&input, path, error);
+    ps_input_close(&input);
+    return status != PSPEC_OK ? status
+                              : ps_fail(error, PSPEC_ERROR_INPUT,
+                                        "\"%s\" is no saved spectrum: pointspec power and angular "
+                                        "save one with -o FILE.npz",
+                                        path);
 }
 
 pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path, ps_error *error) {
@@ -121,7 +93,8 @@ pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path, ps
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "a saved spectrum is a file, and standard input is none");
     }
-    const pspec_status status = read_either(out, path, error);
+    const pspec_status status =
+        ps_table_is_npz(path) ? read_table(out, path, error) : refuse_other(path, error);
     if (status != PSPEC_OK) {
         ps_saved_spectrum_free(out);
     }

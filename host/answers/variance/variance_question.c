@@ -49,13 +49,9 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
 static pspec_status check_files(const ps_file_list *files, const ps_given_sets *given,
                                 ps_error *error) {
     for (size_t i = 0; i < files->num; i++) {
-        if (ps_given_sets_find(given, files->paths[i]) != NULL) {
-            continue;
+        if (ps_given_sets_find(given, files->paths[i]) == NULL) {
+            PS_TRY(ps_saved_result_refuse(files->paths[i], error));
         }
-        PS_TRY(ps_saved_result_refuse(files->paths[i],
-                                      "and variances are formed from sums of each set, which it "
-                                      "has not",
-                                      "variance", error));
     }
     return PSPEC_OK;
 }
