@@ -5,7 +5,7 @@
 
 #include "bench.h"
 #include "base/workers.h"
-#include "store/host_figures.h"
+#include "store/figures_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "commands/doctor.h"
 
 #include "base/process/memory_limit.h"
+#include "base/process/proc_files.h"
 #include "base/text.h"
 #include "device/drivers.h"
 #include "plots/plot.h"
@@ -9,10 +10,8 @@
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
 #include <errno.h>
-#include <inttypes.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -112,38 +111,15 @@ static void tell_memory(const ps_doctor *doctor) {
     }
 }
 
-/* What follows the key in a file of lines; false: there is no such line. */
-static bool find_line(const char *path, const char *key, char line[LINE_BYTES]) {
-    FILE *const file = fopen(path, "re");
-    bool is_found = false;
-    while (file != NULL && !is_found && fgets(line, LINE_BYTES, file) != NULL) {
-        is_found = strncmp(line, key, strlen(key)) == 0;
-    }
-    if (file != NULL) {
-        fclose(file);
-    }
-    if (is_found) {
-        const char *const value = line + strlen(key) + strspn(line + strlen(key), " \t");
-        memmove(line, value, strlen(value) + 1);
-        line[strcspn(line, "\n")] = '\0';
-    }
-    return is_found;
-}
-
 /* Version 2 of cgroups: "QUOTA PERIOD" in microseconds, or "max PERIOD"; of the own group. */
 static void tell_quota(const ps_doctor *doctor) {
-    char group[LINE_BYTES];
-    char line[LINE_BYTES];
-    char path[LINE_BYTES + 64];
+    char group[PS_PROC_PATH];
+    char path[PS_PROC_PATH];
+    size_t mounted = 0;
     uint64_t quota = 0;
     uint64_t period = 0;
-    const bool has_group = find_line("/proc/self/cgroup", "0::", group);
-    snprintf(path, sizeof path, "/sys/fs/cgroup%s/cpu.max", has_group ? group : "");
-    if (access(path, R_OK) != 0) {
-        snprintf(path, sizeof path, "/sys/fs/cgroup/cpu.max");
-    }
-    if (find_line(path, "", line) && sscanf(line, "%" SCNu64 " %" SCNu64, &quota, &period) == 2 &&
-        period > 0) {
+    if (ps_proc_cgroup("", true, group, &mounted) && ps_proc_join(path, group, "/cpu.max") &&
+        ps_proc_column("", path, 0, &quota) && ps_proc_column("", path, 1, &period) && period > 0) {
         ps_doctor_tell(doctor, PS_FINDING_NOTE, "threads",
                        "%s allows the time of %.3g processors, whatever their number", path,
                        (double)quota / (double)period);
@@ -153,7 +129,7 @@ static void tell_quota(const ps_doctor *doctor) {
 static void tell_threads(const ps_doctor *doctor) {
     char allowed[LINE_BYTES];
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    if (find_line("/proc/self/status", "Cpus_allowed_list:", allowed)) {
+    if (ps_proc_text("/proc/self/status", "Cpus_allowed_list", allowed, sizeof allowed)) {
         ps_doctor_tell(doctor, PS_FINDING_GOOD, "threads",
                        "%ld processors are there, and this process may run on number %s", online,
                        allowed);

@@ -1,6 +1,6 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "commands/plan.h"
-#include "store/host_figures.h"
+#include "store/figures_file.h"
 
 const ps_command *const ps_with_fields[] = {
     PS_COMMANDS(PS_KIND_OF, PS_NO_COMMAND, PS_COMMAND_OF, PS_NO_COMMAND) NULL};
@@ -12,12 +12,14 @@ const ps_command *const ps_plannable[] = {
 static pspec_status fill(ps_planner *planner, const ps_command *command, const ps_request *request,
                          ps_error *error) {
     ps_figures host;
+    ps_device_limits processors;
     ps_table *const table = planner->table;
     planner->host = &host;
     PS_TRY(ps_lead_add_origin(table, request->command_line, error));
     /* the total stands before the parts, of which a scene may have hundreds */
     PS_TRY(ps_table_add_meta(table, "seconds", PS_MISSING, error));
-    PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));
+    ps_host_describe(&processors);
+    PS_TRY(ps_figures_read(&host, request->limits.cache_folder, &processors, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
     const size_t num_single = ps_table_num_meta(table);
     PS_TRY(command->plan(planner, request, error));

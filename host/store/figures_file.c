@@ -1,5 +1,7 @@
 #include "store/figures_file.h"
 
+#include "base/process/proc_files.h"
+#include "base/workers.h"
 #include "device/precision.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
@@ -41,6 +43,15 @@ static void list_rates(rate rates[NUM_RATES], ps_figures *figures) {
 }
 
 /* ---- where --------------------------------------------------------------------------------- */
+
+void ps_host_describe(ps_device_limits *out) {
+    *out = (ps_device_limits){0};
+    if (!ps_proc_text("/proc/cpuinfo", "model name", out->name, sizeof out->name)) {
+        snprintf(out->name, sizeof out->name, "unknown");
+    }
+    snprintf(out->platform, sizeof out->platform, "host");
+    snprintf(out->driver, sizeof out->driver, "%u threads", ps_workers_most());
+}
 
 static pspec_status make_key(ps_text *key, const ps_device_limits *limits, ps_error *error) {
     ps_text_append(key, "figures %s\n%s\n%s\n%s\n", PS_VERSION, limits->name, limits->platform,

@@ -1,5 +1,5 @@
-/* Measured figures of a device, kept as a table in an entry of a cache in FOLDER/devices
- * (store/result_cache.h), which is found by device, driver and version of pointspec.
+/* Measured figures of a device, or of this host, kept as a table in an entry of a cache in
+ * FOLDER/devices (store/result_cache.h), which is found by device, driver and version of pointspec.
  *
  * What is no whole table of figures is as good as none: then the planner has the built-in figures,
  * and the note says why. Numbers outside of what a device can be are not taken either, so that no
@@ -11,6 +11,10 @@
 #include "base/text.h"
 #include "device/device.h"
 #include "tables/table.h"
+
+/* What the figures of this host are found by: the name of its processors, "unknown" where the system
+ * does not say, and their number. */
+void ps_host_describe(ps_device_limits *out);
 
 /* Appends the path of the file of a device in the cache's folder. */
 pspec_status ps_figures_path(ps_text *path, const char *folder, const ps_device_limits *limits,

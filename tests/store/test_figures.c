@@ -5,7 +5,7 @@
 
 #include "base/workers.h"
 #include "plan/phases.h"
-#include "store/host_figures.h"
+#include "store/figures_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -285,16 +285,16 @@ static void host_figures_come_back(void **state) {
         assert_non_null(row);
         row->scale = 1 + (double)num / 64;
     }
-    assert_ok(ps_host_figures_write(root, &figures, error));
-    assert_ok(ps_host_figures_read(&back, root, error));
+    ps_host_describe(&host);
+    assert_ok(ps_figures_write(root, &figures, &host, error));
+    assert_ok(ps_figures_read(&back, root, &host, error));
     assert_int_equal(back.num_host, num);
     for (size_t i = 0; i < num; i++) {
         assert_true(ps_figures_host_scale(&back, ps_samplers[i]->name) == 1 + (double)i / 64);
     }
-    ps_host_describe(&host);
     assert_ok(ps_figures_path(&path, root, &host, error));
     assert_int_equal(remove(path.data), 0);
-    assert_ok(ps_host_figures_read(&back, root, error));
+    assert_ok(ps_figures_read(&back, root, &host, error));
     assert_false(back.is_measured);
     ps_text_free(&path);
     ps_text_append(&path, "%s/devices", root);

@@ -108,6 +108,23 @@ bool ps_proc_entry(const char *root, const char *name, const char *key, uint64_t
     return is_found;
 }
 
+bool ps_proc_text(const char *name, const char *key, char *out, size_t size) {
+    reader in;
+    bool is_found = false;
+    const size_t length = strlen(key);
+    if (!open_file(&in, "", name)) {
+        return false;
+    }
+    for (const char *line; !is_found && (line = next_line(&in)) != NULL;) {
+        is_found = strncmp(line, key, length) == 0;
+        if (is_found) {
+            snprintf(out, size, "%s", line + length + strspn(line + length, " \t:"));
+        }
+    }
+    close(in.descriptor);
+    return is_found;
+}
+
 bool ps_proc_number(const char *root, const char *name, uint64_t *out) {
     return ps_proc_column(root, name, 0, out);
 }

@@ -1,6 +1,5 @@
 /* Numbers out of the files of /proc and of cgroups. Names are below a folder root, "" for this
- * machine. False: the file, or what is looked for, is not there or is no number. Private to
- * host/base. */
+ * machine. False: the file, or what is looked for, is not there or is no number. */
 #ifndef PS_BASE_PROCESS_PROC_FILES_H
 #define PS_BASE_PROCESS_PROC_FILES_H
 
@@ -18,6 +17,10 @@ bool ps_proc_number(const char *root, const char *name, uint64_t *out);
 
 /* The number behind a key at the beginning of a line. */
 bool ps_proc_entry(const char *root, const char *name, const char *key, uint64_t *out);
+
+/* The text behind a key, blanks and a colon at the beginning of a line, as much as there is room
+ * for. */
+bool ps_proc_text(const char *name, const char *key, char *out, size_t size);
 
 /* Number `column` of the first line, counted from 0. */
 bool ps_proc_column(const char *root, const char *name, unsigned column, uint64_t *out);

@@ -4,7 +4,7 @@
 #include "cli/command.h"
 #include "cli/commands/bench_scenes.h"
 #include "request/options.h"
-#include "store/host_figures.h"
+#include "store/figures_file.h"
 #include "tables/table_stream.h"
 #include "verify/bench/bench.h"
 
@@ -216,6 +216,7 @@ static pspec_status calibrate(answer *shown, const ps_suite_options *options,
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     ps_figures figures;
     ps_figures host;
+    ps_device_limits processors;
     ps_text file = {0};
     PS_TRY(ps_figures_make_folder(folder, error)); /* before the work */
     shown->progress = ps_progress_begin(shown->arguments, "cases");
@@ -228,7 +229,8 @@ static pspec_status calibrate(answer *shown, const ps_suite_options *options,
     say_date(&figures);
     say_date(&host);
     PS_TRY(ps_figures_write(folder, &figures, limits, error));
-    PS_TRY(ps_host_figures_write(folder, &host, error));
+    ps_host_describe(&processors);
+    PS_TRY(ps_figures_write(folder, &host, &processors, error));
     PS_TRY_OUT(status, ps_figures_path(&file, folder, limits, error));
     PS_TRY_OUT(status, add_figures(shown, &figures, ps_text_string(&file), error));
     PS_TRY_OUT(status, add_host_figures(shown, &host, error));
