@@ -1,5 +1,5 @@
 /* Pictures of spectra: curves, the averaged periodogram, points. */
-#include "answers/points/points_picture.h"
+#include "answers/points/points.h"
 #include "answers/spectra/spectra.h"
 
 #include <math.h>
