@@ -3,7 +3,6 @@
 #include "answers/points/points.h"
 
 #include "answers/kind.h"
-#include "answers/points/points_picture.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"

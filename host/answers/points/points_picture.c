@@ -1,4 +1,4 @@
-#include "answers/points/points_picture.h"
+#include "answers/points/points.h"
 
 #include "base/text.h"
 
@@ -223,8 +223,7 @@ ps_figure ps_points_picture_figure(const ps_points_picture *self, const char *ti
 }
 
 static ps_sampler_domain find_domain(const ps_table *table) {
-    const ps_cell domain = ps_table_find_meta(table, "domain");
-    const char *const text = domain.kind == PS_CELL_TEXT ? domain.text : "";
+    const char *const text = ps_cell_text(ps_table_find_meta(table, "domain"));
     return strcmp(text, "sphere") == 0       ? PS_SAMPLES_SPHERE
            : strcmp(text, "hemisphere") == 0 ? PS_SAMPLES_HEMISPHERE
                                              : PS_SAMPLES_TORUS;

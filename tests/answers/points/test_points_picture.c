@@ -1,5 +1,5 @@
 /* What pictures of points show: which points in which panel, of which part. */
-#include "answers/points/points_picture.h"
+#include "answers/points/points.h"
 #include "plots/plot_script.h"
 
 #include <math.h>
