@@ -141,27 +141,18 @@ static void place_key(ps_script_panel *out, double below) {
     }
 }
 
-/* Each has a key of its own below it. */
-pspec_status ps_script_place_frames(ps_script_page *out, ps_pool *memory, const ps_figure *figure,
-                                    ps_error *error) {
-    const grid where = find_frames(figure);
-    PS_TRY(begin(out, memory, figure, &where, 0, error));
-    for (size_t i = 0; i < out->num_panels; i++) {
-        ps_script_panel *const own = &out->panels[i];
-        const ps_frame *const frame = &own->panel.frame;
-        own->x = make_axis(frame->x_label != NULL ? frame->x_label : figure->x_label, "0,0",
-                           figure->is_log_x);
-        own->y = make_axis(frame->y_label != NULL ? frame->y_label : figure->y_label, "0,0",
-                           figure->is_log_y);
-        own->panel.title = out->num_panels > 1 ? own->panel.title : NULL;
-        place_key(own, where.below);
-        if (out->num_panels == 1 || ps_script_has_places(own)) {
-            show_axes(own, &figure->axes);
-        } else {
-            own->key.num = 0;
-        }
+/* A frame that is alone needs no title, and one in which nothing is seen no key. */
+static void finish_frame(ps_script_panel *out, const ps_plot_axes *asked, double below,
+                         bool is_alone) {
+    place_key(out, below);
+    if (is_alone) {
+        out->panel.title = NULL;
     }
-    return PSPEC_OK;
+    if (is_alone || ps_script_has_places(out)) {
+        show_axes(out, asked);
+    } else {
+        out->key.num = 0;
+    }
 }
 
 /* ---- small panels ---------------------------------------------------------------------------- */
@@ -254,25 +245,33 @@ static pspec_status add_key(ps_script_page *page, ps_pool *memory, const ps_figu
     key->where.page_height = key->where.bottom = page->height;
     key->where.top = key->where.bottom - 1;
     key->key.where = key->where;
+    for (size_t i = 0; i < page->num_panels; i++) {
+        page->panels[i].where.page_height = page->height;
+    }
     return PSPEC_OK;
 }
 
+/* Frames have a key of their own below each, and axes of their own; small panels share them. */
 pspec_status ps_script_place_panels(ps_script_page *out, ps_pool *memory, const ps_figure *figure,
                                     ps_error *error) {
-    const grid where = find_panels(figure);
+    const bool are_small = figure->form == PS_FIGURE_PANELS;
+    const grid where = are_small ? find_panels(figure) : find_frames(figure);
     PS_TRY(begin(out, memory, figure, &where, 1, error));
     for (size_t i = 0; i < out->num_panels; i++) {
-        out->panels[i].x = make_axis(figure->x_label, "0,0.3", figure->is_log_x);
-        out->panels[i].y = make_axis(figure->y_label, "1,0", figure->is_log_y);
+        ps_script_panel *const own = &out->panels[i];
+        const ps_frame *const frame = &own->panel.frame;
+        own->x = make_axis(frame->x_label != NULL ? frame->x_label : figure->x_label,
+                           are_small ? "0,0.3" : "0,0", figure->is_log_x);
+        own->y = make_axis(frame->y_label != NULL ? frame->y_label : figure->y_label,
+                           are_small ? "1,0" : "0,0", figure->is_log_y);
+        if (!are_small) {
+            finish_frame(own, &figure->axes, where.below, out->num_panels == 1);
+        }
     }
-    if (figure->shares_axes) {
+    if (are_small && figure->shares_axes) {
         share_axes(out);
     }
-    PS_TRY(add_key(out, memory, figure, &where, error));
-    for (size_t i = 0; i + 1 < out->num_panels; i++) {
-        out->panels[i].where.page_height = out->height;
-    }
-    return PSPEC_OK;
+    return are_small ? add_key(out, memory, figure, &where, error) : PSPEC_OK;
 }
 
 /* ---- points ---------------------------------------------------------------------------------- */

@@ -128,27 +128,26 @@ static bool can_hide(const ps_series *above, const ps_series *below) {
            (a->is_larger && !a->is_wider && above->look == below->look);
 }
 
-/* Those that come later, and lie on this one: MOST_ABOVE at most. */
-static size_t count_above(const ps_script_panel *panel, size_t index, double wide) {
+/* So much of those that come later and lie on this one, MOST_ABOVE at most. */
+static double grow(const ps_script_panel *panel, size_t index, double more, double wide) {
     const ps_series *const own = &panel->panel.series[index];
     size_t num = 0;
     for (size_t i = index + 1; i < panel->panel.num_series; i++) {
         const ps_series *const other = &panel->panel.series[i];
         num += can_hide(other, own) && do_coincide(panel, own, other, wide);
     }
-    return num < MOST_ABOVE ? num : MOST_ABOVE;
+    return more * (double)(num < MOST_ABOVE ? num : MOST_ABOVE);
 }
 
 double ps_script_line_width(const ps_script_panel *panel, size_t index) {
-    const double more = 2.2; /* of each curve above */
-    return LINE_WIDTH + more * (double)count_above(panel, index, 1);
+    return LINE_WIDTH + grow(panel, index, 2.2, 1);
 }
 
-/* What marks are larger, and rings that are curves of a single place. */
-static double find_more_size(const ps_script_panel *panel, size_t index) {
-    const double more = 0.35; /* of each mark above: rows of keys have room for rings of four */
-    const double wide = 5;    /* marks beside lines */
-    return more * (double)count_above(panel, index, wide);
+/* Of marks, and of rings that are curves of a single place: rows of keys have room for four of them
+ * on each other. Marks are wider than lines. */
+static double find_size(const ps_script_panel *panel, size_t index) {
+    const look *const how = &looks[panel->panel.series[index].look];
+    return how->size + (how->is_larger ? grow(panel, index, 0.35, 5) : 0);
 }
 
 /* ---- styles ---------------------------------------------------------------------------------- */
@@ -193,7 +192,7 @@ static void print_style(ps_text *out, const ps_script_panel *panel, size_t index
     if (has_marks) {
         ps_text_append(out, " pointtype %d pointsize %g",
                        has_signs ? signs[series->kind % NUM_SIGNS] : how->mark,
-                       how->size + (how->is_larger ? find_more_size(panel, index) : 0));
+                       find_size(panel, index));
     }
     print_width(out, panel, index);
     print_colour(out, how, kind);

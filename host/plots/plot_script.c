@@ -156,7 +156,7 @@ static ps_figure with_axes(const ps_figure *figure) {
 pspec_status ps_script_print_figure(ps_text *out, const ps_figure *asked, const char *terminal,
                                     ps_error *error) {
     static ps_script_place *const places[] = {[PS_FIGURE_SPECTRA] = ps_script_place_spectra,
-                                              [PS_FIGURE_FRAME] = ps_script_place_frames,
+                                              [PS_FIGURE_FRAME] = ps_script_place_panels,
                                               [PS_FIGURE_PANELS] = ps_script_place_panels,
                                               [PS_FIGURE_POINTS] = ps_script_place_points};
     const ps_figure figure = with_axes(asked);

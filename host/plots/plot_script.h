@@ -78,8 +78,7 @@ enum { PS_SCRIPT_WIDTH = 1000, PS_SCRIPT_HEIGHT = 700 };
 /* The pages of figures. What they have is of the pool, of the figure, or a constant. */
 typedef pspec_status ps_script_place(ps_script_page *out, ps_pool *memory, const ps_figure *figure,
                                      ps_error *error);
-ps_script_place ps_script_place_spectra, ps_script_place_frames, ps_script_place_panels,
-    ps_script_place_points;
+ps_script_place ps_script_place_spectra, ps_script_place_panels, ps_script_place_points;
 
 /* ---- texts and numbers ----------------------------------------------------------------------- */
 
