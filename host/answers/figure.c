@@ -49,10 +49,6 @@ static ps_cell find_cell(const ps_table *table, size_t row, const char *name) {
                                                       : PS_MISSING;
 }
 
-static const char *text_of(ps_cell cell) {
-    return cell.kind == PS_CELL_TEXT ? cell.text : "";
-}
-
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 /* A row of a part, the number of its question among those of its table, and its curve. */
@@ -119,7 +115,7 @@ static pspec_status find_curve(picture *self, place *own) {
     const ps_table *const table = own->part->table;
     curve found = {.part = own->part,
                    .number = own->number,
-                   .sampler = text_of(find_cell(table, own->row, "sampler")),
+                   .sampler = ps_cell_text(find_cell(table, own->row, "sampler")),
                    .panel_name = "",
                    .panel = panels != NULL ? self->num_panels : own->part->panel,
                    .kind = self->num_kinds};
@@ -127,7 +123,7 @@ static pspec_status find_curve(picture *self, place *own) {
     if (panels != NULL) {
         const ps_cell cell = find_cell(table, own->row, panels);
         found.panel_name =
-            text_of(cell.kind == PS_CELL_TEXT ? cell : ps_table_find_meta(table, panels));
+            ps_cell_text(cell.kind == PS_CELL_TEXT ? cell : ps_table_find_meta(table, panels));
     }
     for (size_t i = 0; i < self->num_curves; i++) {
         const curve *const other = &self->curves[i];

@@ -133,8 +133,9 @@ const ps_npy_array *ps_table_array(const ps_table *table, size_t i, const char *
                                    bool *is_state);
 /* NULL: there is no array of that name. */
 const ps_npy_array *ps_table_find_array(const ps_table *table, const char *name);
-/* A number, or nan. */
+/* A number, or nan; a text, or "". */
 double ps_cell_number(ps_cell cell);
+const char *ps_cell_text(ps_cell cell);
 
 /* NULL is allowed. */
 void ps_table_destroy(ps_table *table);

@@ -56,6 +56,10 @@ bool ps_cell_show_unit(char out[PS_CELL_BYTES], const char *name, double value) 
 
 /* ---- cells ------------------------------------------------------------------------------- */
 
+const char *ps_cell_text(ps_cell cell) {
+    return cell.kind == PS_CELL_TEXT ? cell.text : "";
+}
+
 double ps_cell_number(ps_cell cell) {
     return cell.kind == PS_CELL_NUMBER    ? cell.number
            : cell.kind == PS_CELL_INTEGER ? (double)cell.integer

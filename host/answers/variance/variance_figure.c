@@ -4,10 +4,6 @@
 
 #include <string.h>
 
-static const char *text_of(ps_cell cell) {
-    return cell.kind == PS_CELL_TEXT ? cell.text : "";
-}
-
 /* The exponent that the header has of the curve, where it was asked for. */
 ps_uncertain ps_variance_find_slope(const ps_table *table, const char *sampler,
                                     const char *integrand) {
@@ -16,7 +12,7 @@ ps_uncertain ps_variance_find_slope(const ps_table *table, const char *sampler,
     ps_cell found = ps_entry_of(table, block, 0, "rate_sampler");
     while (found.kind == PS_CELL_TEXT &&
            ((sampler[0] != '\0' && strcmp(found.text, sampler) != 0) ||
-            strcmp(text_of(ps_entry_of(table, block, i, "rate_integrand")), integrand) != 0)) {
+            strcmp(ps_cell_text(ps_entry_of(table, block, i, "rate_integrand")), integrand) != 0)) {
         found = ps_entry_of(table, block, ++i, "rate_sampler");
     }
     return (ps_uncertain){.value = -ps_cell_number(ps_entry_of(table, block, i, "rate")),

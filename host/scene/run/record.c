@@ -12,8 +12,7 @@ static void print_pair(const char *key, const char *value, ps_text *out) {
 }
 
 static const char *meta_text(const ps_table *table, const char *key) {
-    const ps_cell cell = ps_table_find_meta(table, key);
-    return cell.kind == PS_CELL_TEXT ? cell.text : "";
+    return ps_cell_text(ps_table_find_meta(table, key));
 }
 
 /* "(torus_nufft" of "(torus_nufft precision=single ..)". */
