@@ -1,9 +1,12 @@
-#include "scene/run/pictures.h"
+#include "scene/run/run.h"
 
 #include "base/memory.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+/* More curves than this in one frame cannot be told apart. */
+enum { MOST_CURVES = 8 };
 
 /* A picture has at most so many panels: a page of more is longer than anyone scrolls. Where panels
  * do not share their curves the key has one line for each, and room for fewer. */
@@ -38,7 +41,7 @@ static size_t find_panels(const ps_scene_result *asked, const layout *how) {
     for (size_t i = 0; i < asked->num_entries; i++) {
         const size_t num = asked->entries[i].num_values;
         const size_t num_left = how->num_curves / num;
-        if (is_free(asked, how, i) && num_left > 1 && num_left <= PS_MOST_CURVES &&
+        if (is_free(asked, how, i) && num_left > 1 && num_left <= MOST_CURVES &&
             (best == asked->num_entries || num < asked->entries[best].num_values)) {
             best = i;
         }
@@ -52,7 +55,7 @@ static size_t find_chunk(const ps_scene_result *asked, const layout *how) {
     for (size_t i = 0; i < asked->num_entries; i++) {
         num = is_free(asked, how, i) ? asked->entries[i].num_values : num;
     }
-    const size_t num_chunks = (num + PS_MOST_CURVES - 1) / PS_MOST_CURVES;
+    const size_t num_chunks = (num + MOST_CURVES - 1) / MOST_CURVES;
     return (num + num_chunks - 1) / num_chunks;
 }
 
@@ -67,11 +70,11 @@ static layout find_layout(const ps_scene_result *asked, size_t points, bool has_
         first++;
     }
     const size_t num_left = how.num_curves / count_values(asked, first);
-    if (how.num_curves > PS_MOST_CURVES && (num_left > 1 || has_singles)) {
+    if (how.num_curves > MOST_CURVES && (num_left > 1 || has_singles)) {
         how.group = first;
         how.num_curves = num_left;
     }
-    if (how.num_curves > PS_MOST_CURVES) {
+    if (how.num_curves > MOST_CURVES) {
         how.panel = find_panels(asked, &how);
         how.chunk = how.panel == none ? find_chunk(asked, &how) : 0;
     }

@@ -1,5 +1,4 @@
 /* The plan of a scene: a block for each of its questions. */
-#include "scene/run/pictures.h"
 #include "scene/run/run.h"
 
 #include <stdio.h>

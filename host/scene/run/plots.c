@@ -20,6 +20,69 @@ static const ps_table *table_of(const artist *self, size_t question) {
 
 /* ---- words ----------------------------------------------------------------------------------- */
 
+/* Values of the entries that vary, but for the number of points, that of the picture, and that of
+ * the panel. */
+static bool is_told(const ps_scene_result *asked, const ps_picture *what, size_t entry) {
+    return entry != what->group && entry != what->points && entry != what->panel &&
+           ps_run_varies(&asked->entries[entry]);
+}
+
+/* Where no entry has panels of its own, that is the one that changes fastest; the others tell
+ * panels apart. */
+static size_t find_fastest(const ps_scene_result *asked, const ps_picture *what) {
+    size_t fastest = asked->num_entries;
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        fastest = is_told(asked, what, i) ? i : fastest;
+    }
+    return fastest;
+}
+
+static void append_value(const ps_scene_result *asked, size_t question, size_t entry,
+                         ps_text *out) {
+    ps_text_append(out, "%s%s", out->length > 0 ? ", " : "",
+                   ps_scene_value_of(asked, question, entry)->label);
+}
+
+/* What tells a panel from others, the curve of a question from the others of its panel, a set of
+ * points from others, whose pictures say N themselves. */
+static void label_panel(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                        ps_text *out) {
+    const size_t fastest = find_fastest(asked, what);
+    if (what->panel < asked->num_entries) {
+        append_value(asked, question, what->panel, out);
+        return;
+    }
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        if (i != fastest && is_told(asked, what, i)) {
+            append_value(asked, question, i, out);
+        }
+    }
+}
+
+static void label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                        ps_text *out) {
+    const size_t fastest = find_fastest(asked, what);
+    const bool is_chunk = what->panel == asked->num_entries;
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        if (is_told(asked, what, i) && (what->num_panels == 1 || !is_chunk || i == fastest)) {
+            append_value(asked, question, i, out);
+        }
+    }
+}
+
+static void label_set(const ps_scene_result *asked, size_t question, ps_text *out) {
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        const ps_scene_entry *const entry = &asked->entries[i];
+        const char *const text = ps_scene_value_of(asked, question, i)->label;
+        const char *const comma = out->length > 0 ? ", " : "";
+        if (entry->option == PS_OPTION_SAMPLER) {
+            ps_text_append(out, "%s%s", comma, text);
+        } else if (entry->option != PS_OPTION_POINTS && ps_run_varies(entry)) {
+            ps_text_append(out, "%s%s %s", comma, ps_scene_key(entry), text);
+        }
+    }
+}
+
 /* The title of the result, what its questions have in common, what the picture shows. */
 static void write_title(const artist *self, const ps_picture *what, ps_text *out) {
     const ps_scene_result *const asked = self->result->asked;
@@ -32,7 +95,7 @@ static void write_title(const artist *self, const ps_picture *what, ps_text *out
     if (what->kind->dealing == PS_OF_EACH) {
         ps_run_label(self->result, first, &description);
     } else if (what->kind->dealing == PS_OF_SETS && what->num_curves == 1) {
-        ps_label_set(asked, first, &description);
+        label_set(asked, first, &description);
         ps_text_append(&description, ", N = %zu",
                        ps_table_find_array(table_of(self, first), "coordinates")->shape[1]);
     } else if (what->kind->what != NULL) {
@@ -52,12 +115,12 @@ static void write_label(const artist *self, const ps_picture *what, size_t quest
     const ps_dealing dealing = what->kind->dealing;
     size_t column = 0;
     if (dealing == PS_OF_SETS) {
-        ps_label_set(asked, question, out);
+        label_set(asked, question, out);
     } else if (dealing == PS_OF_COUNTS || what->num_panels > 1) {
-        ps_label_curve(asked, what, question, out);
+        label_curve(asked, what, question, out);
         if (out->length == 0 &&
             !ps_table_find_column(table_of(self, question), "sampler", &column)) {
-            ps_label_set(asked, question, out);
+            label_set(asked, question, out);
         } else {
             return;
         }
@@ -116,7 +179,7 @@ static pspec_status name_panels(const artist *self, const ps_picture *what, ps_p
     PS_TRY(PS_POOL_NEW(memory, &titles, what->num_panels, "a picture", self->error));
     for (size_t i = 0, begin = 0; i < what->num_panels; begin = what->ends[i++]) {
         ps_text title = {0};
-        ps_label_panel(self->result->asked, what, what->curves[begin], &title);
+        label_panel(self->result->asked, what, what->curves[begin], &title);
         PS_TRY(ps_text_keep(&titles[i], memory, &title, self->error));
     }
     chart->num_panels = what->num_panels;

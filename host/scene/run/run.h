@@ -6,7 +6,7 @@
  *     cache.c      keys and bytes of answers in the cache
  *     tables.c     tables of the results, and summaries
  *     pictures.c   which pictures there are
- *     plots.c      those pictures, drawn; labels.c has the words that tell curves apart
+ *     plots.c      those pictures, drawn, with the words that tell curves apart
  *     page.c       the page that shows them
  *     record.c     the record that repeats them
  *     files.c      names of the files that there will be
@@ -19,11 +19,49 @@
 #define PS_SCENE_RUN_RUN_H
 
 #include "answers/kind.h"
+#include "base/memory.h"
 #include "device/kind.h"
 #include "files/digest.h"
-#include "scene/run/pictures.h"
 #include "scene/scene.h"
 #include "store/result_cache.h"
+
+/* ---- which pictures a result has, and under which names -------------------------------------- */
+
+enum { PS_SUFFIX_BYTES = 96 };
+
+typedef struct ps_picture {
+    char suffix[PS_SUFFIX_BYTES]; /* of the file: NAME + suffix + .svg */
+    const ps_picture_kind *kind;
+    /* What its questions have and those of other pictures do not; NULL: there are no others */
+    const ps_scene_value *value;
+    /* Entries of the result: of that value, of the numbers of points along a line, and of the value
+     * that a panel has for itself. num_entries: none. */
+    size_t group, points, panel;
+    /* Questions, a curve each, or the first of a curve against numbers of points, those of a panel
+     * together; panel i ends before ends[i]. One panel: a frame without others. */
+    size_t num_curves, num_panels;
+    size_t *curves, *ends;
+} ps_picture;
+
+typedef struct ps_pictures {
+    size_t num, capacity;
+    ps_picture *all;
+    ps_pool memory; /* of their curves and panels */
+} ps_pictures;
+
+/* Those that the answers may lead to: of some there turns out to be nothing to draw. Known before
+ * any work, and the one list by which they are drawn. Freed by ps_pictures_free, also after an
+ * error. */
+pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked,
+                              ps_error *error) PS_MUST_CHECK;
+/* Why it has panels, and of what. */
+void ps_picture_say_panels(const ps_picture *picture, const ps_scene_result *asked, ps_text *out);
+void ps_pictures_free(ps_pictures *pictures);
+
+/* Has this entry several values? */
+bool ps_run_varies(const ps_scene_entry *entry);
+
+/* ---- a run -------------------------------------------------------------------------------- */
 
 typedef struct ps_run_question {
     ps_scene_question asked;
