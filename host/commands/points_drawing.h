@@ -3,7 +3,7 @@
 #define PS_COMMANDS_POINTS_DRAWING_H
 
 #include "answers/kind.h"
-#include "answers/points/points_picture.h"
+#include "answers/points/points.h"
 
 /* Before the work: can the picture be drawn and written, is it no other file of the request? */
 pspec_status ps_points_drawing_check(const ps_request *request, const ps_answer_hooks *hooks,
