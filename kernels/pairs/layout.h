@@ -1,5 +1,5 @@
 /* Points of a realization on the device, for kernels that go through its pairs;
- * host/engines/pairs/pairs_points.h has the same numbers.
+ * host/engines/pairs/pairs_state.h has the same numbers.
  *
  * Pairs are (i, i + k mod N) for k = 1 .. N / 2, all i: every pair once, but for k = N / 2 with N
  * even, where each comes twice and counts half. Lanes are consecutive i, so both points of LANES

@@ -3,7 +3,7 @@
 #include "harness_pairs.h"
 
 #include "engines/pairs/pairs_bins.h"
-#include "engines/pairs/pairs_degrees.h"
+#include "engines/pairs/pairs_state.h"
 
 #include <math.h>
 #include <stdlib.h>
