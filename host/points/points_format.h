@@ -87,7 +87,7 @@ struct ps_point_reader {
     uint64_t num_sets;       /* complete ones */
     size_t rows_in_set;      /* of the set that is being read */
     bool has_any_points;
-    ps_memory_room room; /* of the last time that a set of a stream grew */
+    ps_memory_share share; /* of the last time that a set grew */
 };
 
 struct ps_point_writer {

@@ -145,45 +145,35 @@ static double bytes_of(const ps_point_set *set, size_t num_points) {
     return (double)num_points * columns * (double)sizeof(double);
 }
 
-static pspec_status fail_large(const ps_point_reader *reader, const ps_point_set *set, double limit,
-                               const char *by, const char *advice, ps_error *error) {
-    char size[PS_SIZE_TEXT];
-    return ps_fail(error, PSPEC_ERROR_MEMORY,
-                   "%.440s: set %llu takes more than %s, %s, after %zu points and goes on%s",
-                   reader->input.name, (unsigned long long)reader->num_sets + 1,
-                   ps_size_show(size, limit), by, set->num_points, advice);
-}
-
 /* A stream may have no end, and its points are followed by the work: it gets half of what is free,
  * where nobody said how much it may take. Looked at when the set grows. */
-static pspec_status check_stream(ps_point_reader *reader, const ps_point_set *set, double bytes,
-                                 bool grows, ps_error *error) {
-    const double least_checked = 16 << 20; /* looking takes 0.1 ms */
-    char by[PS_MEMORY_PLACE + 32];
-    if (reader->input.can_reopen || bytes < least_checked) {
+static pspec_status check_memory(ps_point_reader *reader, const ps_point_set *set,
+                                 size_t num_points, ps_error *error) {
+    const uint64_t limit = reader->options.memory_limit;
+    const double bytes = bytes_of(set, num_points);
+    const bool grows = (double)num_points * set->dimension > (double)set->points_capacity;
+    ps_memory_share *const share = &reader->share;
+    char size[PS_SIZE_TEXT];
+    if (limit == 0 && (reader->input.can_reopen || bytes < PS_LEAST_SHARE)) {
         return PSPEC_OK;
     }
-    if (grows || reader->room.by[0] == '\0') {
+    if (grows || share->by[0] == '\0') {
         const size_t held = (set->points_capacity + set->weights_capacity) * sizeof(double);
-        ps_memory_room_find(&reader->room, held);
+        ps_memory_share_find(share, limit, held);
     }
-    const double limit = (double)reader->room.bytes / 2;
-    snprintf(by, sizeof by, "half of what %s leaves", reader->room.by);
-    return bytes <= limit
+    return bytes <= share->bytes
                ? PSPEC_OK
-               : fail_large(reader, set, limit, by, "; --memory SIZE would allow more", error);
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%.440s: set %llu takes more than %s, %s, after %zu points and goes on%s",
+                         reader->input.name, (unsigned long long)reader->num_sets + 1,
+                         ps_size_show(size, share->bytes), share->by, set->num_points,
+                         limit > 0 ? "" : "; --memory SIZE would allow more");
 }
 
 /* Room for so many points in all, if the set may have them. */
 static pspec_status reserve(ps_point_reader *reader, ps_point_set *set, size_t num_points,
                             ps_error *error) {
-    const uint64_t limit = reader->options.memory_limit;
-    const double bytes = bytes_of(set, num_points);
-    const bool grows = (double)num_points * set->dimension > (double)set->points_capacity;
-    if (limit > 0 && bytes > (double)limit) {
-        return fail_large(reader, set, (double)limit, "the limit of --memory", "", error);
-    }
-    PS_TRY(limit > 0 ? PSPEC_OK : check_stream(reader, set, bytes, grows, error));
+    PS_TRY(check_memory(reader, set, num_points, error));
     const pspec_status status = ps_points_reserve(set, num_points, error);
     if (status == PSPEC_ERROR_MEMORY && error != NULL) {
         const ps_error reason = *error;

@@ -15,36 +15,23 @@ void ps_kept_inputs_free(ps_kept_inputs *kept) {
     *kept = (ps_kept_inputs){0};
 }
 
-static pspec_status fail_large(const ps_kept_inputs *kept, const char *name, double limit,
-                               const char *by, ps_error *error) {
-    char size[PS_SIZE_TEXT];
-    return ps_fail(
-        error, PSPEC_ERROR_MEMORY,
-        "%s: %zu sets take more than %s, %s, and are kept in memory because this is read "
-        "more than once and they come but once; give a file",
-        strcmp(name, "-") == 0 ? "standard input" : name, kept->num + 1, ps_size_show(size, limit),
-        by);
-}
-
 /* As for a set of a stream (points/points_read.c): nobody knows whether it has an end. */
 static pspec_status check_room(const ps_kept_inputs *kept, const char *name, uint64_t more,
                                ps_error *error) {
-    const uint64_t least_checked = 16 << 20; /* looking takes 0.1 ms */
     const uint64_t bytes = kept->bytes + more;
-    ps_memory_room room;
-    char by[PS_MEMORY_PLACE + 32];
-    if (kept->memory_limit > 0) {
-        return bytes <= kept->memory_limit ? PSPEC_OK
-                                           : fail_large(kept, name, (double)kept->memory_limit,
-                                                        "the limit of --memory", error);
-    }
-    if (bytes / least_checked == kept->bytes / least_checked) {
+    char size[PS_SIZE_TEXT];
+    ps_memory_share share;
+    if (kept->memory_limit == 0 && bytes / PS_LEAST_SHARE == kept->bytes / PS_LEAST_SHARE) {
         return PSPEC_OK;
     }
-    ps_memory_room_find(&room, kept->bytes);
-    snprintf(by, sizeof by, "half of what %s leaves", room.by);
-    return bytes <= room.bytes / 2 ? PSPEC_OK
-                                   : fail_large(kept, name, (double)room.bytes / 2, by, error);
+    ps_memory_share_find(&share, kept->memory_limit, kept->bytes);
+    return (double)bytes <= share.bytes
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%s: %zu sets take more than %s, %s, and are kept in memory because this "
+                         "is read more than once and they come but once; give a file",
+                         strcmp(name, "-") == 0 ? "standard input" : name, kept->num + 1,
+                         ps_size_show(size, share.bytes), share.by);
 }
 
 static pspec_status copy(ps_point_set *target, const ps_point_set *set, ps_error *error) {

@@ -187,6 +187,17 @@ void ps_memory_room_find(ps_memory_room *out, uint64_t held) {
     }
 }
 
+void ps_memory_share_find(ps_memory_share *out, uint64_t typed, uint64_t held) {
+    ps_memory_room room;
+    if (typed > 0) {
+        *out = (ps_memory_share){(double)typed, "the limit of --memory"};
+        return;
+    }
+    ps_memory_room_find(&room, held);
+    out->bytes = (double)room.bytes / 2;
+    snprintf(out->by, sizeof out->by, "half of what %s leaves", room.by);
+}
+
 /* ---- sizes --------------------------------------------------------------------------------- */
 
 const char *ps_size_show(char text[PS_SIZE_TEXT], double bytes) {

@@ -61,6 +61,17 @@ typedef struct ps_memory_room {
 /* Finds the room that this machine has; what the asker holds already, and counts, is added. */
 void ps_memory_room_find(ps_memory_room *out, uint64_t held);
 
+/* What something may take of which nobody knows whether it has an end. */
+typedef struct ps_memory_share {
+    double bytes;
+    char by[PS_MEMORY_PLACE + 32]; /* "the limit of --memory", "half of what ... leaves" */
+} ps_memory_share;
+
+/* So much as somebody typed, or half of what is free where that is 0. Looking takes 0.1 ms. */
+void ps_memory_share_find(ps_memory_share *out, uint64_t typed, uint64_t held);
+/* Below this nobody looks. */
+enum { PS_LEAST_SHARE = 16 << 20 };
+
 /* Units of sizes are powers of 1024. */
 #define PS_SIZE_UNITS "KMGT"
 enum { PS_SIZE_STEP = 1024 };

@@ -14,32 +14,21 @@ enum {
     FEW_MORE = 1 << 16
 };
 
-static pspec_status fail_large(const ps_number_list *list, double limit, const char *by,
-                               ps_error *error) {
-    char size[PS_SIZE_TEXT];
-    return ps_fail(error, PSPEC_ERROR_MEMORY,
-                   "%s takes more than %s, %s, after %zu numbers and goes on", list->input->name,
-                   ps_size_show(size, limit), by, list->num_values);
-}
-
 /* Looked at when the list grows. */
 static pspec_status check_memory(const ps_number_list *list, size_t needed, ps_error *error) {
-    const double least_checked = 16 << 20; /* looking takes 0.1 ms */
     const double bytes = (double)needed * (double)sizeof(double);
-    char by[PS_MEMORY_PLACE + 32];
-    ps_memory_room room;
-    if (list->memory_limit > 0) {
-        return bytes <= (double)list->memory_limit
-                   ? PSPEC_OK
-                   : fail_large(list, (double)list->memory_limit, "the limit of --memory", error);
-    }
-    if (bytes < least_checked) {
+    char size[PS_SIZE_TEXT];
+    ps_memory_share share;
+    if (list->memory_limit == 0 && bytes < PS_LEAST_SHARE) {
         return PSPEC_OK;
     }
-    ps_memory_room_find(&room, list->capacity * sizeof(double));
-    snprintf(by, sizeof by, "half of what %s leaves", room.by);
-    return bytes <= (double)room.bytes / 2 ? PSPEC_OK
-                                           : fail_large(list, (double)room.bytes / 2, by, error);
+    ps_memory_share_find(&share, list->memory_limit, list->capacity * sizeof(double));
+    return bytes <= share.bytes
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%s takes more than %s, %s, after %zu numbers and goes on",
+                         list->input->name, ps_size_show(size, share.bytes), share.by,
+                         list->num_values);
 }
 
 pspec_status ps_number_list_reserve(ps_number_list *list, size_t num, const char *what,
