@@ -127,12 +127,9 @@ pspec_status ps_points_check(const char *const *paths, size_t num, const ps_poin
  * the reader. */
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) PS_MUST_CHECK;
-/* Reads the next set. *has_set is false at the end of the input; a file without any point is an
- * error. Errors name file, line (or set and row), value and what would be right. */
-pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
-                            ps_error *error) PS_MUST_CHECK;
-/* The same in blocks: appends at most max_points of the current set to *set. *ends_set tells that
- * the set is complete with them; at the end of the input no points come and *has_set is false. */
+/* Appends at most max_points of the current set to *set. *ends_set tells that the set is complete
+ * with them; at the end of the input no points come and *has_set is false. A file without any point
+ * is an error. Errors name file, line (or set and row), value and what would be right. */
 pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, size_t max_points,
                                   bool *has_set, bool *ends_set, ps_error *error) PS_MUST_CHECK;
 /* Points of every set, when the input tells before they come and they are really there; else 0. */

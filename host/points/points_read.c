@@ -330,15 +330,3 @@ size_t ps_points_per_set(const ps_point_reader *reader) {
 bool ps_points_can_reopen(const ps_point_reader *reader) {
     return reader->input.can_reopen;
 }
-
-pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
-                            ps_error *error) {
-    bool has_block = true;
-    bool ends_set = false;
-    set->num_points = 0;
-    while (has_block && !ends_set) {
-        PS_TRY(ps_points_next_block(reader, set, SIZE_MAX, &has_block, &ends_set, error));
-    }
-    *has_set = ends_set;
-    return PSPEC_OK;
-}

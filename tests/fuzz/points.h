@@ -28,7 +28,7 @@ typedef struct fuzz_reading {
     size_t num_sets;
 } fuzz_reading;
 
-/* By ps_points_next, or by ps_points_next_block when block_points is not 0. */
+/* Set by set, or in blocks when block_points is not 0. */
 void fuzz_read(fuzz_reading *out, const char *path, const fuzz_choices *choices,
                size_t block_points);
 void fuzz_reading_free(fuzz_reading *reading);

@@ -53,11 +53,23 @@ static void end_set(fuzz_reading *out) {
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
+static pspec_status next_set(ps_point_reader *reader, ps_point_set *set, bool *has_set,
+                             ps_error *error) {
+    bool has_block = true;
+    bool ends_set = false;
+    set->num_points = 0;
+    while (has_block && !ends_set) {
+        PS_TRY(ps_points_next_block(reader, set, SIZE_MAX, &has_block, &ends_set, error));
+    }
+    *has_set = ends_set;
+    return PSPEC_OK;
+}
+
 static void read_sets(fuzz_reading *out, ps_point_reader *reader) {
     ps_point_set set = {0};
     bool has_set = true;
     while (has_set && !out->was_cut) {
-        out->status = ps_points_next(reader, &set, &has_set, &out->error);
+        out->status = next_set(reader, &set, &has_set, &out->error);
         has_set = has_set && out->status == PSPEC_OK;
         if (has_set) {
             append(out, &set, 0);
@@ -107,7 +119,7 @@ static void check_end(fuzz_reading *out, ps_point_reader *reader) {
     ps_point_set set = {0};
     bool has_set = false;
     if (out->status == PSPEC_OK && !out->was_cut &&
-        (ps_points_next(reader, &set, &has_set, &out->error) != PSPEC_OK || has_set)) {
+        (next_set(reader, &set, &has_set, &out->error) != PSPEC_OK || has_set)) {
         fuzz_fail("something comes after the end: %s", out->error.message);
     }
     ps_point_set_free(&set);

@@ -23,6 +23,18 @@ static pspec_status append(test_points *out, const ps_point_set *set) {
     return PSPEC_OK;
 }
 
+pspec_status test_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
+                              ps_error *error) {
+    bool has_block = true;
+    bool ends_set = false;
+    set->num_points = 0;
+    while (has_block && !ends_set) {
+        PS_TRY(ps_points_next_block(reader, set, SIZE_MAX, &has_block, &ends_set, error));
+    }
+    *has_set = ends_set;
+    return PSPEC_OK;
+}
+
 /* max_points 0: whole sets. */
 static pspec_status read_step(ps_point_reader *reader, ps_point_set *set, size_t max_points,
                               bool *has_set, bool *ends_set, ps_error *error) {
@@ -30,7 +42,7 @@ static pspec_status read_step(ps_point_reader *reader, ps_point_set *set, size_t
     if (max_points > 0) {
         return ps_points_next_block(reader, set, max_points, has_set, ends_set, error);
     }
-    const pspec_status status = ps_points_next(reader, set, has_set, error);
+    const pspec_status status = test_points_next(reader, set, has_set, error);
     *ends_set = *has_set;
     return status;
 }

@@ -21,6 +21,9 @@ pspec_status test_points_read(test_points *out, const char *path, const ps_point
 pspec_status test_points_read_blocks(test_points *out, const char *path,
                                      const ps_point_options *options, size_t max_points,
                                      ps_error *error);
+/* Reads the next set. *has_set is false at the end of the input. */
+pspec_status test_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
+                              ps_error *error);
 void test_points_free(test_points *points);
 
 /* Writes num_sets sets of the same size, or says why not. columns: see ps_point_shape. */

@@ -172,7 +172,7 @@ static void separates_the_weight_column(void **state) {
     put(state, "0.5 0.25 -3\n0 0.75 1e6\n", path);
     assert_int_equal(ps_points_open(&reader, path, &weighted, &error), PSPEC_OK);
     assert_string_equal(ps_points_format(reader), "utk-text");
-    assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+    assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_OK);
     assert_true(has_set && set.has_weights && set.dimension == 2 && set.num_points == 2);
     assert_true(set.points[2] == 0 && set.points[3] == 0.75);
     assert_true(set.weights[0] == -3 && set.weights[1] == 1e6);
@@ -196,11 +196,11 @@ static void reads_standard_input_as_it_comes(void **state) {
     ps_point_set set = {0};
     bool has_set = false;
     assert_int_equal(ps_points_open(&reader, "-", &defaults, &error), PSPEC_OK);
-    assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+    assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_OK);
     assert_true(has_set && set.num_points == 2);
     assert_int_equal(write(ends[1], second, strlen(second)), strlen(second));
     close(ends[1]);
-    assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_ERROR_INPUT);
+    assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_ERROR_INPUT);
     assert_non_null(strstr(error.message, "standard input, line 5: coordinate 5 is outside"));
     ps_point_set_free(&set);
     ps_points_close(reader);

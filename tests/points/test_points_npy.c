@@ -1,7 +1,7 @@
 /* NPY arrays of points: every layout that is read, and what is refused. */
 #include <math.h>
 #include "points/points.h"
-#include "test_folder.h"
+#include "harness_points.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -90,7 +90,7 @@ static void check_layout(void **state, unsigned rank, size_t element_bytes, bool
     assert_int_equal(open_bytes(state, &file, &options, &reader, &error), PSPEC_OK);
     assert_string_equal(ps_points_format(reader), "npy");
     for (size_t m = 0; m < num_sets; m++) {
-        assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+        assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_OK);
         assert_true(has_set && set.num_points == num_points && set.dimension == d);
         for (size_t i = 0; i < num_points; i++) {
             for (unsigned j = 0; j < d; j++) {
@@ -99,7 +99,7 @@ static void check_layout(void **state, unsigned rank, size_t element_bytes, bool
             assert_true(!has_weights || set.weights[i] == value_at(m, i, d));
         }
     }
-    assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+    assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_OK);
     assert_false(has_set);
     ps_point_set_free(&set);
     ps_points_close(reader);
@@ -164,7 +164,7 @@ static void reads_every_type(void **state) {
             }
         }
         assert_int_equal(open_bytes(state, &file, &options, &reader, &error), PSPEC_OK);
-        assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+        assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_OK);
         for (size_t j = 0; j < 4; j++) {
             if (set.points[j] != cases[i / 2].expected[j]) {
                 fail_msg("%s: %.17g, not %.17g", cases[i / 2].type, set.points[j],
@@ -240,7 +240,7 @@ static void refuses_bad_arrays(void **state) {
         bool has_set = false;
         pspec_status status = open_bytes(state, &file, cases[i].options, &reader, &error);
         if (status == PSPEC_OK) {
-            status = ps_points_next(reader, &set, &has_set, &error);
+            status = test_points_next(reader, &set, &has_set, &error);
         }
         ps_point_set_free(&set);
         ps_points_close(reader);
@@ -273,7 +273,7 @@ static void survives_truncation_and_damage(void **state) {
         bool has_set = false;
         pspec_status status = open_bytes(state, &file, &wrapping, &reader, &error);
         if (status == PSPEC_OK) {
-            status = ps_points_next(reader, &set, &has_set, &error);
+            status = test_points_next(reader, &set, &has_set, &error);
         }
         assert_true(i >= good.length || status == PSPEC_ERROR_INPUT);
         ps_point_set_free(&set);
@@ -297,7 +297,7 @@ static pspec_status read_pipe(const bytes *in, size_t *num_sets, ps_error *error
     *num_sets = 0;
     pspec_status status = ps_points_open(&reader, "-", &defaults, error);
     while (status == PSPEC_OK && has_set) {
-        status = ps_points_next(reader, &set, &has_set, error);
+        status = test_points_next(reader, &set, &has_set, error);
         *num_sets += status == PSPEC_OK && has_set;
     }
     ps_point_set_free(&set);
@@ -360,7 +360,7 @@ static void fortran_order_within_memory(void **state) {
     }
     assert_int_equal(open_bytes(state, &file, &enough, &reader, &error), PSPEC_OK);
     for (size_t m = 0; m < SETS; m++) {
-        assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+        assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_OK);
         assert_true(has_set && set.num_points == POINTS);
         for (size_t i = 0; i < POINTS * COLUMNS; i++) {
             assert_true(set.points[i] == value_at(m, i / COLUMNS, i % COLUMNS));
@@ -368,7 +368,7 @@ static void fortran_order_within_memory(void **state) {
     }
     ps_points_close(reader);
     assert_int_equal(open_bytes(state, &file, &less, &reader, &error), PSPEC_OK);
-    assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_ERROR_MEMORY);
+    assert_int_equal(test_points_next(reader, &set, &has_set, &error), PSPEC_ERROR_MEMORY);
     assert_non_null(strstr(error.message, "half of 127 at most, the limit of --memory"));
     ps_points_close(reader);
     ps_point_set_free(&set);
