@@ -73,11 +73,6 @@ static bool is_stream(const char *path) {
     return path != NULL && strcmp(path, "-") == 0;
 }
 
-static bool ends_in(const char *path, const char *ending) {
-    const size_t length = strlen(path);
-    return length >= strlen(ending) && strcmp(path + length - strlen(ending), ending) == 0;
-}
-
 /* A missing folder or a lacking permission shows when the temporary file is made. */
 static pspec_status check_folder(const char *path, ps_error *error) {
     ps_output_file *file = NULL;
@@ -134,7 +129,7 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
     ps_text standard_errors = {0}; /* beside the array of --full */
     const bool is_npy = is_table && arguments->output != NULL && !is_stream(arguments->output) &&
                         (arguments->format != NULL ? strcmp(arguments->format, "npy") == 0
-                                                   : ends_in(arguments->output, ".npy"));
+                                                   : ps_text_ends_in(arguments->output, ".npy"));
     ps_request_file outputs[PS_NUM_OPTIONS + 2];
     size_t num = ps_request_outputs(outputs, arguments);
     if (is_npy) {

@@ -194,6 +194,12 @@ size_t ps_text_distance(const char *a, const char *b) {
     return row[b_length];
 }
 
+bool ps_text_ends_in(const char *text, const char *ending) {
+    const size_t length = strlen(text);
+    const size_t wanted = strlen(ending);
+    return length >= wanted && strcmp(text + length - wanted, ending) == 0;
+}
+
 int ps_text_find_word(const char *text, size_t length, const char *words) {
     int index = 0;
     for (const char *word = words; *word != '\0'; index++) {

@@ -58,6 +58,8 @@ pspec_status ps_parse_number(const char *text, const char *what, double minimum,
 pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out,
                            ps_error *error) PS_MUST_CHECK;
 
+bool ps_text_ends_in(const char *text, const char *ending);
+
 /* Which of the words, "one|two|three", these bytes are; -1: none. */
 int ps_text_find_word(const char *text, size_t length, const char *words);
 

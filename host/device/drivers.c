@@ -1,6 +1,7 @@
 #include "device/drivers.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <dirent.h>
 #include <dlfcn.h>
@@ -13,11 +14,6 @@
 static const char system_place[] = "/etc/OpenCL/vendors";
 
 enum { LINE_BYTES = 4096 }; /* of a file that names a library: Linux has no longer path */
-
-static bool ends_with(const char *text, const char *end) {
-    const size_t length = strlen(text);
-    return length >= strlen(end) && strcmp(text + length - strlen(end), end) == 0;
-}
 
 static pspec_status copy(char **out, const char *text, ps_error *error) {
     *out = strdup(text);
@@ -61,7 +57,7 @@ static pspec_status add(ps_drivers *out, const char *file, ps_error *error) {
     }
     ps_driver *const driver = &out->drivers[out->num++];
     PS_TRY(copy(&driver->file, file, error));
-    if (!ends_with(file, ".icd")) { /* the library itself */
+    if (!ps_text_ends_in(file, ".icd")) { /* the library itself */
         PS_TRY(copy(&driver->library, file, error));
         return load(driver, error);
     }
@@ -79,7 +75,7 @@ static pspec_status add_folder(ps_drivers *out, DIR *folder, ps_error *error) {
     while ((found = readdir(folder)) != NULL) {
         ps_text path = {0};
         pspec_status status = PSPEC_OK;
-        if (ends_with(found->d_name, ".icd")) {
+        if (ps_text_ends_in(found->d_name, ".icd")) {
             ps_text_append(&path, "%s/%s", out->place, found->d_name);
             status = ps_text_check(&path, error);
             if (status == PSPEC_OK) {

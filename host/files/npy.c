@@ -293,8 +293,7 @@ void ps_npy_write_header(ps_output_file *file, const char *element, unsigned ran
 
 pspec_status ps_npy_check_name(const char *option, const char *path, ps_error *error) {
     static const char ending[] = ".npy";
-    const size_t length = strlen(path);
-    return length >= strlen(ending) && strcmp(path + length - strlen(ending), ending) == 0
+    return ps_text_ends_in(path, ending)
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s writes NPY: \"%s\" does not end in %s", option, path, ending);

@@ -132,13 +132,6 @@ static pspec_status open_path(ps_output_file *file, const char *path, ps_error *
     return open_temporary(file, error);
 }
 
-/* A name that promises gzip would hold something else. */
-static bool promises_gzip(const char *path) {
-    static const char ending[] = ".gz";
-    const size_t length = strlen(path);
-    return length >= sizeof ending - 1 && strcmp(path + length - (sizeof ending - 1), ending) == 0;
-}
-
 const char *ps_output_ending(const char *path) {
     const char *const slash = strrchr(path, '/');
     const char *const name = slash != NULL ? slash + 1 : path;
@@ -157,7 +150,7 @@ pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *er
         status = ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
     } else if (path[0] == '\0') {
         status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "the name of an output is empty");
-    } else if (promises_gzip(path)) {
+    } else if (ps_text_ends_in(path, ".gz")) { /* what it promises would not be in it */
         status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "\"%s\": gzip is read, but not written; write to standard output and "
                          "pipe that through gzip",

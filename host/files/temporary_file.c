@@ -15,20 +15,18 @@
 
 /* ---- names --------------------------------------------------------------------------------- */
 
+enum { NAME_BYTES = 64 };
+
 /* What names of this machine begin with. Locks of another machine may not be seen here. */
-static void append_start(ps_text *out) {
+static void make_start(char start[NAME_BYTES]) {
     char host[256] = ""; /* POSIX machines have shorter names */
     (void)gethostname(host, sizeof host - 1);
-    ps_text_append(out, ".pointspec-%08lx-",
-                   (unsigned long)(XXH3_64bits(host, strlen(host)) & 0xffffffff));
+    snprintf(start, NAME_BYTES, ".pointspec-%08lx-",
+             (unsigned long)(XXH3_64bits(host, strlen(host)) & 0xffffffff));
 }
 
-static bool is_ours(const char *name, const char *start) {
-    static const char end[] = ".tmp";
-    const size_t length = strlen(name);
-    const size_t start_length = strlen(start);
-    return strncmp(name, start, start_length) == 0 && length > start_length + sizeof end - 1 &&
-           strcmp(name + length - (sizeof end - 1), end) == 0;
+static bool begins_with(const char *name, const char *start) {
+    return strncmp(name, start, strlen(start)) == 0;
 }
 
 /* ---- what dead processes left -------------------------------------------------------------- */
@@ -60,12 +58,6 @@ static void remove_if_dead(int folder, const char *folder_path, const char *name
     ps_text_free(&path);
 }
 
-/* "START" and the number of this process, which is not dead: its files may be without a lock where
- * one was not to be had. */
-static void append_own(ps_text *out, const char *start) {
-    ps_text_append(out, "%s%ld-", start, (long)getpid());
-}
-
 /* A folder that cannot be looked into keeps what it has. */
 static void remove_dead(const char *folder_path, const char *start, const char *own) {
     DIR *const folder = opendir(folder_path[0] != '\0' ? folder_path : ".");
@@ -73,7 +65,8 @@ static void remove_dead(const char *folder_path, const char *start, const char *
         return;
     }
     for (const struct dirent *found = readdir(folder); found != NULL; found = readdir(folder)) {
-        if (is_ours(found->d_name, start) && strncmp(found->d_name, own, strlen(own)) != 0) {
+        if (begins_with(found->d_name, start) && ps_text_ends_in(found->d_name, ".tmp") &&
+            !begins_with(found->d_name, own)) {
             remove_if_dead(dirfd(folder), folder_path, found->d_name);
         }
     }
@@ -125,24 +118,24 @@ static int create_numbered(const char *folder, const char *own, mode_t mode, cha
     return -1;
 }
 
+/* Names of this process, which is not dead, begin with its number: its files may be without a lock
+ * where one was not to be had. */
 int ps_temporary_create(const char *folder, size_t folder_length, mode_t mode, char **path) {
+    char start[NAME_BYTES];
+    char own[NAME_BYTES + 24];
     ps_text where = {0};
-    ps_text start = {0};
-    ps_text own = {0};
     int descriptor = -1;
     *path = NULL;
+    make_start(start);
+    snprintf(own, sizeof own, "%s%ld-", start, (long)getpid());
     ps_text_append_bytes(&where, folder, folder_length);
-    append_start(&start);
-    append_own(&own, ps_text_string(&start));
     errno = ENOMEM;
-    if (!where.failed && !start.failed && !own.failed) {
-        remove_dead(ps_text_string(&where), ps_text_string(&start), ps_text_string(&own));
-        descriptor = create_numbered(ps_text_string(&where), ps_text_string(&own), mode, path);
+    if (!where.failed) {
+        remove_dead(ps_text_string(&where), start, own);
+        descriptor = create_numbered(ps_text_string(&where), own, mode, path);
     }
     const int reason = errno;
     ps_text_free(&where);
-    ps_text_free(&start);
-    ps_text_free(&own);
     errno = reason;
     return descriptor;
 }
