@@ -107,6 +107,11 @@ bool ps_columns_numbers(const char *names, unsigned numbers[], unsigned most, un
     return *num > 0;
 }
 
+bool ps_columns_are_numbers(const char *names) {
+    unsigned num = 0;
+    return names != NULL && ps_columns_numbers(names, NULL, 0, &num);
+}
+
 unsigned ps_columns_told(const ps_point_options *options) {
     enum { PLANE = 2 };
     const char *const meaning =

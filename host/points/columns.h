@@ -44,6 +44,8 @@ const char *ps_columns_meaning(const char *names);
 /* Are the names numbers of columns, counted from 1? Writes the first most of them to numbers, which
  * may be NULL, and how many there are to *num. */
 bool ps_columns_numbers(const char *names, unsigned numbers[], unsigned most, unsigned *num);
+/* The same where nobody asks which; NULL are none. */
+bool ps_columns_are_numbers(const char *names);
 /* The layout that the names of columns mean, "ra,dec", "theta_deg,phi_deg,w", or NULL: static
  * storage. The latitude may come first, which *are_swapped tells. */
 const char *ps_columns_of_names(const char *names, bool *are_swapped);

@@ -47,21 +47,9 @@ static void angles_to_vector(const ps_layout *layout, const double *row, double 
 
 static void angles_to_angles(const ps_layout *layout, const double *row, double *angles) {
     const double unit = layout->in_degrees ? DEGREE : 1;
-    switch (layout->angles) {
-    case PS_LON_LAT:
-        angles[0] = (90 - row[1]) * unit;
-        angles[1] = row[0] * unit;
-        break;
-    case PS_PHI_THETA:
-        angles[0] = row[1] * unit;
-        angles[1] = row[0] * unit;
-        break;
-    case PS_THETA_PHI:
-    case PS_NO_ANGLES:
-        angles[0] = row[0] * unit;
-        angles[1] = row[1] * unit;
-        break;
-    }
+    const double theta = row[layout->angles != PS_THETA_PHI]; /* or the latitude */
+    angles[0] = (layout->angles == PS_LON_LAT ? 90 - theta : theta) * unit;
+    angles[1] = row[layout->angles == PS_THETA_PHI] * unit;
 }
 
 void ps_columns_split(const ps_layout *layout, const double *rows, size_t num, double *points,

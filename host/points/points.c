@@ -162,8 +162,7 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
 static pspec_status check_chosen(const ps_point_reader *reader, bool may_have_names,
                                  ps_error *error) {
     const char *const names = reader->options.column_names;
-    unsigned num = 0;
-    const bool are_numbers = names != NULL && ps_columns_numbers(names, NULL, 0, &num);
+    const bool are_numbers = ps_columns_are_numbers(names);
     if (names == NULL || may_have_names || (are_numbers && reader->format == &ps_format_npy)) {
         return PSPEC_OK;
     }

@@ -29,13 +29,6 @@ static bool says(const char *option, const char *word) {
     return option != NULL && strcmp(option, word) == 0;
 }
 
-/* Are columns chosen by their numbers? */
-static bool are_numbers(const ps_point_options *options) {
-    unsigned num = 0;
-    return options->column_names != NULL &&
-           ps_columns_numbers(options->column_names, NULL, 0, &num);
-}
-
 /* Is the first line one of names? */
 static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_error *error) {
     ps_text_state *const state = reader->state;
@@ -44,7 +37,8 @@ static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_erro
     const bool is_numbered = ps_text_header_is_numbered(line, state->separator);
     bool are_labels = false;
     *is_there = ps_text_header_is(line, state->separator) || says(options->header, "yes") ||
-                (is_numbered && options->column_names != NULL && !are_numbers(options));
+                (is_numbered && options->column_names != NULL &&
+                 !ps_columns_are_numbers(options->column_names));
     if (says(options->header, "no")) {
         *is_there = false;
     } else if (!*is_there && is_numbered) {
@@ -85,7 +79,7 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
     const char *const numbers = reader->options.column_names;
     const char *const row = state->lines.cursor;
     char where[PS_PLACE_BYTES];
-    if (numbers != NULL && !are_numbers(&reader->options)) {
+    if (numbers != NULL && !ps_columns_are_numbers(numbers)) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: --columns names columns (%s), and the first line has no names; columns "
                        "by number are --columns 1,2",

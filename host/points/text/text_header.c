@@ -321,7 +321,6 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
     const char *const names = choice->names;
     const char *const select = choice->select;
     ps_field found[PS_MOST_FILE_COLUMNS];
-    unsigned num_numbers = 0;
     *out = (ps_text_header){.is_there = true};
     PS_TRY(ps_row_filter_find(&out->filter, line, separator, choice, where, error));
     const char part = ps_text_header_line_separator(out, row, separator);
@@ -331,7 +330,7 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
         out->places[i] = -1;
     }
     const bool is_chosen_by_number = names != NULL && !are_among(found, out->num_columns, names) &&
-                                     ps_columns_numbers(names, NULL, 0, &num_numbers);
+                                     ps_columns_are_numbers(names);
     if (is_chosen_by_number) {
         /* which names are theirs is not clear where one is missing */
         PS_TRY(choose_numbered(out, out->lacks_name ? NULL : found, names, where, error));
