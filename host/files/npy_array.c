@@ -7,13 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void print_list(char *text, size_t size, unsigned num, const size_t *numbers) {
+const char *ps_npy_show(unsigned num, const size_t *numbers, char text[PS_NPY_PLACE_BYTES]) {
+    const size_t size = PS_NPY_PLACE_BYTES;
     size_t length = (size_t)snprintf(text, size, "(");
     for (unsigned i = 0; i < num; i++) {
         length +=
             (size_t)snprintf(text + length, size - length, "%s%zu", i > 0 ? ", " : "", numbers[i]);
     }
     snprintf(text + length, size - length, num == 1 ? ",)" : ")");
+    return text;
 }
 
 const char *ps_npy_place(const ps_npy_array *array, size_t i, char text[PS_NPY_PLACE_BYTES]) {
@@ -22,13 +24,12 @@ const char *ps_npy_place(const ps_npy_array *array, size_t i, char text[PS_NPY_P
         place[axis] = i % array->shape[axis];
         i /= array->shape[axis];
     }
-    print_list(text, PS_NPY_PLACE_BYTES, array->rank, place);
-    return text;
+    return ps_npy_show(array->rank, place, text);
 }
 
 const char *ps_npy_shape(const ps_npy_array *array, char text[PS_NPY_SHAPE_BYTES]) {
     const size_t length = (size_t)snprintf(text, PS_NPY_SHAPE_BYTES, "an array of shape ");
-    print_list(text + length, PS_NPY_SHAPE_BYTES - length, array->rank, array->shape);
+    ps_npy_show(array->rank, array->shape, text + length);
     return text;
 }
 

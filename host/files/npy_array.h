@@ -27,8 +27,10 @@ size_t ps_npy_num_doubles(const ps_npy_array *array);
 pspec_status ps_npy_write_array(const char *path, const ps_npy_array *array,
                                 ps_error *error) PS_MUST_CHECK;
 
-/* Place i of the array as "(3, 0)", counted from 0. */
+/* Numbers of axes as Python shows them, "(3, 4)" and "(3,)". */
 enum { PS_NPY_PLACE_BYTES = PS_NPY_MAX_RANK * 22 + 4 };
+const char *ps_npy_show(unsigned num, const size_t *numbers, char text[PS_NPY_PLACE_BYTES]);
+/* Place i of the array so, counted from 0. */
 const char *ps_npy_place(const ps_npy_array *array, size_t i, char text[PS_NPY_PLACE_BYTES]);
 /* "an array of shape (3, 4)" */
 enum { PS_NPY_SHAPE_BYTES = PS_NPY_PLACE_BYTES + 24 };

@@ -3,8 +3,7 @@
  * so an array (N, c) in Fortran order lies in the file. openquad is such an array, of theta, phi
  * and perhaps weights. Set and row are counted from 1. */
 #include "base/memory.h"
-#include "base/text.h"
-#include "files/npy.h"
+#include "files/npy_array.h"
 #include "points/points_format.h"
 
 #include <stdlib.h>
@@ -31,14 +30,9 @@ typedef struct npy_state {
 
 static pspec_status fail_shape(const ps_point_reader *reader, const char *what, ps_error *error) {
     const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
-    ps_text shape = {0};
-    for (unsigned axis = 0; axis < header->rank; axis++) {
-        ps_text_append(&shape, "%s%zu", axis > 0 ? ", " : "", header->shape[axis]);
-    }
-    ps_fail(error, PSPEC_ERROR_INPUT, "%s: an array of shape (%s): %s", reader->input.name,
-            ps_text_string(&shape), what);
-    ps_text_free(&shape);
-    return PSPEC_ERROR_INPUT;
+    char shape[PS_NPY_PLACE_BYTES];
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: an array of shape %s: %s", reader->input.name,
+                   ps_npy_show(header->rank, header->shape, shape), what);
 }
 
 /* The columns are points, or would have to be: do the options or the first column tell? */
