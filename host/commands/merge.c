@@ -4,35 +4,29 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-#include <stdlib.h>
-
 typedef struct parts {
     size_t num;
-    ps_table **tables; /* [num] */
-    ps_text *names;    /* [num], in quotes */
-    const char **said; /* [num], the same */
+    ps_table **tables;  /* [num] */
+    const char **names; /* [num], in quotes */
+    ps_pool memory;     /* of these */
 } parts;
 
 static void discard(parts *self) {
     for (size_t i = 0; i < self->num; i++) {
         ps_table_destroy(self->tables[i]);
-        ps_text_free(&self->names[i]);
     }
-    free(self->tables);
-    free(self->names);
-    free(self->said);
+    ps_pool_free(&self->memory);
 }
 
 static pspec_status load(parts *self, const ps_request *request, ps_error *error) {
     const size_t num = request->num_files;
-    PS_TRY(PS_NEW(&self->tables, num, "answers", error));
-    PS_TRY(PS_NEW(&self->names, num, "answers", error));
-    PS_TRY(PS_NEW(&self->said, num, "answers", error));
+    PS_TRY(PS_POOL_NEW(&self->memory, &self->tables, num, "answers", error));
+    PS_TRY(PS_POOL_NEW(&self->memory, &self->names, num, "answers", error));
     self->num = num;
     for (size_t i = 0; i < num; i++) {
-        ps_text_append(&self->names[i], "\"%s\"", request->files[i]);
-        PS_TRY(ps_text_check(&self->names[i], error));
-        self->said[i] = ps_text_string(&self->names[i]);
+        ps_text name = {0};
+        ps_text_append(&name, "\"%s\"", request->files[i]);
+        PS_TRY(ps_text_keep(&self->names[i], &self->memory, &name, error));
         PS_TRY(ps_table_read_npz(&self->tables[i], request->files[i], error));
     }
     return PSPEC_OK;
@@ -40,7 +34,7 @@ static pspec_status load(parts *self, const ps_request *request, ps_error *error
 
 static pspec_status merge(ps_answer *out, parts *self, const ps_request *request, ps_error *error) {
     PS_TRY(load(self, request, error));
-    const ps_parts all = {(const ps_table *const *)self->tables, self->said, self->num,
+    const ps_parts all = {(const ps_table *const *)self->tables, self->names, self->num,
                           request->command_line};
     return ps_answer_merge(out, &all, error);
 }

@@ -353,7 +353,8 @@ pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_fo
     } else if (format == PS_FORMAT_TEXT) {
         PS_TRY_OUT(status, ps_table_write_text(table, ps_output_stream(file), error));
     } else {
-        ps_table_write_csv(table, ps_output_stream(file));
+        ps_table_write_csv_head(table, ps_output_stream(file));
+        ps_table_write_csv_rows(table, 0, ps_output_stream(file));
     }
     return ps_output_commit(&file, error);
 out:

@@ -101,6 +101,25 @@ pspec_status ps_table_choose_format(ps_table_format *out, const char *name, cons
  * NPY of a table with text columns is refused, with the column named. */
 pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_format format,
                             ps_error *error) PS_MUST_CHECK;
+
+/* ---- tables whose rows come over minutes: as CSV on standard output every row is there as soon as
+ * it is known; files, and other formats, are written at the end, as ps_table_write does */
+
+typedef struct ps_table_stream ps_table_stream;
+
+/* The table has its header lines; it belongs to the caller and stays until the stream is closed or
+ * discarded. */
+pspec_status ps_table_stream_open(ps_table_stream **out, const ps_table *table, const char *path,
+                                  ps_table_format format, ps_error *error) PS_MUST_CHECK;
+/* Shows the rows that were added since. */
+pspec_status ps_table_stream_update(ps_table_stream *stream, ps_error *error) PS_MUST_CHECK;
+/* Writes what is left. The handle is freed in every case and *stream set to NULL. */
+pspec_status ps_table_stream_close(ps_table_stream **stream, ps_error *error) PS_MUST_CHECK;
+/* A NULL handle is allowed. */
+void ps_table_stream_discard(ps_table_stream **stream);
+
+/* ---- NPZ files ------------------------------------------------------------------------------- */
+
 /* The table as arrays of an NPZ file that may have others, none of the name of a column; the header
  * is called so. */
 #define PS_TABLE_META "meta"

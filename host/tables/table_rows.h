@@ -50,18 +50,14 @@ struct ps_table {
     ps_text_view view;
 };
 
-/* Both write to a stream, whose errors the caller checks. */
+/* All write to a stream, whose errors the caller checks. */
 /* Header lines and column names; rows from first_row on. */
 void ps_table_write_csv_head(const ps_table *table, FILE *stream);
 void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream);
-void ps_table_write_csv(const ps_table *table, FILE *stream);
 /* A line for the head, and one for each row. */
 void ps_table_write_jsonl(const ps_table *table, FILE *stream);
-/* For people: all of it, and its parts: header lines, with how many entries they have, and columns
- * side by side. */
+/* For people: all of it, and its columns side by side. */
 pspec_status ps_table_write_text(const ps_table *table, FILE *stream,
-                                 ps_error *error) PS_MUST_CHECK;
-pspec_status ps_table_write_head(const ps_table *table, size_t *num_shown, FILE *stream,
                                  ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_write_columns(const ps_table *table, FILE *stream,
                                     ps_error *error) PS_MUST_CHECK;

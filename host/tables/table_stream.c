@@ -1,5 +1,3 @@
-#include "tables/table_stream.h"
-
 #include "base/memory.h"
 #include "files/output_file.h"
 #include "tables/table_rows.h"

@@ -85,11 +85,6 @@ void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stre
     }
 }
 
-void ps_table_write_csv(const ps_table *table, FILE *stream) {
-    ps_table_write_csv_head(table, stream);
-    ps_table_write_csv_rows(table, 0, stream);
-}
-
 /* ---- JSON ---- */
 
 static void print_json_text(const char *text, FILE *stream) {

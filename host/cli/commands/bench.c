@@ -5,7 +5,6 @@
 #include "cli/commands/bench_scenes.h"
 #include "request/options.h"
 #include "store/figures_file.h"
-#include "tables/table_stream.h"
 #include "verify/bench/bench.h"
 
 #include <math.h>

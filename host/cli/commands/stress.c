@@ -1,7 +1,6 @@
 /* pointspec stress: the numerical stability suite on this device. */
 #include "answers/output_check.h"
 #include "cli/command.h"
-#include "tables/table_stream.h"
 #include "verify/stress.h"
 
 #include <stdio.h>
