@@ -61,6 +61,9 @@ typedef struct ps_integrand_kind {
     void (*factors)(const ps_integrand *, const int32_t *vectors, size_t num, double *factors);
     /* sum_m |F_lm|^2 for l = 0 .. max_degree. NULL: not on the sphere. */
     pspec_status (*degrees)(const ps_integrand *, size_t max_degree, double *powers, ps_error *);
+    /* F_lm of 0 <= m <= l <= max_degree: re, im at index m (2 max_degree + 1 - m)/2 + l. NULL:
+     * not on the sphere, or known by its squares alone. */
+    pspec_status (*coefficients)(const ps_integrand *, size_t max_degree, double *out, ps_error *);
     /* F at num points, [num][dimension] coordinates in [0,1) or unit vectors. */
     void (*values)(const ps_integrand *, const double *points, size_t num, double *values);
     /* Of values that may fail, which then are nan, and are asked for by one thread: why, or status

@@ -28,10 +28,11 @@
 #define BIT PS_COMMAND_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
-#define SETS (SPECTRA | BIT(quadrature) | BIT(check))
+#define RULES (BIT(quadrature) | BIT(shade))
+#define SETS (SPECTRA | RULES | BIT(check))
 #define READERS (SETS | BIT(variance))
-#define LOBES (BIT(quadrature) | BIT(truncation))
-#define SERIES (SPECTRA | BIT(quadrature) | BIT(variance))
+#define LOBES (RULES | BIT(truncation))
+#define SERIES (SPECTRA | RULES | BIT(variance))
 #define ENGINES READERS
 #define PICTURES (SPECTRA | LOBES | BIT(variance))
 #define SUITES (BIT(bench) | BIT(stress))

@@ -50,13 +50,15 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            "points of files, with commas or patterns as in bnot=b1.dat,b2*.dat: "
                            "realizations of one average, a curve NAME beside those of samplers",
                        .set = ps_add_set, .maximum = PS_MAX_SAMPLERS},
-    [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
+    [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"),
+                             OF(BIT(variance) | BIT(shade), 0),
                              .help = "what is integrated, see Integrands",
                              TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
-        {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
-         .help = "random shifts, on the sphere rotations, of every set that is "
-                 "measured (default 1; of a single set in files 100; 0: nothing is measured)",
+        {NAMED("shifts", 0, "S"), OF(BIT(variance) | BIT(shade), 0),
+         .help = "{shade:orientations of every set (default 1000, of all sets together)}{:random "
+                 "shifts, on the sphere rotations, of every set that is measured (default 1; of a "
+                 "single set in files 100; 0: nothing is measured)}",
          COUNT(num_shifts), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_IN_PLACE] = {NAMED("in-place", 0, NULL), OF(BIT(variance), 0),
                             .help = "measure sets where they are, without shifts; the prediction "
@@ -107,12 +109,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                          "{check:2 N^(1/d)}{:ceil(5 N^(1/d)) for d <= 3})",
                                  .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
-    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"),
-                              OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
-                              .help =
-                                  "the largest degree (default {truncation:20}{quadrature:at most "
-                                  "ceil(4 sqrt N)}{:ceil(4 sqrt N)})",
-                              .set = ps_set_max_degree},
+    [PS_OPTION_MAX_DEGREE] =
+        {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
+         .help = "the largest degree (default {truncation:20}{quadrature:at most "
+                 "ceil(4 sqrt N)}{shade:that of the light, at most 256}{:ceil(4 sqrt N)})",
+         .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
                           OF(ENGINES | BIT(sample), BIT(convert) | BIT(run)),
                           .help = "what points and the engine may take, as in 400M or 2G; it "
@@ -173,7 +174,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), .source = PS_OF_SAMPLERS,
                               OF(SETS | BIT(sample), 0),
                               .help = "{power:shift every realization by one random vector, mod 1}"
-                                      "{angular,pairs,quadrature:rotate every realization by "
+                                      "{angular,pairs,quadrature,shade:rotate every realization by "
                                       "one random rotation}{:shift every realization by one "
                                       "random vector, mod 1; points of the sphere are rotated}",
                               FLAG(homogenize)},
@@ -183,7 +184,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                    "--columns has, else all 1)",
                            .set = ps_set_weights, .offset = offsetof(ps_request, weights.path),
                            .input = ps_input_of_weights},
-    [PS_OPTION_WEIGHT_SUM] = {NAMED("weight-sum", 0, "free|one"), OF(BIT(quadrature), 0),
+    [PS_OPTION_WEIGHT_SUM] = {NAMED("weight-sum", 0, "free|one"), OF(RULES, 0),
                               .help = "of --weights optimal: those that make the error smallest, "
                                       "or those that do among weights whose sum is 1 (default "
                                       "free)",
@@ -237,24 +238,22 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                "those in [0,1)",
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
-                                     OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance),
-                                        BIT(convert)),
+                                     OF(SPHERES | RULES | BIT(check) | BIT(variance), BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
-                        OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance), BIT(convert)),
+                        OF(SPHERES | RULES | BIT(check) | BIT(variance), BIT(convert)),
                         .help = "points (x, y) of the plane become points of the sphere, z = 2x - "
                                 "1 or z = x, phi = 2 pi y, as by lift= of samplers",
                         .set = ps_set_lift},
-    [PS_OPTION_MORPH] = {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"),
-                         .source = PS_OF_FILES,
-                         OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
-                         .help =
-                             "points lifted to the hemisphere take the density of a lobe, as "
-                             "by morph= of samplers (default {quadrature:that of --brdf}{:none})",
-                         .set = ps_set_morph},
-    [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
+    [PS_OPTION_MORPH] =
+        {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"), .source = PS_OF_FILES,
+         OF(SPHERES | RULES | BIT(check), BIT(convert)),
+         .help = "points lifted to the hemisphere take the density of a lobe, as "
+                 "by morph= of samplers (default {quadrature,shade:that of --brdf}{:none})",
+         .set = ps_set_morph},
+    [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(RULES, 0),
                               .help = "leave points below the horizon out where the lobe "
                                       "ends there",
                               FLAG(drop_below_horizon)},
@@ -276,7 +275,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_TOLERANCE] =
         {NAMED("tol", 0, "T"), OF(ENGINES, 0),
          .help = "largest error, above 0 and at most 1, of {pairs:Q(l) over (sum "
-                 "|w|)^2 (default 1e-6)}{quadrature:E^2 over c (sum |w|)^2 (default "
+                 "|w|)^2 (default 1e-6)}{quadrature,shade:E^2 over c (sum |w|)^2 (default "
                  "1e-10)}{:S relative to white noise (default 1e-6)}",
          SHARE(accuracy.tolerance)},
     [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),

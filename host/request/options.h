@@ -16,6 +16,7 @@
     KIND(quadrature)                                                                               \
     KIND(truncation)                                                                               \
     KIND(variance)                                                                                 \
+    KIND(shade)                                                                                    \
     PLANNED(sample)                                                                                \
     PLANNED(convert)                                                                               \
     KIND(check)                                                                                    \

@@ -46,6 +46,9 @@ static const char *const questions[] = {
     "weights-out=w.npy",
     "quadrature files=near.txt brdf=diffuse weights=optimal drop-below-horizon max-degree=2",
     "truncation brdf=glossy:n=4 max-degree=2",
+    "shade sampler=white-hemisphere sampler=fibonacci-hemisphere points=4,8 brdf=diffuse "
+    "integrand=coefficients:file=light.txt shifts=3",
+    "shade files=above.txt brdf=diffuse integrand=map:file=light.pfm shifts=3",
     "check against=saved.npz sampler=white seed=1",
     "check against=saved.npz files=saved.npz engine=default",
     "check against=sphere.npz sampler=white-sphere",
@@ -256,6 +259,9 @@ static void write_corner(void) {
 
 static void fields_are_declared(void **state) {
     (void)state;
+    write_file("light.txt", "0,0,1,0\n1,0,1,0\n");
+    write_file("above.txt", "0 0 1\n0.6 0 0.8\n#\n0 0 1\n");
+    write_file("light.pfm", "Pf 1 1 -1\nABC<");
     write_file("points.txt", "0.1 0.2\n0.3 0.9\n0.8 0.4\n");
     write_file("unequal.txt", "0.1 0.2\n0.3 0.9\n0.8 0.4\n#\n0.5 0.1\n");
     write_file("a.xyz", "2\nLattice=\"2 0 0 0 1 0 0 0 1\"\nAr 0 .1 .5\nKr .1 .9 .1\n");

@@ -1,149 +1,31 @@
 /* Quadrature spectrum and worst-case error of rules for a BRDF. */
 #include "answers/quadrature/quadrature_table.h"
+#include "answers/quadrature/rule_list.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "points/lists/weight_list.h"
-#include "request/file_list.h"
-#include "request/point_source.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* One rule, or one mean over realizations, for each sampler or set and number of points, or one for
- * the files, as the request counts them. Questions borrow from the request, and from here. */
+/* One rule, or one mean over realizations, for each question. */
 typedef struct rules {
-    ps_brdf *brdf;
-    size_t num;
-    ps_quadrature_question *questions; /* [num] */
-    ps_sampler_request *requests;      /* [num] */
-    ps_file_list *files;               /* [num] */
+    ps_rule_list list;
     ps_device *device;        /* of all of them, where they share one that was opened for them */
-    ps_quadrature_job **jobs; /* [num] */
+    ps_quadrature_job **jobs; /* [list.num] */
 } rules;
 
-/* ---- the question -------------------------------------------------------------------------- */
-
-/* This tolerance is for E^2: good rules of many points have an E^2 of 1e-7 and less. */
-static const double TOLERANCE = 1e-10;
-
-static pspec_status check_source(const ps_request *arguments, ps_error *error) {
-    if (arguments->brdf == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");
-    }
-    PS_TRY(ps_sources_check(arguments, "no rule", error));
-    PS_TRY(ps_point_options_check(arguments, error));
-    return ps_option_pairs_check(arguments, PS_COMMAND_quadrature, error);
-}
-
-static pspec_status check_weights(const ps_request *arguments, ps_error *error) {
-    if (arguments->is_given[PS_OPTION_WEIGHT_SUM] &&
-        arguments->weights.kind != PS_WEIGHTS_OPTIMAL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s is about --weights optimal, which was not given",
-                       ps_option_show(arguments, PS_OPTION_WEIGHT_SUM).text);
-    }
-    PS_TRY(ps_weights_check_counts(arguments, error));
-    return (arguments->weights_out != NULL || arguments->wants_array) &&
-                   (ps_request_num_questions(arguments) > 1 ||
-                    ps_num_realizations_asked(arguments) > 1)
-               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has the weights of one rule, but several samplers, sets, numbers of "
-                         "points or realizations were asked for",
-                         arguments->wants_array ? "arrays" : "--weights-out")
-               : PSPEC_OK;
-}
-
-/* Points of the hemisphere get the density of the lobe, unless morph= says otherwise. */
-static pspec_status make_request(ps_sampler_request *request, const ps_request *arguments,
-                                 size_t index, const ps_brdf *brdf, ps_error *error) {
-    const char *const name = ps_request_sampler(arguments, index);
-    PS_TRY(ps_sampler_request_make(request, arguments, index, error));
-    if (!ps_sampler_is_on_sphere(request)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--sampler %s makes points of the torus; " PS_LIFT_KEY
-                       "=hemisphere takes them to directions",
-                       name);
-    }
-    const bool on_hemisphere = ps_sampler_is_on_hemisphere(request);
-    if (!on_hemisphere && !arguments->drop_below_horizon && !ps_brdf_is_below_horizon(brdf)) {
-        return ps_fail(
-            error, PSPEC_ERROR_INVALID_ARGUMENT,
-            "--sampler %s makes points of the whole sphere, half of them below the "
-            "horizon, where this BRDF is 0; fibonacci-hemisphere, white-hemisphere and " PS_LIFT_KEY
-            "=hemisphere make none there",
-            name);
-    }
-    if (on_hemisphere && !request->has_morph) {
-        request->morph = ps_brdf_morph(brdf);
-    }
-    return PSPEC_OK;
-}
-
-static ps_quadrature_question make_question(const ps_request *arguments, const ps_brdf *brdf) {
-    ps_quadrature_question out = {
-        .brdf = brdf,
-        .smoothness = arguments->smoothness,
-        .weights = arguments->weights,
-        .keeps_weights = arguments->weights_out != NULL || arguments->wants_array,
-        .point_options = ps_point_options_make(arguments),
-        .drops_below_horizon = arguments->drop_below_horizon,
-        .max_degree = (size_t)arguments->max_degree,
-        .accuracy = arguments->accuracy,
-        .limits = arguments->limits,
-    };
-    if (!arguments->is_given[PS_OPTION_TOLERANCE]) {
-        out.accuracy.tolerance = TOLERANCE;
-    }
-    out.point_options.domain = PS_DOMAIN_SPHERE;
-    out.point_options.above_horizon =
-        !arguments->drop_below_horizon && !ps_brdf_is_below_horizon(brdf);
-    if (arguments->reading.lift == PS_LIFT_TO_HEMISPHERE && !arguments->reading.has_morph) {
-        out.point_options.morph = ps_brdf_morph(brdf); /* as of samplers */
-    }
-    return out;
-}
-
-static pspec_status fill_points(rules *self, size_t index, const ps_request *arguments,
-                                ps_error *error) {
-    ps_quadrature_question *const out = &self->questions[index];
-    out->paths = self->files[index].paths;
-    out->num_paths = self->files[index].num;
-    if (out->num_paths > 0) {
-        return PSPEC_OK;
-    }
-    out->sampler = &self->requests[index];
-    out->num_realizations = ps_num_realizations_asked(arguments);
-    return make_request(&self->requests[index], arguments, index, self->brdf, error);
-}
-
-/* Checks that the options fit together. */
 static pspec_status ask(rules *self, const ps_request *arguments, ps_error *error) {
-    const size_t num = ps_request_num_questions(arguments);
-    PS_TRY(check_source(arguments, error));
-    PS_TRY(check_weights(arguments, error));
-    PS_TRY(ps_brdf_parse(&self->brdf, arguments->brdf, error));
-    PS_TRY(PS_NEW(&self->questions, num, "questions", error));
-    PS_TRY(PS_NEW(&self->requests, num, "questions", error));
-    PS_TRY(PS_NEW(&self->jobs, num, "jobs", error));
-    self->num = num;
-    PS_TRY(ps_file_lists_make(&self->files, arguments, error));
-    for (size_t i = 0; i < num; i++) {
-        self->questions[i] = make_question(arguments, self->brdf);
-        PS_TRY(fill_points(self, i, arguments, error));
-    }
-    return PSPEC_OK;
+    PS_TRY(ps_rule_list_make(&self->list, arguments, PS_COMMAND_quadrature, error));
+    return PS_NEW(&self->jobs, self->list.num, "jobs", error);
 }
 
 static void release(rules *self) {
-    for (size_t i = 0; i < self->num; i++) {
+    for (size_t i = 0; self->jobs != NULL && i < self->list.num; i++) {
         ps_quadrature_job_destroy(self->jobs[i]);
     }
     free(self->jobs);
-    ps_brdf_destroy(self->brdf);
-    free(self->questions);
-    free(self->requests);
-    ps_file_lists_free(self->files, self->num);
+    ps_rule_list_free(&self->list);
     ps_device_close(self->device);
 }
 
@@ -198,8 +80,8 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
     rules self = {0};
     pspec_status status = ask(&self, request, error);
-    for (size_t i = 0; status == PSPEC_OK && i < self.num; i++) {
-        status = plan_one(planner, request, &self.questions[i], i, error);
+    for (size_t i = 0; status == PSPEC_OK && i < self.list.num; i++) {
+        status = plan_one(planner, request, &self.list.questions[i], i, error);
     }
     release(&self);
     return status;
@@ -243,11 +125,12 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     PS_TRY(ps_allocate(out, 1, sizeof(rules), "rules", error));
     rules *const self = *out;
     PS_TRY(ask(self, request, error));
-    PS_TRY(ps_answer_open_device(&self->device, request, &self->questions[0].limits.constraints,
-                                 self->num, hooks, error));
-    for (size_t i = 0; i < self->num; i++) {
-        self->questions[i].open_device = self->device;
-        PS_TRY(run_one(&self->jobs[i], &self->questions[i], hooks, error));
+    PS_TRY(ps_answer_open_device(&self->device, request,
+                                 &self->list.questions[0].limits.constraints, self->list.num, hooks,
+                                 error));
+    for (size_t i = 0; i < self->list.num; i++) {
+        self->list.questions[i].open_device = self->device;
+        PS_TRY(run_one(&self->jobs[i], &self->list.questions[i], hooks, error));
     }
     return PSPEC_OK;
 }
@@ -263,7 +146,7 @@ static pspec_status add_weights(ps_table *table, const ps_quadrature_result *res
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const rules *const self = computed;
-    PS_TRY(ps_quadrature_table(&out->table, request, self->jobs, self->num, error));
+    PS_TRY(ps_quadrature_table(&out->table, request, self->jobs, self->list.num, error));
     return request->wants_array || request->weights_out != NULL
                ? add_weights(out->table, &self->jobs[0]->result, error)
                : PSPEC_OK;
@@ -326,7 +209,7 @@ static const ps_picture_kind pictures[] = {
     PS_PICTURE_OF_DEGREES("-e2", "share of the squared error", "e2", "degree l", "{/*1.35 e_l^2}"),
     {.make = NULL}};
 
-static const ps_field_row own_fields[] = {
+const ps_field_row ps_fields_rules[] = {
     {"weights", "", PS_ENTRY, 0, "", "equal, optimal, or where they come from"},
     {"degrees", "", PS_ENTRIES, 0, "where there is something to say", "why the degrees end at L"},
     {"dropped_below_horizon", "", PS_ENTRIES, 0, "--drop-below-horizon",
@@ -346,6 +229,9 @@ static const ps_field_row own_fields[] = {
     {"duplicates", "", PS_ENTRIES, 0, "--weights optimal", "how many points are equal to others"},
     {"warning", "", PS_ENTRIES, 0, "--weights optimal",
      "that points lie too near each other for weights of four digits"},
+    {.name = NULL}};
+
+static const ps_field_row own_fields[] = {
     {"degree", "", PS_COLUMN, 0, "", "l"},
     {"b", "", PS_COLUMN, 0, "", "b_l, coefficient of the lobe"},
     {"d2", "", PS_COLUMN, 0, "", "mean of d_l^2, what the heights of the points do wrong"},
@@ -359,8 +245,8 @@ static const ps_field_row own_fields[] = {
      "weights of the only rule, float64 [N]; points that were dropped have 0"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
-                                             ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points,   ps_fields_rules,
+                                             own_fields,      ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {
     {"worst_case_error", "worst_case_error_standard_error", true, ps_compared_rule_bound},

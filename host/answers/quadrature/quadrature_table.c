@@ -192,18 +192,29 @@ static bool have_ranges(ps_quadrature_job *const *jobs, size_t num) {
     return i < num;
 }
 
+pspec_status ps_quadrature_begin_header(ps_table *table, const ps_request *arguments,
+                                        const ps_quadrature_question *question, ps_error *error) {
+    return add_question(table, arguments, question, error);
+}
+
+pspec_status ps_quadrature_add_header(ps_table *table, const ps_request *arguments, size_t question,
+                                      const ps_quadrature_job *job, bool with_range,
+                                      ps_error *error) {
+    const ps_quadrature_result *const result = &job->result;
+    PS_TRY(ps_lead_add_source(table, arguments, question, error));
+    PS_TRY(add_facts(table, job, with_range, error));
+    PS_TRY(add_look(table, arguments->accuracy.standard_error, result, error));
+    PS_TRY(add_answer(table, result, error));
+    return add_condition(table, &result->facts, error);
+}
+
 static pspec_status fill(ps_table *table, const ps_request *arguments,
                          ps_quadrature_job *const *jobs, size_t num, ps_error *error) {
     const bool with_range = have_ranges(jobs, num);
     PS_TRY(add_question(table, arguments, jobs[0]->question, error));
     for (size_t i = 0; i < num; i++) {
         const ps_lead lead = ps_lead_make(arguments, i);
-        const ps_quadrature_result *const result = &jobs[i]->result;
-        PS_TRY(ps_lead_add_source(table, arguments, i, error));
-        PS_TRY(add_facts(table, jobs[i], with_range, error));
-        PS_TRY(add_look(table, arguments->accuracy.standard_error, result, error));
-        PS_TRY(add_answer(table, result, error));
-        PS_TRY(add_condition(table, &result->facts, error));
+        PS_TRY(ps_quadrature_add_header(table, arguments, i, jobs[i], with_range, error));
         PS_TRY(add_degrees(table, &lead, jobs[i], error));
     }
     return PSPEC_OK;

@@ -109,6 +109,13 @@ static pspec_status degrees(const ps_integrand *self, size_t max_degree, double 
     return PSPEC_OK;
 }
 
+static pspec_status all_coefficients(const ps_integrand *self, size_t max_degree, double *out,
+                                     ps_error *error) {
+    (void)error;
+    ps_sphere_series_coefficients(own_of(self)->sphere, max_degree, out);
+    return PSPEC_OK;
+}
+
 static void values(const ps_integrand *self, const double *points, size_t num, double *out) {
     const coefficients *const own = own_of(self);
     for (size_t i = 0; i < num; i++) {
@@ -153,6 +160,7 @@ const ps_integrand_kind ps_integrand_coefficients = {
     .energy = energy,
     .powers = powers,
     .degrees = degrees,
+    .coefficients = all_coefficients,
     .values = values,
     .correlation = correlation,
     .reach = reach,

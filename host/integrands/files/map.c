@@ -94,24 +94,29 @@ static double energy(const ps_integrand *self) {
     return (ps_integrand_is_on_hemisphere(self) ? 2 : 1) * own_of(self)->moments.deviation;
 }
 
+static pspec_status coefficients(const ps_integrand *self, size_t max_degree, double *out,
+                                 ps_error *error) {
+    return ps_sphere_map_coefficients(&own_of(self)->map, ps_integrand_is_on_hemisphere(self),
+                                      max_degree, out, error);
+}
+
 /* The even extension has twice the integrals over the hemisphere at even degrees, else 0. */
 static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
                             ps_error *error) {
     const bool is_upper = ps_integrand_is_on_hemisphere(self);
     const size_t num = (max_degree + 1) * (max_degree + 2) / 2;
-    double *coefficients = NULL;
-    PS_TRY(PS_NEW(&coefficients, 2 * num, "coefficients of a map", error));
-    const pspec_status status =
-        ps_sphere_map_coefficients(&own_of(self)->map, is_upper, max_degree, coefficients, error);
+    double *all = NULL;
+    PS_TRY(PS_NEW(&all, 2 * num, "coefficients of a map", error));
+    const pspec_status status = coefficients(self, max_degree, all, error);
     for (size_t l = 0; l <= max_degree; l++) {
         const double factor = !is_upper ? 1 : l % 2 == 0 ? 4 : 0;
         out[l] = 0;
         for (size_t m = 0; m <= l; m++) {
-            const double *const f = coefficients + 2 * (m * (2 * max_degree + 1 - m) / 2 + l);
+            const double *const f = all + 2 * (m * (2 * max_degree + 1 - m) / 2 + l);
             out[l] += factor * (m > 0 ? 2 : 1) * (f[0] * f[0] + f[1] * f[1]);
         }
     }
-    free(coefficients);
+    free(all);
     return status;
 }
 
@@ -142,6 +147,7 @@ const ps_integrand_kind ps_integrand_map = {
     .integral = integral,
     .energy = energy,
     .degrees = degrees,
+    .coefficients = coefficients,
     .values = values,
     .note = note,
     .file = file,

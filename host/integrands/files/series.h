@@ -46,6 +46,11 @@ typedef struct ps_sphere_series {
 /* only_even: other degrees than even ones are refused. */
 pspec_status ps_sphere_series_read(ps_sphere_series **out, const char *path, bool only_even,
                                    ps_error *error) PS_MUST_CHECK;
+/* Of F_lm, re, im at index m (2L + 1 - m)/2 + l. */
+pspec_status ps_sphere_series_make(ps_sphere_series **out, size_t max_degree, const double *f,
+                                   ps_error *error) PS_MUST_CHECK;
+/* The same numbers, 0 beyond the largest degree. */
+void ps_sphere_series_coefficients(const ps_sphere_series *series, size_t max_degree, double *out);
 void ps_sphere_series_destroy(ps_sphere_series *series); /* NULL is allowed */
 
 double ps_sphere_series_value(const ps_sphere_series *series, const double *u);

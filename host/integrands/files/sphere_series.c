@@ -117,25 +117,63 @@ static void fill_factors(ps_sphere_series *self) {
     }
 }
 
+static pspec_status allocate(ps_sphere_series *self, size_t max_degree, ps_error *error) {
+    self->max_degree = max_degree;
+    self->num_table = SPHERE_SERIES_NUMBERS * ((max_degree + 1) * (max_degree + 2) / 2);
+    PS_TRY(PS_NEW(&self->table, self->num_table, "an integrand", error));
+    PS_TRY(PS_NEW(&self->powers, max_degree + 1, "powers", error));
+    fill_factors(self);
+    return PSPEC_OK;
+}
+
+static void set(ps_sphere_series *self, size_t l, size_t m, double re, double im) {
+    double *const own = at_index(self, l, m);
+    own[2] = re;
+    own[3] = im;
+    self->powers[l] += (m == 0 ? 1 : 2) * (re * re + im * im);
+}
+
 static pspec_status fill(ps_sphere_series *self, const ps_coefficient_list *list, ps_error *error) {
+    size_t max_degree = 0;
     for (size_t i = 0; i < list->num; i++) {
         const size_t l = (size_t)list->all[i].key[0];
-        self->max_degree = l > self->max_degree ? l : self->max_degree;
+        max_degree = l > max_degree ? l : max_degree;
     }
-    const size_t num = (self->max_degree + 1) * (self->max_degree + 2) / 2;
-    self->num_table = SPHERE_SERIES_NUMBERS * num;
-    PS_TRY(PS_NEW(&self->table, self->num_table, "an integrand", error));
-    PS_TRY(PS_NEW(&self->powers, self->max_degree + 1, "powers", error));
-    fill_factors(self);
+    PS_TRY(allocate(self, max_degree, error));
     for (size_t i = 0; i < list->num; i++) {
         const ps_coefficient *const one = &list->all[i];
-        double *const own = at_index(self, (size_t)one->key[0], (size_t)one->key[1]);
-        own[2] = one->re;
-        own[3] = one->im;
-        self->powers[one->key[0]] +=
-            (one->is_its_own ? 1 : 2) * (one->re * one->re + one->im * one->im);
+        set(self, (size_t)one->key[0], (size_t)one->key[1], one->re, one->im);
     }
     return PSPEC_OK;
+}
+
+pspec_status ps_sphere_series_make(ps_sphere_series **out, size_t max_degree, const double *f,
+                                   ps_error *error) {
+    *out = NULL;
+    PS_TRY(PS_NEW(out, 1, "an integrand", error));
+    const pspec_status status = allocate(*out, max_degree, error);
+    for (size_t m = 0; m <= max_degree && status == PSPEC_OK; m++) {
+        for (size_t l = m; l <= max_degree; l++) {
+            const double *const own = f + 2 * index_of(max_degree, l, m);
+            set(*out, l, m, own[0], own[1]);
+        }
+    }
+    if (status != PSPEC_OK) {
+        ps_sphere_series_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+void ps_sphere_series_coefficients(const ps_sphere_series *series, size_t max_degree, double *out) {
+    for (size_t m = 0; m <= max_degree; m++) {
+        for (size_t l = m; l <= max_degree; l++) {
+            const bool has = l <= series->max_degree;
+            double *const f = out + 2 * index_of(max_degree, l, m);
+            f[0] = has ? at_index(series, l, m)[2] : 0;
+            f[1] = has ? at_index(series, l, m)[3] : 0;
+        }
+    }
 }
 
 static pspec_status read_list(ps_coefficient_list *list, const ps_coefficient_file *file,

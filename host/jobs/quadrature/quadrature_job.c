@@ -24,10 +24,16 @@ static pspec_status take_rule(ps_quadrature_job *job, const double *c_l0, const 
                               ps_error *error) {
     ps_quadrature_result *const out = &job->result;
     ps_rule_sums *const sums = &job->of_rules;
+    const ps_rule_observer *const observer = &job->question->observer;
+    const pspec_pattern *const pattern = &job->rules.sets.patterns[job->num_told];
     const ps_weighted_rule *const rule = &job->rules.batch[job->num_told++];
     ps_spectral_error spectral;
     PS_TRY(ps_spectral_error_of(&job->setup.representer, job->setup.max_degree, c_l0, c2,
                                 &rule->weight, job->degrees, &spectral, error));
+    PS_TRY(observer->hear == NULL
+               ? PSPEC_OK
+               : observer->hear(observer->payload, out->num_realizations, pattern, job->degrees,
+                                job->setup.max_degree, error));
     const uint64_t num = ++out->num_realizations;
     add_degrees(job);
     ps_sums_add(&sums->squared, rule->kernel.squared);
@@ -116,6 +122,9 @@ static pspec_status begin(void *payload, ps_error *error) {
     free(job->result.weights);
     job->result = (ps_quadrature_result){.degrees = degrees};
     job->of_rules = (ps_rule_sums){0};
+    if (job->question->observer.begin != NULL) {
+        job->question->observer.begin(job->question->observer.payload);
+    }
     memset(job->sums, 0, PS_RULE_SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
     return ps_rules_allocate(&job->rules, choose_batch(job), error);
 }

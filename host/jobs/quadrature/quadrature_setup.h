@@ -8,7 +8,17 @@
 #include "points/points.h"
 #include "points/weights_spec.h"
 #include "rules/kernel/kernel_system.h"
-#include "rules/representer.h"
+#include "rules/worst_case_error.h"
+
+/* Who hears of every rule, in the order of realizations; {0}: nobody. */
+typedef struct ps_rule_observer {
+    /* All that was heard is void: it comes again. */
+    void (*begin)(void *payload);
+    /* Number `rule` from 0, its points and weights, and its d_l^2 and C_l^2, [max_degree + 1]. */
+    pspec_status (*hear)(void *payload, uint64_t rule, const pspec_pattern *pattern,
+                         const ps_degree_error *degrees, size_t max_degree, ps_error *error);
+    void *payload;
+} ps_rule_observer;
 
 typedef struct ps_quadrature_question {
     const ps_brdf *brdf;
@@ -34,7 +44,8 @@ typedef struct ps_quadrature_question {
     size_t batch; /* rules at a time, the results the same; 0: what the plan and memory say */
     bool may_lack_device;   /* to be planned only: without a device, with the host's engines */
     ps_device *open_device; /* borrowed; NULL: the one that limits.device selects is opened */
-    ps_watch watch;         /* told of realizations and other phases; {0}: nobody */
+    ps_rule_observer observer;
+    ps_watch watch; /* told of realizations and other phases; {0}: nobody */
 } ps_quadrature_question;
 
 /* What is known of the rules before the first is computed with. */

@@ -1,0 +1,322 @@
+/* Errors of shading integrals over random orientations of the normal, measured and predicted. */
+#include "answers/kind.h"
+#include "answers/lead.h"
+#include "answers/quadrature/quadrature_table.h"
+#include "answers/quadrature/rule_list.h"
+#include "answers/spectra/spectra.h"
+#include "answers/spectra/spectrum_header.h"
+#include "base/memory.h"
+#include "jobs/shade/shade_job.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct shading {
+    ps_rule_list list;
+    ps_light light;
+    ps_device *device; /* of all of them, where they share one that was opened for them */
+    ps_shade_question *questions; /* [list.num] */
+    ps_shade_job **jobs;          /* [list.num] */
+} shading;
+
+static void discard(void *computed) {
+    shading *const self = computed;
+    if (self == NULL) {
+        return;
+    }
+    for (size_t i = 0; self->jobs != NULL && i < self->list.num; i++) {
+        ps_shade_job_destroy(self->jobs[i]);
+    }
+    free(self->jobs);
+    free(self->questions);
+    ps_light_free(&self->light);
+    ps_rule_list_free(&self->list);
+    ps_device_close(self->device);
+    free(self);
+}
+
+/* ---- question ------------------------------------------------------------------------------ */
+
+static pspec_status check_light(const ps_request *request, ps_error *error) {
+    return request->num_integrands == 1 && request->integrands_given.num == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "one --integrand is the light, as in --integrand map:file=sky.hdr, and "
+                         "%zu were given",
+                         request->num_integrands);
+}
+
+static pspec_status check_question(const ps_request *request, ps_error *error) {
+    ps_rule_list list = {0};
+    const pspec_status status = ps_rule_list_make(&list, request, PS_COMMAND_shade, error);
+    ps_rule_list_free(&list);
+    return status == PSPEC_OK ? check_light(request, error) : status;
+}
+
+static pspec_status make_questions(shading *self, const ps_request *request, ps_error *error) {
+    ps_rule_list *const list = &self->list;
+    PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
+    PS_TRY(check_light(request, error));
+    PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
+    PS_TRY(PS_NEW(&self->questions, list->num, "questions", error));
+    for (size_t i = 0; i < list->num; i++) {
+        ps_quadrature_question *const rules = &list->questions[i];
+        if (rules->max_degree == 0) { /* degrees of E^2 are no guide: light is less smooth */
+            rules->max_degree = self->light.max_degree;
+        }
+        self->questions[i] = (ps_shade_question){
+            .rules = *rules,
+            .light = &self->light,
+            .num_orientations = request->is_given[PS_OPTION_SHIFTS] ? request->num_shifts : 0,
+            .seed = request->seed};
+    }
+    return PSPEC_OK;
+}
+
+/* ---- plan ---------------------------------------------------------------------------------- */
+
+/* Of a processor: 16384 points, double precision, AVX-512, PoCL 3.1; of a harmonic of I(r). */
+static const double value_seconds = 2e-8;
+static const double harmonic_seconds = 2.3e-9;
+
+static void add_orientations(const ps_shade_job *job, ps_phases *phases) {
+    const ps_quadrature_setup *const setup = &job->rules->setup;
+    const double rules = setup->needs.one_realization ? 1 : (double)setup->num_realizations;
+    const double num = rules * (double)job->result.num_orientations;
+    const double values = num * (double)job->rules->shape.num_points;
+    const double degrees = (double)job->question->light->max_degree + 1;
+    ps_phases_add(phases, "trials",
+                  values * value_seconds + num * degrees * degrees / 2 * harmonic_seconds);
+    ps_phases_say(phases, "trials", "%.4g values of light at %.4g orientations", values, num);
+}
+
+static pspec_status add_plan(ps_planner *planner, const ps_request *request,
+                             const ps_shade_job *job, size_t index, ps_error *error) {
+    const ps_quadrature_setup *const setup = &job->rules->setup;
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const double repeats = ps_quadrature_job_phases(job->rules, &phases);
+    const ps_planned planned = {.problem = &setup->problem,
+                                .needs = &setup->needs,
+                                .limits = ps_device_get_limits(setup->device),
+                                .plan = &setup->plan,
+                                .phases = &phases,
+                                .repeats = repeats};
+    add_orientations(job, &phases);
+    ps_plan_table_add_picture(&phases, request);
+    return ps_plan_table_add_job(planner, request, &planned, index, error);
+}
+
+static pspec_status plan_one(ps_planner *planner, const ps_request *request,
+                             ps_shade_question *question, size_t index, ps_error *error) {
+    ps_shade_job *job = NULL;
+    question->rules.open_device = planner->device;
+    ps_plan_table_begin_question(planner, request, index);
+    PS_TRY(ps_plan_table_find_lack(planner, &question->rules.limits.constraints,
+                                   &question->rules.may_lack_device, error));
+    PS_TRY(ps_shade_job_create(&job, question, error));
+    pspec_status status = ps_quadrature_job_rate(job->rules, error);
+    if (status == PSPEC_OK) {
+        status = add_plan(planner, request, job, index, error);
+    }
+    ps_shade_job_destroy(job);
+    return status;
+}
+
+static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
+    shading *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "a plan", error));
+    pspec_status status = make_questions(self, request, error);
+    for (size_t i = 0; status == PSPEC_OK && i < self->list.num; i++) {
+        status = plan_one(planner, request, &self->questions[i], i, error);
+    }
+    discard(self);
+    return status;
+}
+
+/* ---- work ---------------------------------------------------------------------------------- */
+
+static pspec_status run_one(shading *self, size_t i, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    ps_shade_question *const question = &self->questions[i];
+    question->rules.watch = hooks->watch;
+    question->rules.open_device = hooks->device != NULL ? hooks->device : self->device;
+    ps_answer_begin_next(hooks);
+    PS_TRY(ps_shade_job_create(&self->jobs[i], question, error));
+    ps_quadrature_job *const rules = self->jobs[i]->rules;
+    if (hooks->tell_plan != NULL) {
+        hooks->tell_plan(hooks->payload, &rules->setup.plan);
+    }
+    PS_TRY(ps_shade_job_run(self->jobs[i], error));
+    ps_answer_tell_profile(hooks, rules->setup.device);
+    ps_answer_warn_of(hooks, ps_source_trouble(rules->rules.sets.source));
+    ps_quadrature_job_release(rules);
+    return PSPEC_OK;
+}
+
+static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    PS_TRY(ps_allocate(out, 1, sizeof(shading), "an answer", error));
+    shading *const self = *out;
+    PS_TRY(make_questions(self, request, error));
+    PS_TRY(PS_NEW(&self->jobs, self->list.num, "jobs", error));
+    PS_TRY(ps_answer_open_device(&self->device, request,
+                                 &self->questions[0].rules.limits.constraints, self->list.num,
+                                 hooks, error));
+    for (size_t i = 0; i < self->list.num; i++) {
+        PS_TRY(run_one(self, i, hooks, error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- the table: a row for every question ---------------------------------------------------- */
+
+static const char *const columns[] = {"rmse", "rmse_error", "predicted", "predicted_error",
+                                      "z_score"};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+/* Of a root, from that of its square. */
+static double error_of_root(ps_mean square) {
+    return square.standard_error / (2 * sqrt(square.mean));
+}
+
+static double score(const ps_shade_result *result) {
+    const double error = hypot(result->measured.standard_error, result->predicted.standard_error);
+    return (result->measured.mean - result->predicted.mean) / error;
+}
+
+static pspec_status add_light(ps_table *table, const ps_request *request, const shading *self,
+                              ps_error *error) {
+    const ps_integrand *const integrand = self->light.integrand;
+    const char *const note = ps_integrand_note(integrand);
+    const ps_meta entries[] = {
+        {"integrand", PS_TEXT(request->integrands[0])},
+        {"integral", PS_NUMBER(ps_integrand_integral(integrand))},
+        {"light_degree", PS_INTEGER(self->light.max_degree)},
+        {"shading_bound", PS_NUMBER(self->light.shading_bound)},
+        {"z_score_is", PS_TEXT("of squares: (rmse^2 - predicted^2) over its standard error")},
+    };
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
+                        : PSPEC_OK;
+}
+
+static pspec_status add_one(ps_table *table, const ps_request *request, const shading *self,
+                            size_t i, ps_error *error) {
+    const ps_shade_job *const job = self->jobs[i];
+    const ps_shade_result *const result = &job->result;
+    const ps_rule_facts *const facts = &job->rules->result.facts;
+    const ps_lead lead = ps_lead_make(request, i);
+    const ps_meta entries[] = {
+        {"orientations", PS_INTEGER(result->num_orientations)},
+        {"rmse", PS_NUMBER(sqrt(result->measured.mean))},
+        {"rmse_predicted", PS_NUMBER(sqrt(result->predicted.mean))},
+        {"rmse_beyond", PS_NUMBER(sqrt(result->beyond))},
+    };
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_NUMBER(sqrt(result->measured.mean)),
+        ps_number_or_missing(error_of_root(result->measured)),
+        PS_NUMBER(sqrt(result->predicted.mean)),
+        ps_number_or_missing(error_of_root(result->predicted)),
+        ps_number_or_missing(score(result)),
+    };
+    PS_TRY(ps_quadrature_add_header(table, request, i, job->rules,
+                                    facts->smallest_points != facts->largest_points, error));
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    return ps_lead_add_row(table, &lead, cells, NUM_COLUMNS, error);
+}
+
+static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error) {
+    const shading *const self = computed;
+    const ps_lead first = ps_lead_make(request, 0);
+    PS_TRY(ps_lead_create_table(&out->table, "shade", &first, columns, NUM_COLUMNS, error));
+    PS_TRY(ps_quadrature_begin_header(out->table, request, &self->questions[0].rules, error));
+    PS_TRY(add_light(out->table, request, self, error));
+    for (size_t i = 0; i < self->list.num; i++) {
+        PS_TRY(add_one(out->table, request, self, i, error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- what tables mean ------------------------------------------------------------------------ */
+
+static const char *const summary[] = {
+    "points", "realizations", "orientations", "rmse", "rmse_predicted", "worst_case_error", NULL};
+static const ps_picture_kind pictures[] = {
+    {.suffix = "-rmse",
+     .what = "error of shading integrals",
+     .make = ps_lines_figure,
+     .dealing = PS_OF_COUNTS,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .x = "points",
+     .is_of_entries = true,
+     .lines = {{.y = "rmse_predicted", .look = PS_LOOK_CURVE},
+               {.y = "rmse", .look = PS_LOOK_MARKS, .name = ""}},
+     .x_label = "points N",
+     .y_label = "RMSE",
+     .is_log_x = true,
+     .is_log_y = true},
+    {.make = NULL}};
+
+static const ps_field_row own_fields[] = {
+    {"integrand", "", PS_ENTRY, 0, "", "the light"},
+    {"integral", "", PS_ENTRY, 0, "", "its integral over the sphere"},
+    {"integrand_note", "", PS_ENTRY, 0, "where there is something to say",
+     "what else there is to know of it"},
+    {"light_degree", "", PS_ENTRY, 0, "",
+     "the last degree of light in the exact integrals and in the prediction"},
+    {"shading_bound", "", PS_ENTRY, 0, "",
+     "what the exact integrals cannot be off by more than, at any orientation"},
+    {"z_score_is", "", PS_ENTRY, 0, "", "what the column of that name is"},
+    {"orientations", "", PS_ENTRIES, 0, "", "random orientations of every rule"},
+    {"rmse", "", PS_ENTRIES, 0, "", "as the column"},
+    {"rmse_predicted", "", PS_ENTRIES, 0, "", "as the column predicted"},
+    {"rmse_beyond", "", PS_ENTRIES, 0, "",
+     "the part of predicted that rules are taken to have beyond the degrees, as white noise has "
+     "it; its square is a part of that of predicted"},
+    {"rmse", "", PS_COLUMN, 0, "",
+     "root of the mean square error over orientations and realizations"},
+    {"rmse_error", "", PS_COLUMN, 0, "",
+     "its standard error, over realizations; of one over orientations"},
+    {"predicted", "", PS_COLUMN, 0, "", "the same from the spectra of rule and light"},
+    {"predicted_error", "", PS_COLUMN, 0, "", "its standard error, over realizations"},
+    {"z_score", "", PS_COLUMN, 0, "", "what measurement and prediction are apart"},
+    {.name = NULL}};
+
+static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points,   ps_fields_rules,
+                                             own_fields,      ps_fields_computed, NULL};
+
+static const ps_compared_field compared[] = {{"rmse", "rmse_error", false, ps_compared_rule_bound},
+                                             {.value = NULL}};
+
+const ps_kind ps_kind_shade = {
+    .name = "shade",
+    .purpose = "errors of shading integrals over random orientations, measured and predicted",
+    .usage = "shade --brdf NAME --integrand map:file=FILE [options] --sampler NAME | shade --brdf "
+             "NAME --integrand map:file=FILE [options] FILE...",
+    .description =
+        "Integrates light, a function of the sphere with known coefficients (map, coefficients), "
+        "times a BRDF about the normal at random orientations, by directions u_j with weights w_j "
+        "(1/N unless given), and compares with the exact integrals. Prints the root of the mean "
+        "square error, and beside it that which the spectra of rule and light predict, the root "
+        "of sum_l P_F(l) (d_l^2 + C_l^2). Points of samplers of the hemisphere are morphed to the "
+        "BRDF unless morph= says otherwise.",
+    .examples = {"echo 1,0,1,0 >light.txt; pointspec shade --brdf diffuse --integrand "
+                 "coefficients:file=light.txt --sampler fibonacci-hemisphere -n 64..256",
+                 "echo 2,0,1,0 >light.txt; pointspec shade --brdf glossy:n=30 --integrand "
+                 "coefficients:file=light.txt --sampler white-hemisphere -n 64 -m 20 --weights "
+                 "optimal"},
+    .takes = PS_COMMAND_BIT(shade),
+    .weights = "equal|column|optimal|FILE",
+    .samples = PS_DOMAIN_SPHERE,
+    .counted = "realizations",
+    .check_question = check_question,
+    .plan = plan,
+    .compute = compute,
+    .tabulate = tabulate,
+    .discard = discard,
+    .fields = fields,
+    .summary = summary,
+    .pictures = pictures,
+    .compared = compared,
+};

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# cli_shade.sh PROGRAM: pointspec shade of samplers and files: columns, the same bits beside other questions, scenes,
+# pictures, plans, the library's merge of none, and what it refuses.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" shade "$1"
+
+printf '0,0,2,0\n1,0,1,0\n2,1,.5,.25\n' >light.txt
+printf 'Pf 2 1 -1\n\0\0\200\77\0\0\0\100' >sky.pfm # light 1 and 2
+light=(--integrand coefficients:file=light.txt --shifts 200)
+
+# a row for each sampler and number of points, whatever else is asked beside it
+runs 0 --brdf diffuse "${light[@]}" --sampler fibonacci-hemisphere --sampler white-hemisphere -n 8,16 -m 3
+grep -v '^#' out >both
+[[ $(head -1 both) == 'sampler,points,rmse,rmse_error,predicted,predicted_error,z_score' ]] || complain "$(head -1 both)"
+[[ $(cut -d, -f1,2 both | sed 1d | tr '\n' ' ') == 'fibonacci-hemisphere,8 fibonacci-hemisphere,16 white-hemisphere,8 white-hemisphere,16 ' ]] ||
+    complain "rows: $(<both)"
+awk -F, 'NR > 1 && !(sqrt($7 ^ 2) < 4 && $3 > 0 && $4 > 0) { exit 1 }' both || complain "scores: $(<both)"
+runs 0 --brdf diffuse "${light[@]}" --sampler white-hemisphere -n 16 -m 3
+[[ $(tail -1 out) == $(tail -1 both | cut -d, -f3-) ]] || complain "alone: $(tail -1 out)"
+[[ $(key orientations) == 200 && $(key light_degree) == 2 && $(key weights) == equal ]] || complain "header: $(<out)"
+runs 0 --brdf diffuse "${light[@]}" --sampler white-hemisphere -n 16 -m 3 --engine host_direct
+awk -F, -v other="$(tail -1 both | cut -d, -f3)" 'END { exit !($1 / other - 1 < 1e-9 && other / $1 - 1 < 1e-9) }' out ||
+    complain "host_direct: $(tail -1 out)"
+
+# maps, optimal weights, and files of the same points
+runs 0 --brdf glossy:n=30 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --weights optimal
+[[ $(key light_degree) == 256 && $(key orientations) == 1000 ]] || complain "map: $(<out)"
+"$program" sample --sampler fibonacci-hemisphere:morph=diffuse -n 16 -o points.npy
+runs 0 --brdf diffuse "${light[@]}" --sampler fibonacci-hemisphere -n 16
+predicted=$(tail -1 out | cut -d, -f3)
+runs 0 --brdf diffuse "${light[@]}" points.npy
+[[ $(tail -1 out | cut -d, -f3) == "$predicted" ]] || complain "files: $(tail -1 out)"
+
+# pictures, plans and scenes
+runs 0 --brdf diffuse "${light[@]}" --sampler fibonacci-hemisphere -n 8,16 --plot a.svg
+grep -q RMSE a.svg || complain 'picture'
+"$program" plan shade --brdf diffuse "${light[@]}" --sampler fibonacci-hemisphere -n 8 >planned || complain 'plan'
+grep -q '^# phase: trials' planned || complain "plan: $(<planned)"
+cat >scene.yaml <<'EOF'
+scene: 1
+results:
+  - {result: shade, brdf: diffuse, integrand: "coefficients:file=light.txt", shifts: 200, samplers: [fibonacci-hemisphere, white-hemisphere], points: [8, 16], realizations: 3}
+EOF
+"$program" run scene.yaml -o folder --quiet >/dev/null || complain 'scene'
+[[ $(grep -h '^white-hemisphere,16' folder/*.csv | head -1) == "$(tail -1 both)" ]] || complain "scene: $(ls folder)"
+
+# what is refused
+refuses 'one --integrand is the light' --brdf diffuse --sampler fibonacci-hemisphere
+refuses 'one --integrand is the light' --brdf diffuse --integrand cap --integrand square --sampler fibonacci-hemisphere
+refuses 'coefficients F_lm are not known' --brdf diffuse --integrand cap --sampler fibonacci-hemisphere
+refuses '--brdf NAME is needed' "${light[@]}" --sampler fibonacci-hemisphere
+refuses 'makes points of the torus' --brdf diffuse "${light[@]}" --sampler white
+refuses 'below the horizon' --brdf diffuse "${light[@]}" --sampler white-sphere
+runs 1 --brdf diffuse --integrand map:file=nothing.hdr --sampler fibonacci-hemisphere
+says 'cannot read nothing.hdr'
+finish

@@ -1,0 +1,238 @@
+/* Shading integrals over random orientations: exact integrals against Gauss sums of light times
+ * lobe, errors that are known in closed form, prediction against measurement, and the same bits in
+ * any batches. */
+#include "harness.h"
+
+#include "jobs/shade/shade_job.h"
+#include "math/gauss_legendre.h"
+#include "math/pi.h"
+#include "test_folder.h"
+
+#include <math.h>
+#include <unistd.h>
+
+enum { SEED = 5 };
+
+static void write_text(const char *name, const char *text) {
+    assert_true(test_write_file(name, text, strlen(text)));
+}
+
+static int make_files(void **state) {
+    enum { WIDTH = 12, HEIGHT = 6 };
+    FILE *map = NULL;
+    uint64_t random = 9;
+    if (test_folder_create(state) != 0 || chdir(((test_folder *)*state)->path) != 0) {
+        return -1;
+    }
+    write_text("constant.txt", "0,0,2,0\n");
+    write_text("linear.txt", "0,0,1,0\n1,0,1,0\n");
+    write_text("light.txt", "0,0,3,0\n1,0,1,0\n1,1,.5,-.25\n2,1,.1,.4\n3,3,.2,.1\n7,2,.05,-.3\n");
+    map = fopen("map.pfm", "wb");
+    assert_non_null(map);
+    fprintf(map, "Pf %d %d -1\n", WIDTH, HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const float light = (float)test_uniform(&random);
+        fwrite(&light, sizeof light, 1, map);
+    }
+    return fclose(map);
+}
+
+static int remove_files(void **state) {
+    return test_folder_remove(state) == 0 ? chdir("/") : -1;
+}
+
+/* ---- exact integrals ----------------------------------------------------------------------- */
+
+/* int F phat about r, by Gauss sums in the cosine z, from -1 to 0 and from 0 to 1, and means over
+ * equal angles about r. */
+static double integrate(const ps_light *light, const ps_brdf *brdf, const double *r) {
+    enum { NODES = 40, TURNS = 64 };
+    double nodes[NODES];
+    double weights[NODES];
+    const double least = fabs(r[0]) < 0.6 ? 1 : 0;
+    double a[3] = {least - r[0] * (least > 0 ? r[0] : r[1]),
+                   1 - least - r[1] * (least > 0 ? r[0] : r[1]), -r[2] * (least > 0 ? r[0] : r[1])};
+    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    for (int k = 0; k < 3; k++) {
+        a[k] /= length;
+    }
+    const double b[3] = {r[1] * a[2] - r[2] * a[1], r[2] * a[0] - r[0] * a[2],
+                         r[0] * a[1] - r[1] * a[0]};
+    double sum = 0;
+    ps_gauss_legendre(NODES, nodes, weights);
+    for (int i = 0; i < 2 * NODES * TURNS; i++) {
+        const double z = nodes[i / TURNS % NODES] - (i < NODES * TURNS ? 1 : 0);
+        const double sine = sqrt(1 - z * z);
+        const double c = sine * cos(PS_TWO_PI * (i % TURNS) / TURNS);
+        const double s = sine * sin(PS_TWO_PI * (i % TURNS) / TURNS);
+        double u[3];
+        double value = 0;
+        for (int k = 0; k < 3; k++) {
+            u[k] = z * r[k] + c * a[k] + s * b[k];
+        }
+        ps_integrand_values(light->integrand, u, 1, &value);
+        sum += weights[i / TURNS % NODES] * PS_TWO_PI / TURNS * value * ps_brdf_density(brdf, z);
+    }
+    return sum;
+}
+
+static void exact_integrals(void **state) {
+    static const char *const lobes[] = {"diffuse", "glossy:n=5", "glossy:n=3,cut=none",
+                                        "phong:n=4"};
+    static const double normals[][3] = {{0, 0, 1}, {0, 0, -1}, {0.6, 0, 0.8}, {-0.48, 0.6, -0.64}};
+    (void)state;
+    for (size_t i = 0; i < sizeof lobes / sizeof lobes[0]; i++) {
+        ps_brdf *brdf = NULL;
+        ps_light light;
+        assert_ok(ps_brdf_parse(&brdf, lobes[i], error));
+        assert_ok(ps_light_make(&light, "coefficients:file=light.txt", brdf, error));
+        assert_int_equal(light.max_degree, 7);
+        for (size_t k = 0; k < sizeof normals / sizeof normals[0]; k++) {
+            const double expected = integrate(&light, brdf, normals[k]);
+            assert_true(fabs(ps_light_shading(&light, normals[k]) - expected) < 1e-12);
+        }
+        assert_true(light.shading_bound < 1e-7); /* nothing is beyond, but rounding */
+        ps_light_free(&light);
+        ps_brdf_destroy(brdf);
+    }
+}
+
+/* ---- jobs ---------------------------------------------------------------------------------- */
+
+typedef struct asked {
+    ps_brdf *brdf;
+    ps_light light;
+    ps_sampler_request request;
+    ps_shade_question question;
+} asked;
+
+/* *out must not be moved. */
+static void ask(asked *out, const char *lobe, const char *integrand, const char *sampler,
+                size_t num_points, uint64_t num_realizations) {
+    *out = (asked){.request = {.num_points = num_points, .seed = SEED}};
+    assert_ok(ps_brdf_parse(&out->brdf, lobe, error));
+    assert_ok(ps_light_make(&out->light, integrand, out->brdf, error));
+    assert_ok(ps_sampler_parse(&out->request, sampler, error));
+    assert_ok(ps_sampler_resolve(&out->request, error));
+    out->request.morph = ps_brdf_morph(out->brdf);
+    out->question = (ps_shade_question){
+        .rules = {.brdf = out->brdf,
+                  .smoothness = 1.5,
+                  .sampler = &out->request,
+                  .num_realizations = num_realizations,
+                  .max_degree = out->light.max_degree < 64 ? out->light.max_degree : 64,
+                  .accuracy.tolerance = 1e-10,
+                  .limits.constraints = {.engine = "host_direct", .precision = -1}},
+        .light = &out->light,
+        .seed = SEED};
+}
+
+static ps_shade_result answer(asked *job) {
+    ps_shade_job *run = NULL;
+    assert_ok(ps_shade_job_create(&run, &job->question, error));
+    assert_ok(ps_shade_job_run(run, error));
+    const ps_shade_result out = run->result;
+    ps_shade_job_destroy(run);
+    return out;
+}
+
+static void forget(asked *job) {
+    ps_light_free(&job->light);
+    ps_brdf_destroy(job->brdf);
+}
+
+/* Equal weights have no error of a constant. F = a + Y_10 of any rule has |d_1|^2 + |C_1|^2 over
+ * three. */
+static void closed_forms(void **state) {
+    asked job;
+    (void)state;
+    ask(&job, "diffuse", "coefficients:file=constant.txt", "fibonacci-hemisphere", 16, 1);
+    ps_shade_result found = answer(&job);
+    assert_int_equal(found.num_orientations, 1000);
+    assert_true(found.measured.mean < 1e-28 && found.predicted.mean < 1e-28);
+    forget(&job);
+    ask(&job, "diffuse", "coefficients:file=linear.txt", "white-hemisphere", 2, 1);
+    job.question.num_orientations = 20000;
+    ps_shade_job *run = NULL;
+    assert_ok(ps_shade_job_create(&run, &job.question, error));
+    assert_ok(ps_shade_job_run(run, error));
+    const ps_quadrature_degree *const degree = &run->rules->result.degrees[1];
+    const double expected = (degree->d2.mean + degree->c2.mean) / 3;
+    assert_true(fabs(run->result.predicted.mean / expected - 1) < 1e-12);
+    assert_true(run->result.beyond < 1e-14);
+    assert_true(fabs(run->result.measured.mean - expected) <
+                4 * run->result.measured.standard_error);
+    assert_true(run->result.measured.standard_error < 0.02 * expected);
+    ps_shade_job_destroy(run);
+    forget(&job);
+}
+
+/* A set alone, and several; weights that do not add up to 1, too. */
+static void predictions_hold(void **state) {
+    static const struct {
+        const char *lobe, *integrand, *sampler;
+        size_t num_points;
+        uint64_t num_realizations;
+        bool is_optimal;
+    } cases[] = {
+        {"diffuse", "map:file=map.pfm", "fibonacci-hemisphere", 48, 1, false},
+        {"diffuse", "map:file=map.pfm", "fibonacci-hemisphere", 48, 1, true},
+        {"glossy:n=30", "map:file=map.pfm", "white-hemisphere", 32, 40, false},
+        {"glossy:n=30", "coefficients:file=light.txt", "white-hemisphere", 8, 40, true},
+        {"phong:n=5", "coefficients:file=light.txt", "white-hemisphere", 16, 40, false},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        asked job;
+        ask(&job, cases[i].lobe, cases[i].integrand, cases[i].sampler, cases[i].num_points,
+            cases[i].num_realizations);
+        job.question.num_orientations = cases[i].num_realizations > 1 ? 50 : 2000;
+        job.question.rules.weights.kind =
+            cases[i].is_optimal ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_EQUAL;
+        const ps_shade_result found = answer(&job);
+        const double error = hypot(found.measured.standard_error, found.predicted.standard_error);
+        assert_true(fabs(found.measured.mean - found.predicted.mean) < 3.5 * error);
+        assert_true(error < 0.35 * found.predicted.mean);
+        forget(&job);
+    }
+}
+
+static void batches(void **state) {
+    static const size_t sizes[] = {1, 3, 7};
+    asked job;
+    ps_shade_result first = {0};
+    (void)state;
+    ask(&job, "diffuse", "map:file=map.pfm", "white-hemisphere", 20, 9);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        job.question.rules.batch = sizes[i];
+        const ps_shade_result found = answer(&job);
+        assert_int_equal(found.num_orientations, 112); /* 1000 in all */
+        first = i == 0 ? found : first;
+        assert_memory_equal(&found.measured, &first.measured, sizeof first.measured);
+        assert_memory_equal(&found.predicted, &first.predicted, sizeof first.predicted);
+    }
+    forget(&job);
+}
+
+static void other_light_is_refused(void **state) {
+    ps_brdf *brdf = NULL;
+    ps_light light;
+    ps_error failure = {0};
+    (void)state;
+    assert_ok(ps_brdf_parse(&brdf, "diffuse", error));
+    assert_int_equal(ps_light_make(&light, "cap", brdf, &failure), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(failure.message, "its coefficients F_lm are not known"));
+    ps_light_free(&light);
+    assert_int_equal(ps_light_make(&light, "disk", brdf, &failure), PSPEC_ERROR_INVALID_ARGUMENT);
+    ps_light_free(&light);
+    ps_brdf_destroy(brdf);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact_integrals),        cmocka_unit_test(closed_forms),
+        cmocka_unit_test(predictions_hold),       cmocka_unit_test(batches),
+        cmocka_unit_test(other_light_is_refused),
+    };
+    return cmocka_run_group_tests_name("shade_job", tests, make_files, remove_files);
+}
