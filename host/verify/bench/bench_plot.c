@@ -26,21 +26,12 @@ void ps_bench_rows_free(ps_bench_rows *rows) {
 
 /* ---- panels -------------------------------------------------------------------------------- */
 
-/* An engine in two precisions is a pair of kinds: one colour, filled and hollow marks. The front
- * comes first, below. */
-enum { MOST_SERIES = PS_FIGURES_ENGINES * 2 + 1 };
-
-typedef struct panel {
-    char labels[MOST_SERIES][64];
-    ps_series series[MOST_SERIES];
-    double *numbers; /* [MOST_SERIES][2][rows] */
-} panel;
-
 /* The referee has its error from its formula: it is not off from itself. */
 static double error_of(const ps_bench_row *row) {
     return row->error > 0 ? row->error : row->predicted_error;
 }
 
+/* An engine in two precisions is a pair of kinds: one colour, filled and hollow marks. */
 static size_t kind_of(const ps_bench_row *row) {
     size_t engine = 0;
     while (ps_engines[engine] != row->engine && ps_engines[engine] != NULL) {
@@ -49,65 +40,66 @@ static size_t kind_of(const ps_bench_row *row) {
     return 2 * engine + (row->precision == PS_DOUBLE ? 1 : 0);
 }
 
-static void add_place(ps_series *series, double *numbers, size_t num_rows,
-                      const ps_bench_row *row) {
-    numbers[series->num] = row->seconds;
-    numbers[num_rows + series->num] = error_of(row);
-    series->x = numbers;
-    series->y = numbers + num_rows;
-    series->num++;
-}
-
 static int compare_seconds(const void *a, const void *b) {
     const double x = (*(const ps_bench_row *const *)a)->seconds;
     const double y = (*(const ps_bench_row *const *)b)->seconds;
     return x < y ? -1 : x > y;
 }
 
-/* Series 0 is the front, by time; then a series for every kind. */
-static void fill_series(panel *out, const ps_bench_row **sorted, size_t num) {
-    for (size_t i = 0; i < num; i++) {
-        const ps_bench_row *row = sorted[i];
-        const size_t kind = kind_of(row);
-        const size_t at = kind + 1 < MOST_SERIES ? kind + 1 : MOST_SERIES - 1;
-        snprintf(out->labels[at], sizeof out->labels[at], "%s, %s", row->engine->name,
-                 ps_precision_name(row->precision));
-        out->series[at].kind = kind;
-        out->series[at].look = PS_LOOK_SIGNS;
-        out->series[at].label = out->labels[at];
-        add_place(&out->series[at], out->numbers + at * 2 * num, num, row);
-        if (row->is_pareto) {
-            add_place(&out->series[0], out->numbers, num, row);
+/* Rows of a case by time, and the series that are made of them. */
+typedef struct drawing {
+    const ps_bench_row **sorted;
+    size_t num, num_series;
+    ps_series *series;
+    ps_pool *memory;
+    ps_error *error;
+} drawing;
+
+/* Of rows of a kind, or of those of the front; none without any. */
+static pspec_status add_series(drawing *self, size_t kind, bool is_front) {
+    double *numbers = NULL;
+    const ps_bench_row *last = NULL;
+    ps_text label = {0};
+    PS_TRY(PS_POOL_NEW(self->memory, &numbers, 2 * self->num, "a picture", self->error));
+    ps_series *const own = &self->series[self->num_series];
+    *own = (ps_series){.kind = kind,
+                       .look = is_front ? PS_LOOK_FRONT : PS_LOOK_SIGNS,
+                       .label = "Pareto front",
+                       .x = numbers,
+                       .y = numbers + self->num};
+    for (size_t i = 0; i < self->num; i++) {
+        const ps_bench_row *const row = self->sorted[i];
+        if (is_front ? row->is_pareto : kind_of(row) == kind) {
+            numbers[own->num] = row->seconds;
+            numbers[self->num + own->num++] = error_of(row);
+            last = row;
         }
     }
-}
-
-/* Series without places go. */
-static size_t pack_series(panel *out) {
-    size_t num = 0;
-    for (size_t i = 0; i < MOST_SERIES; i++) {
-        if (out->series[i].num > 0) {
-            out->series[num++] = out->series[i];
-        }
+    self->num_series += last != NULL;
+    if (last == NULL || is_front) {
+        return PSPEC_OK;
     }
-    return num;
+    ps_text_append(&label, "%s, %s", last->engine->name, ps_precision_name(last->precision));
+    return ps_text_keep(&own->label, self->memory, &label, self->error);
 }
 
-static pspec_status make_panel(ps_panel *plot, ps_pool *memory, const ps_bench_row *rows,
-                               size_t num, ps_error *error) {
-    panel *out = NULL;
-    const ps_bench_row **sorted = NULL;
-    PS_TRY(PS_POOL_NEW(memory, &out, 1, "a picture", error));
-    PS_TRY(PS_POOL_NEW(memory, &out->numbers, MOST_SERIES * 2 * num, "a picture", error));
-    PS_TRY(PS_POOL_NEW(memory, &sorted, num, "a picture", error));
+/* The front comes first, below. */
+static pspec_status make_panel(ps_panel *out, ps_pool *memory, const ps_bench_row *rows, size_t num,
+                               ps_error *error) {
+    enum { NUM_KINDS = 2 * PS_FIGURES_ENGINES };
+    drawing self = {.num = num, .memory = memory, .error = error};
+    PS_TRY(PS_POOL_NEW(memory, &self.sorted, num, "a picture", error));
+    PS_TRY(PS_POOL_NEW(memory, &self.series, NUM_KINDS + 1, "a picture", error));
     for (size_t i = 0; i < num; i++) {
-        sorted[i] = &rows[i];
+        self.sorted[i] = &rows[i];
     }
-    qsort(sorted, num, sizeof *sorted, compare_seconds);
-    out->series[0] = (ps_series){.label = "Pareto front", .look = PS_LOOK_FRONT};
-    fill_series(out, sorted, num);
-    *plot = (ps_panel){
-        .title = rows[0].what->name, .num_series = pack_series(out), .series = out->series};
+    qsort(self.sorted, num, sizeof *self.sorted, compare_seconds);
+    PS_TRY(add_series(&self, 0, true));
+    for (size_t kind = 0; kind < NUM_KINDS; kind++) {
+        PS_TRY(add_series(&self, kind, false));
+    }
+    *out = (ps_panel){
+        .title = rows[0].what->name, .num_series = self.num_series, .series = self.series};
     return PSPEC_OK;
 }
 
