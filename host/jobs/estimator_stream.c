@@ -72,15 +72,6 @@ static pspec_status check_count(const ps_estimator *self, const ps_pattern_strea
                              count->realization + 1);
 }
 
-static pspec_status check_dimension(const ps_estimator *self, const ps_pattern_stream *stream,
-                                    ps_error *error) {
-    const unsigned dimension = self->options.problem.frequencies->dimension;
-    return stream->dimension == dimension
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "set %" PRIu64 " has dimension %u instead of %u",
-                         self->totals.num_realizations + 1, stream->dimension, dimension);
-}
-
 pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
                                      ps_error *error) {
     const pspec_pattern whole = {.dimension = stream->dimension,
@@ -89,7 +80,9 @@ pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_s
                               .on_sphere =
                                   ps_problem_domain(&estimator->options.problem) == PS_ON_SPHERE};
     ps_rows rows = {0};
-    PS_TRY(check_dimension(estimator, stream, error));
+    PS_TRY(ps_pattern_check_dimension(stream->dimension,
+                                      estimator->options.problem.frequencies->dimension,
+                                      count.realization, error));
     PS_TRY(ps_pattern_check_size(estimator->options.problem.frequencies, stream->num_points,
                                  count.realization, error));
     PS_TRY(ps_estimator_get_ready(estimator, stream->num_points, error));

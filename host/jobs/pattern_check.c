@@ -147,6 +147,14 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
     return PSPEC_OK;
 }
 
+pspec_status ps_pattern_check_dimension(unsigned dimension, unsigned wanted, uint64_t realization,
+                                        ps_error *error) {
+    return dimension == wanted
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %u",
+                         (unsigned long long)realization + 1, dimension, wanted);
+}
+
 pspec_status ps_pattern_check_size(const ps_frequencies *frequencies, uint64_t num_points,
                                    uint64_t realization, ps_error *error) {
     const ps_bin_rule *const bins = &frequencies->bins;
@@ -164,11 +172,8 @@ pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies
                               ps_pattern_sums *sums, ps_error *error) {
     ps_pattern_count count = {.realization = realization,
                               .on_sphere = frequencies->kind == PS_FREQUENCIES_DEGREES};
-    if (pattern->dimension != frequencies->dimension) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %u",
-                       (unsigned long long)realization + 1, pattern->dimension,
-                       frequencies->dimension);
-    }
+    PS_TRY(
+        ps_pattern_check_dimension(pattern->dimension, frequencies->dimension, realization, error));
     if (pattern->num_points == 0 || pattern->points == NULL) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points",
                        (unsigned long long)realization + 1);

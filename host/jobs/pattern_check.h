@@ -60,6 +60,9 @@ pspec_status ps_pattern_check_largest(double largest, uint64_t realization,
  * precision and printed coordinates leave. */
 #define PS_UNIT_LENGTH_SLACK 1e-6
 
+/* All sets have one dimension. */
+pspec_status ps_pattern_check_dimension(unsigned dimension, unsigned wanted, uint64_t realization,
+                                        ps_error *error) PS_MUST_CHECK;
 /* Bins relative to a number of points want every set to have it. */
 pspec_status ps_pattern_check_size(const ps_frequencies *frequencies, uint64_t num_points,
                                    uint64_t realization, ps_error *error) PS_MUST_CHECK;

@@ -28,6 +28,11 @@ typedef struct ps_limits_spec {
     bool profile;                    /* kernels are timed */
 } ps_limits_spec;
 
+/* Opens the device of the limits, or takes the one that is open, which may be NULL, unless there is
+ * one already or no engine that may be chosen needs it. may_lack: without any device *out stays
+ * NULL. *owns: *out is to be closed. */
+pspec_status ps_limits_open_device(const ps_limits_spec *limits, ps_device *open, bool may_lack,
+                                   ps_device **out, bool *owns, ps_error *error) PS_MUST_CHECK;
 /* Where sets of samplers are kept, and in what memory they are made ahead: nowhere with no_skip. */
 ps_sets_options ps_limits_sets(const ps_limits_spec *limits, bool no_skip);
 

@@ -13,6 +13,18 @@ const char *ps_check_bin_name(const ps_saved_spectrum *saved) {
 
 /* ---- what a job measured ------------------------------------------------------------------- */
 
+static pspec_status copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
+                              ps_error *error) {
+    PS_TRY(PS_NEW(&out->bins, averages->num_bins, "saved bins", error));
+    out->num_bins = averages->num_bins;
+    for (size_t b = 0; b < averages->num_bins; b++) {
+        const ps_spectrum_bin *const bin = &averages->bins[b];
+        out->bins[b] = (ps_saved_bin){bin->key,       bin->power, bin->standard_error,
+                                      bin->frequency, bin->count, bin->num_computed};
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_check_measured(ps_saved_spectrum *out, const ps_power_job *job, ps_error *error) {
     const ps_spectrum *const measured = &job->spectrum;
     const ps_frequencies *const set = &measured->frequencies;
@@ -27,7 +39,7 @@ pspec_status ps_check_measured(ps_saved_spectrum *out, const ps_power_job *job, 
                                .sample_size = measured->sample_size.mean,
                                .modes = ps_compared_modes(set),
                                .error = job->runner.accuracy.error};
-    return ps_saved_spectrum_copy_bins(out, measured, error);
+    return copy_bins(out, measured, error);
 }
 
 /* ---- are they of one kind? ----------------------------------------------------------------- */

@@ -49,10 +49,6 @@ pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 void ps_saved_spectrum_free(ps_saved_spectrum *saved);
 
-/* Makes the bins those of the averages. */
-pspec_status ps_saved_spectrum_copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
-                                         ps_error *error) PS_MUST_CHECK;
-
 /* What such a table has, however it came; name is for sentences. *out is {0}, and to be freed, also
  * after an error. */
 pspec_status ps_saved_table_take(ps_saved_spectrum *out, const ps_table *table, const char *name,

@@ -135,21 +135,10 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return PSPEC_OK;
 }
 
-static pspec_status add_weights(ps_table *table, const ps_quadrature_result *result,
-                                ps_error *error) {
-    ps_npy_array array;
-    PS_TRY(ps_npy_make_array(&array, 1, &result->num_weights, false, error));
-    memcpy(array.data, result->weights, result->num_weights * sizeof *array.data);
-    return ps_table_add_array(table, "weights", false, &array, error);
-}
-
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const rules *const self = computed;
-    PS_TRY(ps_quadrature_table(&out->table, request, self->jobs, self->list.num, error));
-    return request->wants_array || request->weights_out != NULL
-               ? add_weights(out->table, &self->jobs[0]->result, error)
-               : PSPEC_OK;
+    return ps_quadrature_table(&out->table, request, self->jobs, self->list.num, error);
 }
 
 static pspec_status check_weights_out(const ps_request *request, ps_error *error) {

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* A text that is only there where there is something to say. */
 static pspec_status add_remark(ps_table *table, const char *key, const char *text,
@@ -220,9 +221,20 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
     return PSPEC_OK;
 }
 
+static pspec_status add_weights(ps_table *table, const ps_quadrature_result *result,
+                                ps_error *error) {
+    ps_npy_array array;
+    PS_TRY(ps_npy_make_array(&array, 1, &result->num_weights, false, error));
+    memcpy(array.data, result->weights, result->num_weights * sizeof *array.data);
+    return ps_table_add_array(table, "weights", false, &array, error);
+}
+
 pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
                                  ps_quadrature_job *const *jobs, size_t num, ps_error *error) {
     const ps_lead first = ps_lead_make(arguments, 0);
     PS_TRY(ps_lead_create_table(out, "quadrature", &first, columns, NUM_COLUMNS, error));
-    return fill(*out, arguments, jobs, num, error);
+    PS_TRY(fill(*out, arguments, jobs, num, error));
+    return arguments->wants_array || arguments->weights_out != NULL
+               ? add_weights(*out, &jobs[0]->result, error)
+               : PSPEC_OK;
 }

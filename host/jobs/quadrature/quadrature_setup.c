@@ -4,7 +4,6 @@
 #include "math/pi.h"
 #include "math/sobolev.h"
 #include "rules/distance_split.h"
-#include "store/figures_file.h"
 #include "rules/kernel/kernel_product.h"
 #include "plan/cost_model.h"
 #include "spectra/sequential.h"
@@ -262,18 +261,8 @@ static ps_problem make_problem(const ps_quadrature_setup *setup,
 
 static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
                                 ps_error *error) {
-    if (out->device != NULL || !ps_plan_may_need_device(&question->limits.constraints)) {
-        return PSPEC_OK;
-    }
-    out->device = question->open_device;
-    if (out->device != NULL) {
-        return PSPEC_OK;
-    }
-    const pspec_status status =
-        ps_figures_open_device(&out->device, question->limits.device, question->limits.profile,
-                               question->limits.cache_folder, error);
-    out->owns_device = status == PSPEC_OK;
-    return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
+    return ps_limits_open_device(&question->limits, question->open_device,
+                                 question->may_lack_device, &out->device, &out->owns_device, error);
 }
 
 pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,

@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
-#include "store/figures_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -113,21 +112,10 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
 
 /* ---- plan -------------------------------------------------------------------------------- */
 
-/* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
 static pspec_status open_device(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    if (job->device != NULL || !ps_plan_may_need_device(&question->limits.constraints)) {
-        return PSPEC_OK;
-    }
-    job->owns_device = question->open_device == NULL;
-    job->device = question->open_device;
-    if (!job->owns_device) {
-        return PSPEC_OK;
-    }
-    const pspec_status status =
-        ps_figures_open_device(&job->device, question->limits.device, question->limits.profile,
-                               question->limits.cache_folder, error);
-    return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
+    const ps_power_question *const question = job->question;
+    return ps_limits_open_device(&question->limits, question->open_device,
+                                 question->may_lack_device, &job->device, &job->owns_device, error);
 }
 
 /* Names that can be wrong are looked at before anything that takes long: sets are read, and rings

@@ -33,19 +33,6 @@ pspec_status ps_variance_sets_next(ps_source *source, ps_point_set *set, ps_erro
 
 /* ---- counting ------------------------------------------------------------------------------ */
 
-static pspec_status check_size(const ps_variance_sets *sets, const count *so_far, ps_error *error) {
-    const ps_point_set *const set = &so_far->set;
-    if (sets->weights != NULL && sets->num_weights != set->num_points) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "\"%s\" holds %zu weights, but a set has %zu points",
-                       so_far->question->weights.path, sets->num_weights, set->num_points);
-    }
-    return set->dimension == sets->dimension
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "set %zu has dimension %u instead of %u",
-                         so_far->num + 1, set->dimension, sets->dimension);
-}
-
 /* The set counts, and so do its weights. */
 static pspec_status add_set(ps_variance_sets *sets, count *so_far, ps_error *error) {
     const ps_point_set *const set = &so_far->set;
@@ -56,7 +43,12 @@ static pspec_status add_set(ps_variance_sets *sets, count *so_far, ps_error *err
                                .on_sphere = so_far->question->on_sphere};
     ps_pattern_sums sums;
     void *memory = so_far->shares;
-    PS_TRY(check_size(sets, so_far, error));
+    if (sets->weights != NULL && sets->num_weights != set->num_points) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "\"%s\" holds %zu weights, but a set has %zu points",
+                       so_far->question->weights.path, sets->num_weights, set->num_points);
+    }
+    PS_TRY(ps_pattern_check_dimension(set->dimension, sets->dimension, so_far->num, error));
     PS_TRY(ps_pattern_count_add(&points, &pattern, error));
     PS_TRY(ps_pattern_count_finish(&points, PSPEC_NORMALIZATION_INTEGRAL, &sums, error));
     PS_TRY(
