@@ -3,7 +3,7 @@
 
 #include "engines/error_units.h"
 
-/* ---- rows of powers that are added later than they were launched ------------------------------ */
+/* ---- rows of powers that are added later than they were launched ----------------------------- */
 
 static pspec_status add_rows(ps_estimator *self, ps_rows *rows, ps_error *error) {
     PS_TRY(ps_rows_wait(rows, error));
@@ -23,7 +23,7 @@ pspec_status ps_estimator_add_pending(ps_estimator *self, ps_error *error) {
     return status == PSPEC_ERROR_MEMORY && is_late ? PSPEC_ERROR_DEVICE : status;
 }
 
-/* ---- the engine -------------------------------------------------------------------------------- */
+/* ---- the engine ------------------------------------------------------------------------------ */
 
 /* Makes the engine anew for self->batch realizations. */
 static pspec_status create_engine(ps_estimator *self, ps_error *error) {

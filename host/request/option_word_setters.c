@@ -71,7 +71,7 @@ const char *ps_input_of_named(const char *words, const char *value) {
     return found != NULL ? found + strlen(key) : NULL;
 }
 
-/* ---- settings --------------------------------------------------------------------------------- */
+/* ---- settings -------------------------------------------------------------------------------- */
 
 pspec_status ps_set_weights(const ps_said *said, ps_error *error) {
     const ps_weights_kind kind = ps_weights_find(said->words, said->text);

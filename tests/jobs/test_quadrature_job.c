@@ -213,12 +213,12 @@ static void one_is_enough(void **state) {
     ps_quadrature_job *const once = run(&job.question);
     assert_true(once->result.num_realizations == 1 && !once->result.has_look);
     job.question.accuracy.no_skip = true;
-    ps_quadrature_job *const all = run(&job.question);
-    assert_true(all->result.num_realizations == 20 && all->result.has_look &&
-                all->result.look.corrected < 1e-12);
-    assert_true(fabs(once->result.squared.mean - all->result.squared.mean) <= 1e-15);
+    ps_quadrature_job *const every = run(&job.question);
+    assert_true(every->result.num_realizations == 20 && every->result.has_look &&
+                every->result.look.corrected < 1e-12);
+    assert_true(fabs(once->result.squared.mean - every->result.squared.mean) <= 1e-15);
     ps_quadrature_job_destroy(once);
-    ps_quadrature_job_destroy(all);
+    ps_quadrature_job_destroy(every);
     ps_brdf_destroy(job.brdf);
 }
 

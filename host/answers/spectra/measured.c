@@ -170,7 +170,7 @@ pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
     return status;
 }
 
-/* ---- tables ----------------------------------------------------------------------------------- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 pspec_status ps_spectra_make_table(ps_table **out, const ps_spectra_table *kind,
                                    const ps_request *request, const ps_measured *all, size_t num,

@@ -103,7 +103,7 @@ ps_sequential_look ps_quadrature_look(const ps_quadrature_sums *sums, double lea
 /* "E^2", "e_l^2 of degree 3", or "nothing above the tolerance". */
 void ps_quadrature_look_name(char *text, size_t size, const ps_sequential_look *look);
 
-/* ---- how long it takes beside its engine, phase by phase -------------------------------------- */
+/* ---- how long it takes beside its engine, phase by phase ------------------------------------- */
 
 /* Returns by what the seconds of its engines are to be multiplied, as ps_power_job_phases. */
 double ps_quadrature_job_phases(const ps_quadrature_job *job, ps_phases *phases);

@@ -128,7 +128,7 @@ void ps_power_job_rate_skips(ps_power_job *job);
 /* Gives the memory back that only realizations need; after run. */
 void ps_power_job_release(ps_power_job *job);
 
-/* ---- which frequencies it looks at ------------------------------------------------------------ */
+/* ---- which frequencies it looks at ----------------------------------------------------------- */
 
 /* The list that the question names, or the box, ball or random subset of rings up to its largest
  * frequency (default: 5 N^(1/d) for d <= 3). num_points, dimension and box are those of the first

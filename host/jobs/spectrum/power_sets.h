@@ -6,7 +6,7 @@
 #include "jobs/estimator.h"
 #include "jobs/source.h"
 
-/* ---- do points leave a piece of an axis empty, as points of a smaller box do? ------------------ */
+/* ---- do points leave a piece of an axis empty, as points of a smaller box do? ---------------- */
 
 enum { PS_AXIS_CELLS = 256 };
 
@@ -29,7 +29,7 @@ void ps_axis_cells_add(ps_axis_cells *cells, const pspec_pattern *block);
  * points leave so long a one on any axis with a probability below 1e-9. */
 bool ps_axis_cells_find_empty(const ps_axis_cells *cells, ps_empty_axis *out);
 
-/* ---- sets -------------------------------------------------------------------------------------- */
+/* ---- sets ------------------------------------------------------------------------------------ */
 
 /* Of more nobody sees single points in a panel of a picture. */
 enum { PS_MOST_POINTS_KEPT = 16384 };

@@ -158,8 +158,8 @@ static pspec_status launch(ps_gaussian_device *d, const ps_gaussian_sums *s, siz
                      PS_BUFFER(d->begins), PS_BUFFER(d->sums));
 }
 
-/* s->sums of s->points, which are sorted. Rounded up, a launch may make some sums of the next, which
- * are the same. */
+/* s->sums of s->points, which are sorted. Rounded up, a launch may make some sums of the next,
+ * which are the same. */
 static pspec_status sum_on_device(ps_gaussian_device *d, const ps_gaussian_sums *s,
                                   const ps_watch *watch, ps_error *error) {
     PS_TRY(ps_buffer_write(d->device, &d->points, 0, s->points, d->points.bytes, error));

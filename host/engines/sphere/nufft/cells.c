@@ -1,5 +1,6 @@
 /* By cells: from points on the device to values on the angles of the grid
- * (kernels/sphere/nufft/grid_values.cl), and from these to powers or coefficients (grid_sums.cl). */
+ * (kernels/sphere/nufft/grid_values.cl), and from these to powers or coefficients
+ * (grid_sums.cl). */
 #include "engines/sphere/nufft/variants.h"
 
 #include "device/reals.h"
