@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "files/decimal.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -109,9 +110,9 @@ pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
     }
     while (lines->cursor == lines->lines_end && !lines->is_at_end) {
         if (is_full(lines)) {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s, line %zu: no end of line within %d bytes; is this a text file?",
-                           lines->input->name, lines->line_number, MOST_BYTES - 1);
+            return ps_lines_fail(lines, error,
+                                 "no end of line within %d bytes; is this a text file?",
+                                 MOST_BYTES - 1);
         }
         PS_TRY(read_more(lines, error));
     }
@@ -147,6 +148,16 @@ void ps_lines_skip(ps_lines *lines) {
     lines->cursor =
         (const char *)memchr(lines->cursor, '\n', (size_t)(lines->lines_end - lines->cursor)) + 1;
     lines->line_number++;
+}
+
+pspec_status ps_lines_fail(const ps_lines *lines, ps_error *error, const char *format, ...) {
+    char what[PS_MESSAGE_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %s", lines->input->name,
+                   lines->line_number, what);
 }
 
 /* ---- tokens ------------------------------------------------------------------------------ */
@@ -242,16 +253,14 @@ pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_col
         double value = 0;
         const size_t length = ps_token_length(text);
         if (length == 0 && separator == ';' && *text == ',') {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s, line %zu: a comma in a number; decimals are written with a point",
-                           lines->input->name, lines->line_number);
+            return ps_lines_fail(lines, error,
+                                 "a comma in a number; decimals are written with a point");
         }
         if (length == 0 || ps_decimal_parse(text, &value) != text + length) {
             char shown[PS_TOKEN_BYTES];
             ps_token_show(shown, text, length > 0 ? length : !ps_ends_line(text));
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: \"%s\" is not a %snumber",
-                           lines->input->name, lines->line_number, shown,
-                           ps_token_is_not_finite(text, length) ? "finite " : "");
+            return ps_lines_fail(lines, error, "\"%s\" is not a %snumber", shown,
+                                 ps_token_is_not_finite(text, length) ? "finite " : "");
         }
         ++*num_columns;
         text = ps_skip_blanks(text + length);

@@ -37,6 +37,10 @@ const char *ps_lines_after(const ps_lines *lines, size_t num_after);
 /* Moves cursor past the line at it. */
 void ps_lines_skip(ps_lines *lines);
 
+/* PSPEC_ERROR_INPUT with a sentence about the line at cursor, "FILE, line 3: ...". */
+pspec_status ps_lines_fail(const ps_lines *lines, ps_error *error, const char *format, ...)
+    PS_PRINTF(3, 4);
+
 /* ---- tokens ---- */
 
 /* Past blanks and tabs. */

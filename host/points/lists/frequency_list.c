@@ -9,47 +9,42 @@
 
 enum { MAX_FREQUENCY = 1 << 30 };
 
-static pspec_status check_frequency(const ps_number_list *list, double value, size_t line_number,
-                                    ps_error *error) {
+static pspec_status check_frequency(const ps_number_list *list, double value, ps_error *error) {
     if (value != floor(value) || fabs(value) > MAX_FREQUENCY) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: frequency %.17g is not a whole number between -%d and %d",
-                       list->input->name, line_number, value, MAX_FREQUENCY, MAX_FREQUENCY);
+        return ps_lines_fail(&list->lines, error,
+                             "frequency %.17g is not a whole number between -%d and %d", value,
+                             MAX_FREQUENCY, MAX_FREQUENCY);
     }
     return PSPEC_OK;
 }
 
-static pspec_status check_columns(ps_number_list *list, size_t columns, size_t line_number,
-                                  ps_error *error) {
+static pspec_status check_columns(ps_number_list *list, size_t columns, ps_error *error) {
     if (columns > PS_MAX_DIMENSION) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: %zu columns; frequency vectors have at most %d",
-                       list->input->name, line_number, columns, PS_MAX_DIMENSION);
+        return ps_lines_fail(&list->lines, error, "%zu columns; frequency vectors have at most %d",
+                             columns, PS_MAX_DIMENSION);
     }
     if (list->columns != 0 && columns != list->columns) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: %zu column%s, the first line has %u", list->input->name,
-                       line_number, columns, columns == 1 ? "" : "s", list->columns);
+        return ps_lines_fail(&list->lines, error, "%zu column%s, the first line has %u", columns,
+                             columns == 1 ? "" : "s", list->columns);
     }
     list->columns = (unsigned)columns;
     return PSPEC_OK;
 }
 
-static pspec_status parse_frequency(ps_number_list *list, const char *text, size_t line_number,
-                                    ps_error *error) {
+static pspec_status parse_frequency(ps_number_list *list, const char *text, ps_error *error) {
     size_t columns = 0;
     bool is_after_comma = false;
     while (*text != '\n' || is_after_comma) {
         double value = 0;
-        PS_TRY(ps_number_list_token(list, &text, line_number, "a number", &value, error));
-        PS_TRY(check_frequency(list, value, line_number, error));
+        PS_TRY(ps_number_list_token(list, &text, "a number", &value, error));
+        PS_TRY(check_frequency(list, value, error));
         PS_TRY(ps_number_list_append(list, value, error));
         columns++;
         text = ps_number_list_skip(text);
         is_after_comma = *text == ',';
         text = ps_number_list_skip(text + is_after_comma);
     }
-    return check_columns(list, columns, line_number, error);
+    return check_columns(list, columns, error);
 }
 
 static pspec_status convert_frequencies(const ps_number_list *list, int **vectors,

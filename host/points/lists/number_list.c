@@ -72,36 +72,36 @@ static size_t token_length(const char *text) {
     return length;
 }
 
-pspec_status ps_number_list_token(const ps_number_list *list, const char **text, size_t line_number,
-                                  const char *what, double *value, ps_error *error) {
+pspec_status ps_number_list_token(const ps_number_list *list, const char **text, const char *what,
+                                  double *value, ps_error *error) {
     const size_t length = token_length(*text);
     if (ps_decimal_parse(*text, value) != *text + length || !isfinite(*value)) {
         char shown[PS_TOKEN_BYTES];
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: \"%s\" is not %s",
-                       list->input->name, line_number, ps_token_show(shown, *text, length), what);
+        return ps_lines_fail(&list->lines, error, "\"%s\" is not %s",
+                             ps_token_show(shown, *text, length), what);
     }
     *text += length;
     return PSPEC_OK;
 }
 
 pspec_status ps_number_list_read(ps_number_list *list, ps_line_parser *parse, ps_error *error) {
-    ps_lines lines = {0};
+    ps_lines *const lines = &list->lines;
     bool has_line = false;
     pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_lines_open(&lines, list->input, error));
-    PS_TRY_OUT(status, ps_lines_fill(&lines, &has_line, error));
+    PS_TRY_OUT(status, ps_lines_open(lines, list->input, error));
+    PS_TRY_OUT(status, ps_lines_fill(lines, &has_line, error));
     while (has_line) {
-        const char *const text = ps_number_list_skip(lines.cursor);
+        const char *const text = ps_number_list_skip(lines->cursor);
         if (*text != '\n' && *text != '#') {
-            PS_TRY_OUT(status, parse(list, text, lines.line_number, error));
+            PS_TRY_OUT(status, parse(list, text, error));
         }
-        ps_lines_skip(&lines);
-        PS_TRY_OUT(status, ps_lines_fill(&lines, &has_line, error));
+        ps_lines_skip(lines);
+        PS_TRY_OUT(status, ps_lines_fill(lines, &has_line, error));
     }
     if (list->num_values == 0) {
         status = ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no numbers", list->input->name);
     }
 out:
-    ps_lines_close(&lines);
+    ps_lines_close(lines);
     return status;
 }

@@ -6,21 +6,19 @@
 #include <stdlib.h>
 
 /* The values of the list are rows, each with the line that it stood in. */
-static pspec_status parse_row(ps_number_list *list, const char *text, size_t line_number,
-                              ps_error *error) {
+static pspec_status parse_row(ps_number_list *list, const char *text, ps_error *error) {
     for (unsigned column = 0; column < list->columns; column++) {
         double value = 0;
-        PS_TRY(ps_number_list_token(list, &text, line_number, "a finite number", &value, error));
+        PS_TRY(ps_number_list_token(list, &text, "a finite number", &value, error));
         PS_TRY(ps_number_list_append(list, value, error));
         text = ps_number_list_skip(text);
         text = ps_number_list_skip(text + (column + 1 < list->columns && *text == ','));
     }
     if (*text != '\n') {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: more than %s numbers; rows have %s columns",
-                       list->input->name, line_number, list->columns_shown, list->columns_shown);
+        return ps_lines_fail(&list->lines, error, "more than %s numbers; rows have %s columns",
+                             list->columns_shown, list->columns_shown);
     }
-    return ps_number_list_append(list, (double)line_number, error);
+    return ps_number_list_append(list, (double)list->lines.line_number, error);
 }
 
 pspec_status ps_read_rows(const char *path, unsigned columns, double **rows, size_t *num_rows,

@@ -11,49 +11,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct place {
-    char text[512];
-} place;
-
-/* "FILE, line 1" */
-static place show_place(const ps_number_list *list, size_t line_number) {
-    place out;
-    snprintf(out.text, sizeof out.text, "%.440s, line %zu", list->input->name, line_number);
-    return out;
-}
-
 /* Names of columns: all but one are an index. */
-static pspec_status take_names(ps_number_list *list, const char *line, size_t line_number,
-                               ps_error *error) {
+static pspec_status take_names(ps_number_list *list, const char *line, ps_error *error) {
     const char separator = memchr(line, ';', strcspn(line, "\n")) != NULL ? ';' : ',';
-    const place where = show_place(list, line_number);
     ps_text_header *const header = list->header;
-    PS_TRY(ps_text_header_read(header, line, line, separator, &(ps_text_choice){0}, where.text,
+    PS_TRY(ps_text_header_read(header, line, line, separator, &(ps_text_choice){0}, &list->lines,
                                error));
     list->separator = separator;
     return header->num_chosen == 1
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "%s: columns %s; weights are one, and those of a file of points are "
-                         "--weights column",
-                         where.text, header->used);
+               : ps_lines_fail(&list->lines, error,
+                               "columns %s; weights are one, and those of a file of points are "
+                               "--weights column",
+                               header->used);
 }
 
-static pspec_status fail_number(const ps_number_list *list, ps_field field, size_t line_number,
-                                ps_error *error) {
+static pspec_status fail_number(const ps_number_list *list, ps_field field, ps_error *error) {
     char shown[PS_TOKEN_BYTES];
     if (memchr(field.text, ',', field.length) != NULL) { /* columns do not say which is meant */
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: a comma; weights are separated by blanks or lines",
-                       list->input->name, line_number);
+        return ps_lines_fail(&list->lines, error,
+                             "a comma; weights are separated by blanks or lines");
     }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: \"%s\" is not a finite number",
-                   list->input->name, line_number, ps_token_show(shown, field.text, field.length));
+    return ps_lines_fail(&list->lines, error, "\"%s\" is not a finite number",
+                         ps_token_show(shown, field.text, field.length));
 }
 
 /* The row of a column with a name. */
-static pspec_status parse_row(ps_number_list *list, const char *line, size_t line_number,
-                              ps_error *error) {
+static pspec_status parse_row(ps_number_list *list, const char *line, ps_error *error) {
     double value = 0;
     bool is_taken = false;
     const bool is_row =
@@ -61,27 +45,24 @@ static pspec_status parse_row(ps_number_list *list, const char *line, size_t lin
     if (is_row && isfinite(value)) {
         return ps_number_list_append(list, value, error);
     }
-    const place where = show_place(list, line_number);
-    return is_row ? ps_fail(error, PSPEC_ERROR_INPUT, "%s: weight %g is not a finite number",
-                            where.text, value)
-                  : ps_text_header_refuse(list->header, line, list->separator, where.text, error);
+    return is_row ? ps_lines_fail(&list->lines, error, "weight %g is not a finite number", value)
+                  : ps_text_header_refuse(list->header, line, list->separator, &list->lines, error);
 }
 
-static pspec_status parse_weights(ps_number_list *list, const char *line, size_t line_number,
-                                  ps_error *error) {
+static pspec_status parse_weights(ps_number_list *list, const char *line, ps_error *error) {
     ps_field field;
     bool is_more = true;
     double value = 0;
     if (list->header->is_there) {
-        return parse_row(list, line, line_number, error);
+        return parse_row(list, line, error);
     }
     if (list->num_values == 0 && (ps_text_header_is(line, ',') || ps_text_header_is(line, ';'))) {
-        return take_names(list, line, line_number, error);
+        return take_names(list, line, error);
     }
     while (ps_field_next(&line, ' ', &is_more, &field)) {
         if (field.length == 0 ||
             ps_decimal_parse(field.text, &value) != field.text + field.length || !isfinite(value)) {
-            return fail_number(list, field, line_number, error);
+            return fail_number(list, field, error);
         }
         PS_TRY(ps_number_list_append(list, value, error));
     }

@@ -41,7 +41,8 @@ static bool is_text(const char *line) {
 static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
     enum { SEVERAL = 4, VECTOR = 3 }; /* at least two points of the plane */
     const ps_point_options *const options = &reader->options;
-    const char *const line = ((ps_text_state *)reader->state)->lines.cursor;
+    const ps_text_state *const state = reader->state;
+    const char *const line = state->lines.cursor;
     const bool may_be_sphere = options->domain != PS_DOMAIN_TORUS;
     double row[VECTOR + 1] = {0};
     const size_t num = ps_line_numbers(line, false, VECTOR + 1, row);
@@ -58,13 +59,13 @@ static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
     if (num < SEVERAL || is_vector) {
         return PSPEC_OK;
     }
-    return ps_text_fail(reader, error,
-                        "%zu numbers and no other line: one point, or one after the other? "
-                        "%s",
-                        num,
-                        options->domain == PS_DOMAIN_SPHERE
-                            ? "--columns, as in xyz, says what a point is"
-                            : "-d says how many dimensions a point has, as in -d 2");
+    return ps_lines_fail(&state->lines, error,
+                         "%zu numbers and no other line: one point, or one after the other? "
+                         "%s",
+                         num,
+                         options->domain == PS_DOMAIN_SPHERE
+                             ? "--columns, as in xyz, says what a point is"
+                             : "-d says how many dimensions a point has, as in -d 2");
 }
 
 /* Formats of text whose rows have blanks, by their first lines. */

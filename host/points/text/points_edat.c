@@ -105,20 +105,20 @@ static pspec_status check_header(const ps_point_reader *reader, const edat_heade
                                  ps_error *error) {
     const ps_text_state *const state = reader->state;
     if (!has_corners(header) || !header->has_toricity) {
-        return ps_text_fail(
-            reader, error,
+        return ps_lines_fail(
+            &state->lines, error,
             "set %llu does not begin with the three lines of EDAT, two "
             "corners of the domain and whether it is a torus (0 or 1)%s",
             (unsigned long long)reader->num_sets + 1,
             reader->num_sets == 0 ? "; --input-format utk-text reads all lines as points" : "");
     }
     if (!encloses_something(header)) {
-        return ps_text_fail(reader, error, "the corners of the domain enclose nothing");
+        return ps_lines_fail(&state->lines, error, "the corners of the domain enclose nothing");
     }
     return state->num_corners == 0 || header->lower_columns == state->num_corners
                ? PSPEC_OK
-               : ps_text_fail(reader, error, "a domain of dimension %u after one of %u",
-                              (unsigned)header->lower_columns, state->num_corners);
+               : ps_lines_fail(&state->lines, error, "a domain of dimension %u after one of %u",
+                               (unsigned)header->lower_columns, state->num_corners);
 }
 
 /* Points must follow. */
@@ -138,8 +138,8 @@ static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     }
     PS_TRY(ps_text_next_line(state, &kind, error));
     return kind == PS_LINE_POINT ? PSPEC_OK
-                                 : ps_text_fail(reader, error, "set %llu has no points",
-                                                (unsigned long long)reader->num_sets + 1);
+                                 : ps_lines_fail(&state->lines, error, "set %llu has no points",
+                                                 (unsigned long long)reader->num_sets + 1);
 }
 
 static pspec_status open_edat(ps_point_reader *reader, ps_error *error) {

@@ -21,15 +21,16 @@ pspec_status ps_frame_line(ps_point_reader *reader, const char **line, ps_error 
 pspec_status ps_frame_count(ps_point_reader *reader, const char *otherwise, uint64_t *count,
                             ps_error *error) {
     const double most = 1e15; /* counts in doubles are exact */
+    ps_text_state *const state = reader->state;
     const char *line = NULL;
     double value = 0;
     PS_TRY(ps_frame_line(reader, &line, error));
     if (ps_line_numbers(line, false, 1, &value) != 1 || !(value >= 1 && value <= most) ||
         value != floor(value)) {
-        return ps_text_fail(reader, error, "%s", otherwise);
+        return ps_lines_fail(&state->lines, error, "%s", otherwise);
     }
     *count = (uint64_t)value;
-    ps_lines_skip(&((ps_text_state *)reader->state)->lines);
+    ps_lines_skip(&state->lines);
     return PSPEC_OK;
 }
 
@@ -81,11 +82,10 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     const ps_point_options *const options = &reader->options;
     const char *wanted = options->column_names;
     char chosen[32];
-    char where[PS_PLACE_BYTES];
-    ps_text_place(where, reader);
     if (frame->has_box && options->box.num_axes > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: --box, and the file states the box itself", where);
+                       "%s, line %zu: --box, and the file states the box itself",
+                       reader->input.name, state->lines.line_number);
     }
     if (wanted == NULL) {
         const unsigned told = options->dimension;
@@ -93,12 +93,11 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
         wanted = told == 1 ? strcat(chosen, ",") : chosen;
     }
     const ps_text_choice choice = {wanted, options->select, frame->filter};
-    PS_TRY(
-        ps_text_header_read(&state->header, frame->names, frame->row, ' ', &choice, where, error));
+    PS_TRY(ps_text_header_read(&state->header, frame->names, frame->row, ' ', &choice,
+                               &state->lines, error));
     if (state->header.lacks_name) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: %u names of columns, and the row after has %u", where,
-                       state->header.num_columns - 1, state->header.num_columns);
+        return ps_lines_fail(&state->lines, error, "%u names of columns, and the row after has %u",
+                             state->header.num_columns - 1, state->header.num_columns);
     }
     state->header.chooses = true;
     take_box(reader, frame);
@@ -107,8 +106,8 @@ pspec_status ps_frame_begin(ps_point_reader *reader, const ps_frame *frame, ps_e
     state->num_kept = 0;
     return reader->columns == 0 || reader->columns == state->header.num_chosen
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u columns after sets of %u", where,
-                         state->header.num_chosen, reader->columns);
+               : ps_lines_fail(&state->lines, error, "%u columns after sets of %u",
+                               state->header.num_chosen, reader->columns);
 }
 
 pspec_status ps_frame_open(ps_point_reader *reader, ps_error *error) {
@@ -144,12 +143,10 @@ static pspec_status read_row(ps_point_reader *reader, ps_rows_read *out, ps_erro
     ps_text_state *const state = reader->state;
     double *const row = out->rows + out->num * reader->columns;
     const char *line = NULL;
-    char where[PS_PLACE_BYTES];
     PS_TRY(ps_frame_line(reader, &line, error));
     bool is_taken = false;
     if (ps_text_header_row(&state->header, line, ' ', row, &is_taken) == NULL) {
-        ps_text_place(where, reader);
-        return ps_text_header_refuse(&state->header, line, ' ', where, error);
+        return ps_text_header_refuse(&state->header, line, ' ', &state->lines, error);
     }
     if (is_taken) {
         scale_row(state, reader->columns, row);

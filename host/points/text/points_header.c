@@ -46,14 +46,13 @@ static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_erro
     }
     return !are_labels
                ? PSPEC_OK
-               : ps_text_fail(reader, error,
-                              "labels of columns, or a point? Its numbers have no "
-                              "decimal points, and those after it have; --header yes or no");
+               : ps_lines_fail(&state->lines, error,
+                               "labels of columns, or a point? Its numbers have no "
+                               "decimal points, and those after it have; --header yes or no");
 }
 
 /* Names like "x,y,r" do not tell that all are coordinates. */
-static pspec_status check_similar(const ps_point_reader *reader, const char *where,
-                                  ps_error *error) {
+static pspec_status check_similar(const ps_point_reader *reader, ps_error *error) {
     const ps_text_state *const state = reader->state;
     const ps_point_options *const options = &reader->options;
     char shown[PS_TOKEN_BYTES];
@@ -61,11 +60,11 @@ static pspec_status check_similar(const ps_point_reader *reader, const char *whe
                          options->dimension != 0 || options->weight_column;
     return is_told || reader->own_columns != NULL || state->header.are_similar
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "%s: are these all coordinates? --columns %s says so, or chooses among "
-                         "them; --weights column, that the last is the weight",
-                         where,
-                         ps_token_show(shown, state->header.used, strlen(state->header.used)));
+               : ps_lines_fail(
+                     &state->lines, error,
+                     "are these all coordinates? --columns %s says so, or chooses among "
+                     "them; --weights column, that the last is the weight",
+                     ps_token_show(shown, state->header.used, strlen(state->header.used)));
 }
 
 /* Numbers in quotes are read field by field. */
@@ -78,7 +77,6 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     const char *const numbers = reader->options.column_names;
     const char *const row = state->lines.cursor;
-    char where[PS_PLACE_BYTES];
     if (numbers != NULL && !ps_columns_are_numbers(numbers)) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: --columns names columns (%s), and the first line has no names; columns "
@@ -94,8 +92,8 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
     if (numbers == NULL && !has_quotes(row)) {
         return PSPEC_OK;
     }
-    ps_text_place(where, reader);
-    PS_TRY(ps_text_header_choose(&state->header, row, state->separator, numbers, where, error));
+    PS_TRY(ps_text_header_choose(&state->header, row, state->separator, numbers, &state->lines,
+                                 error));
     reader->own_columns = ps_columns_meaning(numbers);
     reader->chosen = numbers != NULL ? state->header.used : NULL;
     return PSPEC_OK;
@@ -189,20 +187,18 @@ pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
     const char *row = NULL;
     size_t num_after = 0;
     bool is_there = false;
-    char where[PS_PLACE_BYTES];
     PS_TRY(find_names(reader, &is_there, &row, &num_after, error));
     if (!is_there) {
         return choose_columns(reader, error);
     }
-    ps_text_place(where, reader);
-    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, &choice, where,
+    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, &choice, lines,
                                error));
     reader->own_columns = ps_columns_meaning(choice.names);
     if (reader->own_columns == NULL && reader->options.columns == NULL) {
         reader->own_columns = ps_text_header_meaning(&state->header);
     }
     reader->chosen = state->header.chooses ? state->header.used : NULL;
-    PS_TRY(check_similar(reader, where, error));
+    PS_TRY(check_similar(reader, error));
     state->header.chooses = state->header.chooses || has_quotes(row) || choice.select != NULL ||
                             state->separator == '\t'; /* for other rows tabs are blanks */
     for (size_t i = 0; i < num_after; i++) {

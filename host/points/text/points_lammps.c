@@ -25,8 +25,8 @@ static pspec_status read_bounds(ps_point_reader *reader, ps_error *error) {
         PS_TRY(ps_frame_line(reader, &line, error));
         if (ps_line_numbers(line, false, BOUNDS, row) != BOUNDS || !(row[1] > row[0]) ||
             !isfinite(row[1] - row[0])) {
-            return ps_text_fail(reader, error,
-                                "two bounds of the box should be here, the lower one first");
+            return ps_lines_fail(&state->lines, error,
+                                 "two bounds of the box should be here, the lower one first");
         }
         state->lower[axis] = row[0];
         state->upper[axis] = row[1];
@@ -41,7 +41,7 @@ static pspec_status begin_atoms(ps_point_reader *reader, ps_frame *frame, ps_err
     ps_text_state *const state = reader->state;
     PS_TRY(ps_lines_peek(&state->lines, 1, &frame->row, error));
     if (frame->row == NULL) {
-        return ps_text_fail(reader, error, "the file ends before the atoms");
+        return ps_lines_fail(&state->lines, error, "the file ends before the atoms");
     }
     frame->names = ps_skip_blanks(state->lines.cursor + sizeof "ITEM: ATOMS" - 1);
     for (size_t i = 0; i < sizeof choices / sizeof choices[0] && frame->chosen == NULL; i++) {
@@ -50,7 +50,8 @@ static pspec_status begin_atoms(ps_point_reader *reader, ps_frame *frame, ps_err
         frame->chosen = has_word(frame->names, first) ? choices[i] : NULL;
     }
     if (frame->chosen == NULL && reader->options.column_names == NULL) {
-        return ps_text_fail(reader, error, "no columns x y z, xs ys zs, xu yu zu or xsu ysu zsu");
+        return ps_lines_fail(&state->lines, error,
+                             "no columns x y z, xs ys zs, xu yu zu or xsu ysu zsu");
     }
     frame->absolute = "x,y,z,xu,yu,zu";
     frame->relative = "xs,ys,zs,xsu,ysu,zsu";
@@ -71,19 +72,19 @@ static pspec_status read_item(ps_point_reader *reader, ps_frame *frame, bool *is
         *is_complete = true;
         return frame->num_rows > 0 && frame->has_box
                    ? begin_atoms(reader, frame, error)
-                   : ps_text_fail(reader, error,
-                                  "atoms before their number and the bounds of the box");
+                   : ps_lines_fail(&state->lines, error,
+                                   "atoms before their number and the bounds of the box");
     }
     if (is_bounds && (has_word(name, "xy") || has_word(name, "origin"))) {
-        return ps_text_fail(
-            reader, error,
+        return ps_lines_fail(
+            &state->lines, error,
             "a box that is no cuboid (xy xz yz), which is not read; write the atoms "
             "of a cuboid box");
     }
     if (!is_bounds && !is_count &&
         (name == line || !(begins(name, "TIME") || begins(name, "UNITS")))) {
-        return ps_text_fail(reader, error,
-                            "an item of a LAMMPS dump should be here (ITEM: TIMESTEP)");
+        return ps_lines_fail(&state->lines, error,
+                             "an item of a LAMMPS dump should be here (ITEM: TIMESTEP)");
     }
     ps_lines_skip(&state->lines);
     if (is_bounds) {

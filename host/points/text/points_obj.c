@@ -55,9 +55,9 @@ static pspec_status read_obj(ps_point_reader *reader, ps_rows_read *out, ps_erro
             return PSPEC_OK;
         }
         if (!parse_vertex(state->lines.cursor, out->rows + out->num * AXES)) {
-            return out->num > 0
-                       ? PSPEC_OK
-                       : ps_text_fail(reader, error, "a vertex of OBJ is v and three numbers");
+            return out->num > 0 ? PSPEC_OK
+                                : ps_lines_fail(&state->lines, error,
+                                                "a vertex of OBJ is v and three numbers");
         }
         out->num++;
         ps_lines_skip(&state->lines);

@@ -31,14 +31,14 @@ static pspec_status read_line(ps_point_reader *reader, char line[LINE_BYTES], ps
     while (length < LINE_BYTES - 1 && (length == 0 || line[length - 1] != '\n')) {
         PS_TRY(ps_input_read(&reader->input, line + length, 1, &count, error));
         if (count == 0) {
-            return ps_text_fail(reader, error, "the file ends inside the header of PLY");
+            return ps_lines_fail(&state->lines, error, "the file ends inside the header of PLY");
         }
         length++;
     }
     line[length] = '\0';
     return line[length - 1] == '\n' && state->lines.line_number < MOST_LINES
                ? PSPEC_OK
-               : ps_text_fail(reader, error, "too long for a header of PLY");
+               : ps_lines_fail(&state->lines, error, "too long for a header of PLY");
 }
 
 static bool is_word(ps_field field, const char *word) {
@@ -76,7 +76,8 @@ static pspec_status take_property(ps_point_reader *reader, const ps_field *words
     if (num != WORDS || index == PS_MOST_FILE_COLUMNS ||
         used + words[2].length + 2 > sizeof state->names || words[2].is_quoted ||
         !ps_field_is_printable(words[2]) || !find_type(words[1], &state->types[index])) {
-        return ps_text_fail(reader, error, "a property of vertices that is no number, or too many");
+        return ps_lines_fail(&state->text.lines, error,
+                             "a property of vertices that is no number, or too many");
     }
     snprintf(state->names + used, sizeof state->names - used, "%.*s ", (int)words[2].length,
              words[2].text);
@@ -92,11 +93,12 @@ static pspec_status take_element(ps_point_reader *reader, const ps_field *words,
     ply_state *const state = reader->state;
     state->is_in_vertices = num == WORDS && is_word(words[1], "vertex");
     if (!state->is_in_vertices && !state->has_vertices) {
-        return ps_text_fail(reader, error, "vertices must be the first element of PLY");
+        return ps_lines_fail(&state->text.lines, error,
+                             "vertices must be the first element of PLY");
     }
     if (state->is_in_vertices &&
         (state->has_vertices || !ps_field_is_whole(words[2], num_vertices) || *num_vertices == 0)) {
-        return ps_text_fail(reader, error, "this is no number of vertices");
+        return ps_lines_fail(&state->text.lines, error, "this is no number of vertices");
     }
     state->has_vertices = true;
     return PSPEC_OK;
@@ -108,7 +110,7 @@ static pspec_status take_format(ps_point_reader *reader, ps_field name, ps_error
     state->is_binary = state->is_big_endian || is_word(name, "binary_little_endian");
     return state->is_binary || is_word(name, "ascii")
                ? PSPEC_OK
-               : ps_text_fail(reader, error, "a format of PLY that is not known");
+               : ps_lines_fail(&state->text.lines, error, "a format of PLY that is not known");
 }
 
 static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices, ps_error *error) {
@@ -126,7 +128,8 @@ static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices,
             num++;
         }
         if (is_first && (num != 1 || !is_word(words[0], "ply"))) {
-            return ps_text_fail(reader, error, "a file of PLY begins with a line \"ply\"");
+            return ps_lines_fail(&state->text.lines, error,
+                                 "a file of PLY begins with a line \"ply\"");
         }
         if (num > 1 && is_word(words[0], "format")) {
             PS_TRY(take_format(reader, words[1], error));
@@ -138,7 +141,7 @@ static pspec_status read_header(ps_point_reader *reader, uint64_t *num_vertices,
     }
     return state->has_vertices && state->num_properties > 0
                ? PSPEC_OK
-               : ps_text_fail(reader, error, "a header of PLY without vertices");
+               : ps_lines_fail(&state->text.lines, error, "a header of PLY without vertices");
 }
 
 /* ---- vertices ---------------------------------------------------------------------------- */
@@ -147,6 +150,7 @@ static pspec_status open_ply(ps_point_reader *reader, ps_error *error) {
     ps_frame frame = {.chosen = "x,y,z", .absolute = ""};
     PS_TRY(ps_allocate(&reader->state, 1, sizeof(ply_state), "PLY reader", error));
     ply_state *const state = reader->state;
+    state->text.lines.input = &reader->input;
     PS_TRY(read_header(reader, &frame.num_rows, error));
     const size_t num_lines = state->text.lines.line_number;
     const size_t length = strlen(state->names);

@@ -28,9 +28,9 @@ static pspec_status next_number(ps_point_reader *reader, double *value, bool *ha
         const size_t length = ps_token_length(text);
         if (length == 0 || ps_decimal_parse(text, value) != text + length) {
             char shown[PS_TOKEN_BYTES];
-            return ps_text_fail(reader, error, "\"%s\" is not a %snumber",
-                                ps_token_show(shown, text, length > 0 ? length : 1),
-                                ps_token_is_not_finite(text, length) ? "finite " : "");
+            return ps_lines_fail(lines, error, "\"%s\" is not a %snumber",
+                                 ps_token_show(shown, text, length > 0 ? length : 1),
+                                 ps_token_is_not_finite(text, length) ? "finite " : "");
         }
         lines->cursor = text + length;
         *has_number = true;
@@ -62,9 +62,9 @@ static pspec_status check_columns(ps_point_reader *reader, ps_error *error) {
     ps_line_kind kind = PS_LINE_NONE;
     PS_TRY(ps_text_next_line(state, &kind, error));
     if (kind == PS_LINE_POINT && ps_row_parse(lines->cursor, ' ', 3, row) != NULL) {
-        return ps_text_fail(reader, error,
-                            "3 columns after a count; --columns xyz, or xyw, if the "
-                            "third one is the weight");
+        return ps_lines_fail(&state->lines, error,
+                             "3 columns after a count; --columns xyz, or xyw, if the "
+                             "third one is the weight");
     }
     return PSPEC_OK;
 }
@@ -140,12 +140,12 @@ static pspec_status end_tokens(ps_point_reader *reader, ps_rows_read *out, ps_li
                                ps_error *error) {
     const ps_text_state *const state = reader->state;
     if (state->num_partial > 0) {
-        return ps_text_fail(
-            reader, error, "set %llu ends inside a point, after %u of its %u numbers",
+        return ps_lines_fail(
+            &state->lines, error, "set %llu ends inside a point, after %u of its %u numbers",
             (unsigned long long)reader->num_sets + 1, state->num_partial, reader->columns);
     }
     if (kind == PS_LINE_MARK && state->is_in_line) {
-        return ps_text_fail(reader, error, "a '#' behind numbers");
+        return ps_lines_fail(&state->lines, error, "a '#' behind numbers");
     }
     if (kind == PS_LINE_MARK) {
         return ps_text_end_set(reader, out, error);

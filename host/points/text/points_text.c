@@ -75,10 +75,10 @@ pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) {
         PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
     }
     if (num_columns > PS_MAX_COLUMNS) {
-        return ps_text_fail(reader, error,
-                            "%zu columns; at most %d dimensions are read (--columns "
-                            "chooses among them by number, as in 1,2)",
-                            num_columns, PS_MAX_DIMENSION);
+        return ps_lines_fail(&state->lines, error,
+                             "%zu columns; at most %d dimensions are read (--columns "
+                             "chooses among them by number, as in 1,2)",
+                             num_columns, PS_MAX_DIMENSION);
     }
     ps_text_set_columns(reader, (unsigned)num_columns);
     state->columns_line = state->lines.line_number;
@@ -131,21 +131,20 @@ void ps_text_close(ps_point_reader *reader) {
 static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) {
     const ps_text_state *const state = reader->state;
     size_t num_columns = 0;
-    char where[PS_PLACE_BYTES];
     if (state->header.chooses) {
-        ps_text_place(where, reader);
         const char *const line = state->lines.cursor;
         return ps_text_header_refuse(
             &state->header, line,
-            ps_text_header_line_separator(&state->header, line, state->separator), where, error);
+            ps_text_header_line_separator(&state->header, line, state->separator), &state->lines,
+            error);
     }
     PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
     if (num_columns == reader->columns) { /* blanks, in a file of commas */
-        return ps_text_fail(reader, error, "no %s between two columns",
-                            state->separator == ';' ? "semicolon" : "comma");
+        return ps_lines_fail(&state->lines, error, "no %s between two columns",
+                             state->separator == ';' ? "semicolon" : "comma");
     }
-    return ps_text_fail(reader, error, "%zu column%s, where line %zu has %u", num_columns,
-                        num_columns == 1 ? "" : "s", state->columns_line, reader->columns);
+    return ps_lines_fail(&state->lines, error, "%zu column%s, where line %zu has %u", num_columns,
+                         num_columns == 1 ? "" : "s", state->columns_line, reader->columns);
 }
 
 /* Lines one by one: columns that are not chosen may hold anything. */
@@ -206,8 +205,8 @@ pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out, ps_erro
         return ps_text_fail_selection(reader, error);
     }
     if (reader->rows_in_set + out->num == 0) {
-        return ps_text_fail(reader, error, "set %llu has no points: two '#' lines in a row",
-                            (unsigned long long)reader->num_sets + 1);
+        return ps_lines_fail(&state->lines, error, "set %llu has no points: two '#' lines in a row",
+                             (unsigned long long)reader->num_sets + 1);
     }
     ps_lines_skip(&state->lines);
     state->header.index.may_restart = true;

@@ -29,11 +29,6 @@ typedef struct ps_text_state {
 
 typedef enum ps_line_kind { PS_LINE_POINT, PS_LINE_MARK, PS_LINE_BLANK, PS_LINE_NONE } ps_line_kind;
 
-/* "FILE, line 3" of the line at the cursor, and a sentence about it. */
-void ps_text_place(char place[PS_PLACE_BYTES], const ps_point_reader *reader);
-pspec_status ps_text_fail(const ps_point_reader *reader, ps_error *error, const char *format, ...)
-    PS_PRINTF(3, 4);
-
 /* Makes the next line available and tells what it is. */
 pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind,
                                ps_error *error) PS_MUST_CHECK;

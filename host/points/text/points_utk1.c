@@ -13,10 +13,10 @@ static pspec_status open_utk1(ps_point_reader *reader, ps_error *error) {
     if (strncmp(line, first_line, sizeof first_line - 1) != 0 ||
         !ps_ends_line(ps_skip_blanks(line + sizeof first_line - 1))) {
         char shown[PS_TOKEN_BYTES];
-        return ps_text_fail(reader, error,
-                            "\"%s\", where UTK 1 has \"%s\"; without that line the rows "
-                            "are utk-text",
-                            ps_token_show(shown, line, strcspn(line, "\r\n")), first_line);
+        return ps_lines_fail(&state->lines, error,
+                             "\"%s\", where UTK 1 has \"%s\"; without that line the rows "
+                             "are utk-text",
+                             ps_token_show(shown, line, strcspn(line, "\r\n")), first_line);
     }
     ps_lines_skip(&state->lines);
     PS_TRY(ps_text_next_line(state, &kind, error));

@@ -58,8 +58,8 @@ static pspec_status read_lattice(ps_point_reader *reader, const char *comment, b
         state->upper[axis] = origin[axis] + cell[axis * (AXES + 1)];
     }
     return is_good ? PSPEC_OK
-                   : ps_text_fail(reader, error,
-                                  "a lattice that is no cuboid along the axes, which is not read");
+                   : ps_lines_fail(&state->lines, error,
+                                   "a lattice that is no cuboid along the axes, which is not read");
 }
 
 static void append(char names[NAMES_BYTES], const char *name, size_t length, unsigned number) {
@@ -121,14 +121,15 @@ static pspec_status read_header(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_frame_line(reader, &line, error));
     PS_TRY(ps_lines_peek(&state->lines, 1, &frame.row, error));
     if (frame.row == NULL) {
-        return ps_text_fail(reader, error, "the file ends before the atoms");
+        return ps_lines_fail(&state->lines, error, "the file ends before the atoms");
     }
     PS_TRY(read_lattice(reader, state->lines.cursor, &frame.has_box, error));
     const char *const properties = find_value(state->lines.cursor, "Properties");
     if (properties == NULL) {
         name_plainly(names, frame.row);
     } else if (!name_properties(names, properties)) {
-        return ps_text_fail(reader, error, "Properties are no NAME:TYPE:COUNT, as in pos:R:3");
+        return ps_lines_fail(&state->lines, error,
+                             "Properties are no NAME:TYPE:COUNT, as in pos:R:3");
     }
     names[strlen(names)] = '\n';
     frame.names = names;

@@ -110,13 +110,13 @@ static void show_names(ps_text *out, const ps_field *names, unsigned num) {
 }
 
 static pspec_status fail_name(const ps_field *names, unsigned num, const char *name, size_t length,
-                              const char *where, ps_error *error) {
+                              const ps_lines *lines, ps_error *error) {
     ps_text list = {0};
     show_names(&list, names, num);
     const pspec_status status =
         ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                "%s: there is no column \"%.*s\", or it is named twice; the names are %s", where,
-                (int)length, name, ps_text_string(&list));
+                "%s, line %zu: there is no column \"%.*s\", or it is named twice; the names are %s",
+                lines->input->name, lines->line_number, (int)length, name, ps_text_string(&list));
     ps_text_free(&list);
     return status;
 }
@@ -150,12 +150,12 @@ static unsigned find_name(const ps_field *names, unsigned num, ps_field wanted) 
 }
 
 static pspec_status choose_named(ps_text_header *out, const ps_field *names, const char *wanted,
-                                 const char *where, ps_error *error) {
+                                 const ps_lines *lines, ps_error *error) {
     ps_field name;
     while (next_wanted(&wanted, &name)) {
         const unsigned found = find_name(names, out->num_columns, name);
         if (found == out->num_columns || out->places[found] >= 0) {
-            return fail_name(names, out->num_columns, name.text, name.length, where, error);
+            return fail_name(names, out->num_columns, name.text, name.length, lines, error);
         }
         choose(out, found, names[found]);
     }
@@ -164,7 +164,7 @@ static pspec_status choose_named(ps_text_header *out, const ps_field *names, con
 
 /* "3,7": numbers of columns, which have names or none. */
 static pspec_status choose_numbered(ps_text_header *out, const ps_field *names, const char *numbers,
-                                    const char *where, ps_error *error) {
+                                    const ps_lines *lines, ps_error *error) {
     unsigned wanted[PS_MAX_COLUMNS];
     unsigned num = 0;
     ps_columns_numbers(numbers, wanted, PS_MAX_COLUMNS, &num);
@@ -173,12 +173,11 @@ static pspec_status choose_numbered(ps_text_header *out, const ps_field *names, 
         const ps_field shown = {.text = text,
                                 .length = (size_t)snprintf(text, sizeof text, "%u", wanted[i])};
         if (wanted[i] > out->num_columns) {
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, and --columns asks for %u",
-                           where, out->num_columns, out->num_columns == 1 ? "" : "s", wanted[i]);
+            return ps_lines_fail(lines, error, "%u column%s, and --columns asks for %u",
+                                 out->num_columns, out->num_columns == 1 ? "" : "s", wanted[i]);
         }
         if (out->places[wanted[i] - 1] >= 0) {
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: --columns asks for column %u twice",
-                           where, wanted[i]);
+            return ps_lines_fail(lines, error, "--columns asks for column %u twice", wanted[i]);
         }
         choose(out, wanted[i] - 1, names != NULL ? names[wanted[i] - 1] : shown);
     }
@@ -210,23 +209,22 @@ const char *ps_text_header_meaning(ps_text_header *header) {
 /* names[0] is empty where the header has a name less than rows have columns: an index. */
 static pspec_status read_names(ps_text_header *out, ps_field names[PS_MOST_FILE_COLUMNS],
                                const char *line, unsigned num_fields, char separator,
-                               const char *where, ps_error *error) {
+                               const ps_lines *lines, ps_error *error) {
     const unsigned num_names = ps_fields_count(line, separator);
     const unsigned first = num_fields == num_names + 1 ? 1 : 0;
     bool is_more = true;
     if (num_fields > PS_MOST_FILE_COLUMNS || num_names + first != num_fields) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: %u names of columns, but the line after it has %u (at most %d)%s",
-                       where, num_names, num_fields, PS_MOST_FILE_COLUMNS,
-                       separator == ' ' ? "; text with blanks stands in quotes" : "");
+        return ps_lines_fail(lines, error,
+                             "%u names of columns, but the line after it has %u (at most %d)%s",
+                             num_names, num_fields, PS_MOST_FILE_COLUMNS,
+                             separator == ' ' ? "; text with blanks stands in quotes" : "");
     }
     names[0] = (ps_field){.text = line};
     out->lacks_name = first == 1;
     for (unsigned i = first; i < num_fields; i++) {
         ps_field_next(&line, separator, &is_more, &names[i]);
         if (!ps_field_is_printable(names[i])) {
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: the name of column %u is no text", where,
-                           i + 1);
+            return ps_lines_fail(lines, error, "the name of column %u is no text", i + 1);
         }
     }
     out->num_columns = num_fields;
@@ -302,29 +300,30 @@ static bool are_similar(const ps_field *names, unsigned num) {
     return are && !(num > 1 && ps_field_is(names[num - 1], "w", 1));
 }
 
-static pspec_status check_chosen(ps_text_header *out, const char *where, ps_error *error) {
+static pspec_status check_chosen(ps_text_header *out, const ps_lines *lines, ps_error *error) {
     out->chooses = out->num_chosen < out->num_columns;
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->chooses = out->chooses || out->places[i] != (short)i;
     }
     return out->num_chosen > 0 && out->num_chosen <= PS_MAX_COLUMNS
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "%s: %u columns; at most %d dimensions are read (--columns chooses among "
-                         "them by name or number, as in 1,2)",
-                         where, out->num_chosen, PS_MAX_DIMENSION);
+               : ps_lines_fail(
+                     lines, error,
+                     "%u columns; at most %d dimensions are read (--columns chooses among "
+                     "them by name or number, as in 1,2)",
+                     out->num_chosen, PS_MAX_DIMENSION);
 }
 
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const ps_text_choice *choice, const char *where,
-                                 ps_error *error) {
+                                 char separator, const ps_text_choice *choice,
+                                 const ps_lines *lines, ps_error *error) {
     const char *const names = choice->names;
     const char *const select = choice->select;
     ps_field found[PS_MOST_FILE_COLUMNS];
     *out = (ps_text_header){.is_there = true};
-    PS_TRY(ps_row_filter_find(&out->filter, line, separator, choice, where, error));
+    PS_TRY(ps_row_filter_find(&out->filter, line, separator, choice, lines, error));
     const char part = ps_text_header_line_separator(out, row, separator);
-    PS_TRY(read_names(out, found, line, ps_fields_count(row, part), separator, where, error));
+    PS_TRY(read_names(out, found, line, ps_fields_count(row, part), separator, lines, error));
     out->filter.column += out->lacks_name; /* names begin with the second column */
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->places[i] = -1;
@@ -333,9 +332,9 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
                                      ps_columns_are_numbers(names);
     if (is_chosen_by_number) {
         /* which names are theirs is not clear where one is missing */
-        PS_TRY(choose_numbered(out, out->lacks_name ? NULL : found, names, where, error));
+        PS_TRY(choose_numbered(out, out->lacks_name ? NULL : found, names, lines, error));
     } else if (names != NULL) {
-        PS_TRY(choose_named(out, found, names, where, error));
+        PS_TRY(choose_named(out, found, names, lines, error));
     }
     const bool is_end_empty = ends_empty(row, part); /* separators after the last column */
     for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
@@ -347,25 +346,25 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
         }
     }
     if (out->lacks_name && !is_chosen_by_number && !lacks_first(out, found, line, row, part)) {
-        return ps_fail(
-            error, PSPEC_ERROR_INPUT,
-            "%s: %u names of columns, and the row after has %u; nothing says that it is the "
+        return ps_lines_fail(
+            lines, error,
+            "%u names of columns, and the row after has %u; nothing says that it is the "
             "first that has no name (--columns chooses by number, as in 1,2)",
-            where, out->num_columns - 1, out->num_columns);
+            out->num_columns - 1, out->num_columns);
     }
     /* Where a name is missing, those that are wanted may be the names of other columns. */
     out->has_index = out->places[0] < 0 && is_unnamed(found[0]) && !is_chosen_by_number &&
                      (names == NULL || out->lacks_name);
     out->are_similar = are_similar(found + (out->places[0] < 0), out->num_chosen);
-    return check_chosen(out, where, error);
+    return check_chosen(out, lines, error);
 }
 
 pspec_status ps_text_header_choose(ps_text_header *out, const char *row, char separator,
-                                   const char *numbers, const char *where, ps_error *error) {
+                                   const char *numbers, const ps_lines *lines, ps_error *error) {
     *out = (ps_text_header){.num_columns = ps_fields_count(row, separator)};
     if (out->num_columns > PS_MOST_FILE_COLUMNS) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u columns; at most %d are chosen among",
-                       where, out->num_columns, PS_MOST_FILE_COLUMNS);
+        return ps_lines_fail(lines, error, "%u columns; at most %d are chosen among",
+                             out->num_columns, PS_MOST_FILE_COLUMNS);
     }
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->places[i] = numbers != NULL ? -1 : (short)i;
@@ -373,9 +372,9 @@ pspec_status ps_text_header_choose(ps_text_header *out, const char *row, char se
     out->num_chosen = out->num_columns;
     if (numbers != NULL) {
         out->num_chosen = 0;
-        PS_TRY(choose_numbered(out, NULL, numbers, where, error));
+        PS_TRY(choose_numbered(out, NULL, numbers, lines, error));
     }
-    PS_TRY(check_chosen(out, where, error));
+    PS_TRY(check_chosen(out, lines, error));
     out->chooses = true; /* by fields, also where they are all there */
     return PSPEC_OK;
 }

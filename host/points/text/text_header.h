@@ -3,7 +3,7 @@
 #ifndef PS_POINTS_TEXT_HEADER_H
 #define PS_POINTS_TEXT_HEADER_H
 
-#include "base/status.h"
+#include "files/text_lines.h"
 #include "points/columns.h"
 
 #include <stdbool.h>
@@ -68,15 +68,16 @@ bool ps_text_header_is_numbered(const char *line, char separator);
 bool ps_text_header_is_decimal(const char *line, char separator);
 
 /* Reads the names at line and looks at the row after it, which has as many fields, or one more
- * where all tells that the first name is missing; where: "FILE, line 1". */
+ * where all tells that the first name is missing. The line at the cursor of lines is named in
+ * sentences. */
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
-                                 char separator, const ps_text_choice *choice, const char *where,
-                                 ps_error *error) PS_MUST_CHECK;
+                                 char separator, const ps_text_choice *choice,
+                                 const ps_lines *lines, ps_error *error) PS_MUST_CHECK;
 
 /* For a text without a line of names: columns by their numbers, "3,7", or all of them for NULL.
  * Counts those of the row. */
 pspec_status ps_text_header_choose(ps_text_header *out, const char *row, char separator,
-                                   const char *numbers, const char *where,
+                                   const char *numbers, const ps_lines *lines,
                                    ps_error *error) PS_MUST_CHECK;
 
 /* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. Where these
@@ -85,7 +86,7 @@ const char *ps_text_header_meaning(ps_text_header *header);
 
 /* Finds the column of the filter in a line of names. */
 pspec_status ps_row_filter_find(ps_row_filter *out, const char *names, char separator,
-                                const ps_text_choice *choice, const char *where,
+                                const ps_text_choice *choice, const ps_lines *lines,
                                 ps_error *error) PS_MUST_CHECK;
 /* Takes the filter a row with this number, of a file of numbers? is_single: it was rounded to
  * float32 there. */
@@ -98,6 +99,6 @@ const char *ps_text_header_row(ps_text_header *header, const char *line, char se
                                double *row, bool *is_taken);
 /* Why it is none. */
 pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
-                                   const char *where, ps_error *error) PS_MUST_CHECK;
+                                   const ps_lines *lines, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -22,7 +22,8 @@ static void set_value(ps_row_filter *out, const char *value) {
 }
 
 pspec_status ps_row_filter_find(ps_row_filter *out, const char *names, char separator,
-                                const ps_text_choice *choice, const char *where, ps_error *error) {
+                                const ps_text_choice *choice, const ps_lines *lines,
+                                ps_error *error) {
     const char *const select = choice->select;
     *out = (ps_row_filter){0};
     if (select == NULL) {
@@ -37,8 +38,8 @@ pspec_status ps_row_filter_find(ps_row_filter *out, const char *names, char sepa
     }
     if (column < 0) {
         char shown[PS_TOKEN_BYTES];
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: --select %s, and the columns are \"%s\"",
-                       where, select, ps_token_show(shown, names, strcspn(names, "\r\n")));
+        return ps_lines_fail(lines, error, "--select %s, and the columns are \"%s\"", select,
+                             ps_token_show(shown, names, strcspn(names, "\r\n")));
     }
     set_value(out, select + length + 1);
     out->column = (unsigned)column;
@@ -115,43 +116,43 @@ const char *ps_text_header_row(ps_text_header *header, const char *line, char se
     return line;
 }
 
-static pspec_status refuse_index(const ps_text_header *header, ps_field token, const char *where,
-                                 ps_error *error) {
+static pspec_status refuse_index(const ps_text_header *header, ps_field token,
+                                 const ps_lines *lines, ps_error *error) {
     char shown[PS_TOKEN_BYTES];
     char advice[PS_TOKEN_BYTES];
     snprintf(advice, sizeof advice, "the header names %u of %u columns; it must name all",
              header->num_columns - 1, header->num_columns);
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: \"%s\" in a column without a name, which is no index (text, or the rows "
-                   "counted from 0 or 1 on); %s",
-                   where, ps_token_show(shown, token.text, token.length),
-                   header->lacks_name ? advice
-                                      : "--columns with names, as in x,y, passes over others");
+    return ps_lines_fail(
+        lines, error,
+        "\"%s\" in a column without a name, which is no index (text, or the rows "
+        "counted from 0 or 1 on); %s",
+        ps_token_show(shown, token.text, token.length),
+        header->lacks_name ? advice : "--columns with names, as in x,y, passes over others");
 }
 
 pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
-                                   const char *where, ps_error *error) {
+                                   const ps_lines *lines, ps_error *error) {
     const unsigned num = ps_fields_count(line, separator);
     char shown[PS_TOKEN_BYTES];
     ps_field token;
     bool is_more = true;
     ps_row_index index = header->index;
     if (num != header->num_columns) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, where the %s %u", where, num,
-                       num == 1 ? "" : "s", header->is_there ? "header names" : "first row has",
-                       header->num_columns);
+        return ps_lines_fail(lines, error, "%u column%s, where the %s %u", num, num == 1 ? "" : "s",
+                             header->is_there ? "header names" : "first row has",
+                             header->num_columns);
     }
     for (unsigned i = 0; i < num; i++) {
         ps_field_next(&line, separator, &is_more, &token);
         if (i == 0 && header->has_index &&
             !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
-            return refuse_index(header, token, where, error);
+            return refuse_index(header, token, lines, error);
         }
         if (header->places[i] >= 0 && !ps_field_is_number(token)) {
             break;
         }
     }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%s\" is not a %snumber", where,
-                   ps_token_show(shown, token.text, token.length),
-                   ps_field_is_not_finite(token) ? "finite " : "");
+    return ps_lines_fail(lines, error, "\"%s\" is not a %snumber",
+                         ps_token_show(shown, token.text, token.length),
+                         ps_field_is_not_finite(token) ? "finite " : "");
 }
