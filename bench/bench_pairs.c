@@ -5,7 +5,7 @@
 #include "bench.h"
 
 #include "engines/error_units.h"
-#include "engines/host/host_degree.h"
+#include "engines/host/host_direct.h"
 #include "engines/engine.h"
 
 #include <math.h>

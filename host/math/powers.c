@@ -1,6 +1,6 @@
 #define PRECISION 64
 
-#include "math/powers.h"
+#include "math/sobolev.h"
 
 #include "base/wide.h"
 #include "shared/power.h"

@@ -3,7 +3,6 @@
 #include "base/wide.h"
 #include "math/neumaier.h"
 #include "math/pi.h"
-#include "math/powers.h"
 
 #include <math.h>
 #include <stdbool.h>

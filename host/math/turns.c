@@ -1,6 +1,5 @@
 #include "math/turns.h"
 
-#include "math/cosine_sine.h"
 #include "math/pi.h"
 
 #include <math.h>

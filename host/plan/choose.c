@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "engines/error_units.h"
 #include "frequencies/frequency_sample.h"
-#include "plan/choose_private.h"
 #include "plan/cost_model.h"
 #include "plan/memory_model.h"
 

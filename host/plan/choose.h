@@ -83,6 +83,12 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
  * none. */
 const ps_candidate *ps_plan_cheapest(const ps_plan *plan, int precision);
 
+/* The cheapest feasible one that there is room for; NULL: none. */
+const ps_candidate *ps_plan_fitting(const ps_plan *plan);
+
+/* Is a power at the floor further off than it may be? */
+bool ps_plan_misses_floor(const ps_candidate *candidate);
+
 /* Fails when nothing is feasible: PSPEC_ERROR_TOLERANCE when only the tolerance stood in the way
  * (with the best error that can be reached), else PSPEC_ERROR_MEMORY or _INVALID_ARGUMENT;
  * PSPEC_ERROR_MEMORY, too, when there is no room for what was chosen. */

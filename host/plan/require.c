@@ -1,6 +1,6 @@
 /* Sentences for plans that nothing is left of: what stands in the way, and what would help. */
 #include "engines/error_units.h"
-#include "plan/choose_private.h"
+#include "plan/choose.h"
 #include "plan/memory_model.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "trials/device_trials.h"
+#include "trials/ways.h"
 
 #include "base/memory.h"
 #include "base/round.h"

@@ -1,4 +1,4 @@
-#include "trials/host_trials.h"
+#include "trials/ways.h"
 
 #include "base/workers.h"
 #include "math/neumaier.h"

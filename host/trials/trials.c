@@ -3,8 +3,7 @@
 #include "base/memory.h"
 #include "math/neumaier.h"
 #include "math/pi.h"
-#include "trials/device_trials.h"
-#include "trials/host_trials.h"
+#include "trials/ways.h"
 
 #include <math.h>
 #include <stdlib.h>

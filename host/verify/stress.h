@@ -29,6 +29,12 @@ typedef struct ps_stress_probe {
                             ps_error *error);
 } ps_stress_probe;
 
+/* Probes that are no engine's: sums and averages on the device, and special functions, kernels and
+ * weights on the host. */
+extern const ps_stress_probe ps_probe_averages;
+extern const ps_stress_probe ps_probe_diagonal, ps_probe_eigenvalues, ps_probe_sharp_lobe,
+    ps_probe_wide_lobe, ps_probe_optimal_weights;
+
 typedef struct ps_stress_case {
     const char *name;
     const char *section; /* a heading of docs/mathematics: of the numerics, or of quadrature */

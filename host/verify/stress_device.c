@@ -1,5 +1,5 @@
 /* Kernels of the device that belong to no engine: averages over realizations. */
-#include "verify/stress_probes.h"
+#include "verify/stress.h"
 
 #include "base/memory.h"
 #include "engines/host/host_direct.h"

@@ -1,9 +1,9 @@
 /* What the host computes alone, against other formulas in long double
  * (docs/mathematics/quadrature.md, docs/mathematics/numerics.md). */
-#include "verify/stress_probes.h"
+#include "verify/stress.h"
 
 #include "base/memory.h"
-#include "engines/host/host_pairs.h"
+#include "engines/host/host_direct.h"
 #include "integrands/brdf.h"
 #include "math/gauss_legendre.h"
 #include "math/pi.h"

@@ -2,9 +2,7 @@
 
 #include "base/memory.h"
 #include "base/workers.h"
-#include "engines/host/host_degree.h"
 #include "engines/host/host_direct.h"
-#include "engines/host/host_pairs.h"
 #include "verify/stress_shapes.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The cases of the stability suite, by the headings of docs/mathematics/numerics.md, those of a
  * second or so quick; and of the benchmark, with frequencies that the program takes where nothing
  * is said, or that make the case. */
-#include "verify/stress_probes.h"
+#include "verify/stress.h"
 
 #define TORUS .kind = PS_STRESS_TORUS
 #define SPHERE .kind = PS_STRESS_SPHERE

@@ -1,4 +1,4 @@
-/* Sorted points: what kernels/nufft/ agrees on with host/engines/nufft/kernels.h.
+/* Sorted points: what kernels/nufft/ agrees on with host/engines/nufft/axis.h.
  *
  * The places of a realization are its points in the order of cells, and points without weight up to
  * a multiple of PLACE_UNIT.

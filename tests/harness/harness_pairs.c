@@ -1,7 +1,7 @@
 #include "harness_pairs.h"
 
 #include "engines/error_units.h"
-#include "engines/host/host_pairs.h"
+#include "engines/host/host_direct.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "harness_sphere.h"
 
-#include "engines/host/host_degree.h"
+#include "engines/host/host_direct.h"
 #include "math/pi.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 
 #include "harness_sphere.h"
 
-#include "engines/host/host_degree.h"
+#include "engines/host/host_direct.h"
 #include "math/pi.h"
 
 #include <math.h>

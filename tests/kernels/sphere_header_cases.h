@@ -7,7 +7,7 @@
 
 #include "harness_sphere.h"
 
-#include "engines/host/host_degree.h"
+#include "engines/host/host_direct.h"
 #include "engines/sphere/sphere_layout.h"
 #include "math/pi.h"
 

@@ -2,7 +2,7 @@
 #include "harness_kernels.h"
 #include "harness_sphere.h"
 
-#include "engines/host/host_degree.h"
+#include "engines/host/host_direct.h"
 #include "engines/sphere/sphere_points.h"
 #include "engines/sphere/sphere_layout.h"
 #include "math/pi.h"

@@ -8,7 +8,7 @@
  * normalised by the addition theorem, Lambda_0^2 + 2 sum_{m > 0} Lambda_m^2 = (2l + 1) / (4 pi)
  * (docs/mathematics/sphere.md#harmonics, docs/mathematics/numerics.md#high-order).
  */
-#include "engines/host/host_degree.h"
+#include "engines/host/host_direct.h"
 
 #include "base/memory.h"
 #include "math/pi.h"

@@ -4,7 +4,6 @@
 #include "engines/host/host_direct.h"
 
 #include "base/memory.h"
-#include "engines/host/host_degree.h"
 #include "math/pi.h"
 
 #include <float.h>

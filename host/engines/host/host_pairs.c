@@ -1,4 +1,4 @@
-#include "engines/host/host_pairs.h"
+#include "engines/host/host_direct.h"
 
 #include "base/memory.h"
 

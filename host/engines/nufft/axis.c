@@ -1,7 +1,6 @@
 #include "engines/nufft/axis.h"
 
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 
 /* Numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
 enum { BIN_UNIT = 8, PITCH_UNIT = 8 };

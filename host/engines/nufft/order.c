@@ -2,7 +2,7 @@
 
 #include "base/round.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
+#include "engines/nufft/axis.h"
 #include "nufft/numbers.h"
 
 /* ---- sizes ------------------------------------------------------------------------------- */

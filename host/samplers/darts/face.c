@@ -1,6 +1,6 @@
 #include "samplers/darts/face.h"
 
-#include "math/cosine_sine.h"
+#include "math/turns.h"
 #include "math/pi.h"
 
 #include <math.h>

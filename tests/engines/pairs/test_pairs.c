@@ -3,7 +3,7 @@
 #include "harness_pairs.h"
 
 #include "engines/pairs/pairs_bins.h"
-#include "engines/host/host_pairs.h"
+#include "engines/host/host_direct.h"
 #include "engines/engine.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
  */
 #include "harness_kernels.h"
 
-#include "engines/nufft/kernels.h"
+#include "engines/nufft/axis.h"
 #include "engines/nufft/order.h"
 
 #include <stdlib.h>

@@ -7,7 +7,6 @@
 #include "window_cells.h"
 
 #include "engines/nufft/grid_axis.h"
-#include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/variant.h"
 #include "engines/nufft/window.h"

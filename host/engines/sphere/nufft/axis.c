@@ -1,7 +1,6 @@
 /* Which fine grid, window and rings sphere_nufft and sphere_grid take: the cheapest that keep the
  * tolerance. */
 #include "engines/nufft/fft.h"
-#include "engines/nufft/kernels.h"
 #include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
 

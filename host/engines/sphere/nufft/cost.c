@@ -1,7 +1,6 @@
 /* What sphere_nufft and sphere_grid cost: the planner compares, and grids are chosen by it. */
 #include "engines/nufft/cycles.h"
 #include "engines/nufft/fft.h"
-#include "engines/nufft/kernels.h"
 #include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
 

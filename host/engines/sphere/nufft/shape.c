@@ -3,7 +3,6 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
-#include "engines/nufft/kernels.h"
 #include "engines/nufft/grid_axis.h"
 
 #include <math.h>

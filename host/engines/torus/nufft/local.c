@@ -1,7 +1,5 @@
 #include "engines/torus/nufft/local.h"
 
-#include "engines/nufft/kernels.h"
-
 /* How much each point of a chunk turns, kernels/nufft/spread.h. */
 enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
 

@@ -3,7 +3,6 @@
 #include "base/round.h"
 #include "device/kind.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
 
 #include <math.h>

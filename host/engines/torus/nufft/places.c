@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 #include "nufft/numbers.h"
 
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* A grid of all axes for one large set at a time: what it takes (large.c does it). */
 #include "base/round.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/torus/nufft/measure.h"
 #include "engines/torus/nufft/layout.h"

@@ -1,7 +1,6 @@
 #include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 
 /* Rows of powers are whole vectors. */
 enum { POWER_UNIT = 16 };

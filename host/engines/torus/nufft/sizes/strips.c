@@ -2,7 +2,6 @@
 
 #include "base/round.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
 
 uint32_t ps_nufft_strip_columns(unsigned lanes) {
     return 2 * lanes > PS_NUFFT_MAX_WIDTH ? 2 * lanes : PS_NUFFT_MAX_WIDTH;

@@ -1,7 +1,6 @@
 #include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 
 /* Realizations that share a last tile, at least: lanes are put there one by one. */
 enum { LEAST_SHARING = 4 };

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/torus/nufft/variant.h"
 #include "math/pi.h"

@@ -1,6 +1,5 @@
 /* What tiles of frequencies take, whose axis 0 is summed directly (tiles.c does it). */
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 #include "engines/torus/nufft/local.h"
 #include "engines/torus/nufft/measure.h"
 #include "engines/torus/nufft/layout.h"

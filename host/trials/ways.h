@@ -1,6 +1,7 @@
-/* Trials on a device: integrands/values.cl and its buffers. */
-#ifndef PS_TRIALS_DEVICE_TRIALS_H
-#define PS_TRIALS_DEVICE_TRIALS_H
+/* Trials on a device: integrands/values.cl and its buffers; and on the host, in doubles: what there
+ * is without a device, and the referee of the other. */
+#ifndef PS_TRIALS_WAYS_H
+#define PS_TRIALS_WAYS_H
 
 #include "trials/trials.h"
 
@@ -18,5 +19,10 @@ void ps_device_trials_destroy(ps_device_trials *trials); /* NULL is allowed */
 pspec_status ps_device_trials_sums(ps_device_trials *trials, const pspec_pattern *patterns,
                                    size_t num_patterns, const double *moves, double *sums,
                                    ps_error *error) PS_MUST_CHECK;
+
+/* sums[num_patterns][num_trials] of w F, by several threads where values cannot fail; moves as in
+ * trials/trials.h. */
+void ps_host_trials_sums(const ps_integrand *integrand, const pspec_pattern *patterns,
+                         size_t num_patterns, size_t num_trials, const double *moves, double *sums);
 
 #endif
