@@ -105,9 +105,6 @@ struct ps_point_writer {
     ps_text kept; /* rows, of a format that cannot write them at once */
 };
 
-/* "FILE, line 3", or "FILE, set 2, row 3" */
-enum { PS_PLACE_BYTES = 512 };
-
 extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, ps_format_psa_text,
     ps_format_gbn, ps_format_eps, ps_format_utk_binary, ps_format_rps, ps_format_npy,
     ps_format_openquad;

@@ -8,7 +8,8 @@
 
 enum {
     BLOCK_VALUES = 1 << 16, /* rows are converted while they are still in the cache: 512 KiB */
-    FIRST_POINTS = 1024     /* so that small sets are allocated once */
+    FIRST_POINTS = 1024,    /* so that small sets are allocated once */
+    PLACE_BYTES = 512       /* of "FILE, line 3", or "FILE, set 2, row 3" */
 };
 
 void ps_point_set_free(ps_point_set *set) {
@@ -35,13 +36,12 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
     return PSPEC_OK;
 }
 
-static const char *show_place(char place[PS_PLACE_BYTES], const ps_point_reader *reader,
-                              size_t row) {
+static const char *show_place(char place[PLACE_BYTES], const ps_point_reader *reader, size_t row) {
     if (reader->first_line > 0) {
-        snprintf(place, PS_PLACE_BYTES, "%.440s, line %zu", reader->input.name,
+        snprintf(place, PLACE_BYTES, "%.440s, line %zu", reader->input.name,
                  reader->first_line + row);
     } else {
-        snprintf(place, PS_PLACE_BYTES, "%.440s, set %llu, row %zu", reader->input.name,
+        snprintf(place, PLACE_BYTES, "%.440s, set %llu, row %zu", reader->input.name,
                  (unsigned long long)reader->num_sets + 1, reader->rows_in_set + row + 1);
     }
     return place;
@@ -73,7 +73,7 @@ static pspec_status read_staged(ps_point_reader *reader, size_t max_points, ps_r
 }
 
 static pspec_status resolve_layout(ps_point_reader *reader, const double *first, ps_error *error) {
-    char place[PS_PLACE_BYTES];
+    char place[PLACE_BYTES];
     const ps_columns_question question = {
         .where = show_place(place, reader, 0),
         .columns = reader->columns,
@@ -90,7 +90,7 @@ static pspec_status resolve_layout(ps_point_reader *reader, const double *first,
 
 static pspec_status refuse(const ps_point_reader *reader, const double *rows, size_t row,
                            ps_error *error) {
-    char place[PS_PLACE_BYTES];
+    char place[PLACE_BYTES];
     return ps_columns_refuse(&reader->layout, &reader->options, show_place(place, reader, row),
                              rows + row * reader->columns, error);
 }

@@ -107,21 +107,21 @@ static bool take_record(ps_npz_member *out, const ps_npz_file *file, uint64_t po
     const size_t ending = strlen(PS_NPZ_ENDING);
     const char *const local = file->bytes + position;
     const uint64_t left = file->num_bytes - position;
-    if (left < PS_NPZ_LOCAL_BYTES) {
+    if (left < PS_ZIP_LOCAL_BYTES) {
         return false;
     }
-    const size_t name_bytes = (size_t)ps_bytes_number(local + PS_NPZ_LOCAL_NAME_BYTES, 2);
-    const size_t extra_bytes = (size_t)ps_bytes_number(local + PS_NPZ_LOCAL_EXTRA_BYTES, 2);
-    const char *const extra = local + PS_NPZ_LOCAL_BYTES + name_bytes;
-    if (left - PS_NPZ_LOCAL_BYTES < name_bytes + extra_bytes || name_bytes <= ending) {
+    const size_t name_bytes = (size_t)ps_bytes_number(local + PS_ZIP_LOCAL_NAME_BYTES, 2);
+    const size_t extra_bytes = (size_t)ps_bytes_number(local + PS_ZIP_LOCAL_EXTRA_BYTES, 2);
+    const char *const extra = local + PS_ZIP_LOCAL_BYTES + name_bytes;
+    if (left - PS_ZIP_LOCAL_BYTES < name_bytes + extra_bytes || name_bytes <= ending) {
         return false;
     }
-    *out = (ps_npz_member){.name = local + PS_NPZ_LOCAL_BYTES,
+    *out = (ps_npz_member){.name = local + PS_ZIP_LOCAL_BYTES,
                            .name_bytes = name_bytes - ending,
-                           .crc = (uint32_t)ps_bytes_number(local + PS_NPZ_LOCAL_CRC, 4),
-                           .size = extra_bytes == PS_NPZ_EXTRA_BYTES
-                                       ? ps_bytes_number(extra + PS_NPZ_EXTRA_SIZE, 8)
-                                       : ps_bytes_number(local + PS_NPZ_LOCAL_SIZE, 4)};
+                           .crc = (uint32_t)ps_bytes_number(local + PS_ZIP_LOCAL_CRC, 4),
+                           .size = extra_bytes == PS_ZIP_EXTRA_BYTES
+                                       ? ps_bytes_number(extra + PS_ZIP_EXTRA_SIZE, 8)
+                                       : ps_bytes_number(local + PS_ZIP_LOCAL_SIZE, 4)};
     return memchr(out->name, '\0', out->name_bytes) == NULL;
 }
 
@@ -134,7 +134,7 @@ static pspec_status take_member(ps_npz_file *file, ps_npz_records *made, ps_erro
     if (!take_record(&one, file, position)) {
         return fail_at(file, position, error);
     }
-    if (ps_bytes_number(file->bytes + position + PS_NPZ_LOCAL_METHOD, 2) != PS_NPZ_STORED) {
+    if (ps_bytes_number(file->bytes + position + PS_ZIP_LOCAL_METHOD, 2) != PS_ZIP_STORED) {
         return fail_npz(file, "is compressed, and pointspec reads NPZ files that it wrote", error);
     }
     PS_TRY(ps_grow(&memory, &file->capacity, file->num + 1, sizeof *file->arrays, "arrays", error));

@@ -10,12 +10,10 @@ enum {
     VERSION = 20,           /* of the format, 2.0, */
     VERSION_64 = 45,        /* and with ZIP64 */
     FIRST_DAY = 1 << 5 | 1, /* January 1, 1980, as MS-DOS counts */
-    EXTRA_ZIP64 = 1,
-    BOTH_SIZES = 16, /* bytes of them there */
-    MOST_PUT = 10,   /* bytes of a number, or of several that are 0 */
-    END64_BYTES = 44 /* of the record of the large directory, behind its size */
+    BOTH_SIZES = 16,        /* bytes of them there */
+    MOST_PUT = 10,          /* bytes of a number, or of several that are 0 */
+    END64_BYTES = 44        /* of the record of the large directory, behind its size */
 };
-#define NOT_HERE UINT32_MAX /* the value stands in a ZIP64 field */
 
 static const char ending[] = PS_NPZ_ENDING;
 
@@ -32,7 +30,7 @@ static bool is_large(const ps_npz_records *records, uint64_t value) {
 }
 
 static uint64_t here(const ps_npz_records *records, uint64_t value) {
-    return is_large(records, value) ? NOT_HERE : value;
+    return is_large(records, value) ? PS_ZIP_NOT_HERE : value;
 }
 
 /* From the version that reads it to the number of bytes of the extra field. */
@@ -40,7 +38,7 @@ static void put_facts(ps_text *out, const ps_npz_records *records, const ps_npz_
                       size_t extra_bytes) {
     put(out, extra_bytes > 0 ? VERSION_64 : VERSION, 2);
     put(out, 0, 2); /* no flags */
-    put(out, PS_NPZ_STORED, 2);
+    put(out, PS_ZIP_STORED, 2);
     put(out, 0, 2); /* midnight */
     put(out, FIRST_DAY, 2);
     put(out, one->crc, 4);
@@ -59,7 +57,7 @@ static void put_name(ps_text *out, const ps_npz_member *one) {
 static void put_extra(ps_text *out, const ps_npz_records *records, const ps_npz_member *one,
                       bool has_offset, size_t num_bytes) {
     if (num_bytes > 0) {
-        put(out, EXTRA_ZIP64, 2);
+        put(out, PS_ZIP_EXTRA_64, 2);
         put(out, num_bytes, 2);
     }
     if (is_large(records, one->size)) {

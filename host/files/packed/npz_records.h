@@ -24,16 +24,18 @@ typedef struct ps_npz_member {
 } ps_npz_member;
 
 enum {
-    PS_NPZ_LOCAL_BYTES = 30, /* of the record before a member, without its name; places in it */
-    PS_NPZ_LOCAL_METHOD = 8,
-    PS_NPZ_LOCAL_CRC = 14,
-    PS_NPZ_LOCAL_SIZE = 22,
-    PS_NPZ_LOCAL_NAME_BYTES = 26,
-    PS_NPZ_LOCAL_EXTRA_BYTES = 28,
-    PS_NPZ_EXTRA_BYTES = 20, /* behind the name where the size is in ZIP64; it stands there: */
-    PS_NPZ_EXTRA_SIZE = 4,
-    PS_NPZ_STORED = 0 /* the method of what is not compressed */
+    PS_ZIP_LOCAL_BYTES = 30, /* of the record before a member, without its name; places in it */
+    PS_ZIP_LOCAL_METHOD = 8,
+    PS_ZIP_LOCAL_CRC = 14,
+    PS_ZIP_LOCAL_SIZE = 22,
+    PS_ZIP_LOCAL_NAME_BYTES = 26,
+    PS_ZIP_LOCAL_EXTRA_BYTES = 28,
+    PS_ZIP_EXTRA_BYTES = 20, /* behind the name where the size is in ZIP64; it stands there: */
+    PS_ZIP_EXTRA_SIZE = 4,
+    PS_ZIP_EXTRA_64 = 1, /* the kind of a field of ZIP64 */
+    PS_ZIP_STORED = 0    /* the method of what is not compressed */
 };
+#define PS_ZIP_NOT_HERE UINT32_MAX /* the value stands in such a field */
 
 /* The record before the member, which comes at records->position, to local; the other to the
  * directory. */

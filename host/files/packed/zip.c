@@ -1,10 +1,10 @@
 #include "files/packed/zip.h"
 
 #include "base/memory.h"
-#include "base/text.h"
 #include "files/bytes.h"
 #include "files/descriptor.h"
 #include "files/packed/gzip.h"
+#include "files/packed/npz_records.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,7 +13,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
-/* APPNOTE.TXT 6.3: sizes of records before what has no fixed size, and where their fields are. */
+/* APPNOTE.TXT 6.3: sizes of records before what has no fixed size, and where their fields are; of
+ * the record before a member npz_records.h has them. */
 enum {
     END_BYTES = 22, /* end of central directory */
     END_ENTRIES = 10,
@@ -36,16 +37,10 @@ enum {
     ENTRY_EXTRA_BYTES = 30,
     ENTRY_COMMENT_BYTES = 32,
     ENTRY_OFFSET = 42,
-    LOCAL_BYTES = 30, /* before a member */
-    LOCAL_NAME_BYTES = 26,
-    LOCAL_EXTRA_BYTES = 28,
-    EXTRA_ZIP64 = 1,
     FLAG_ENCRYPTED = 1,
-    STORED = 0,
     DEFLATED = 8,
     MOST_DIRECTORY = 1 << 24 /* bytes: an archive of arrays has a few hundred */
 };
-#define NOT_HERE UINT32_MAX /* the value stands in a zip64 field */
 
 struct ps_zip {
     int descriptor;
@@ -184,7 +179,7 @@ static bool take_zip64(entry *out, const unsigned char *fields, size_t num_bytes
                         {word_at(record + ENTRY_COMPRESSED), &compressed},
                         {word_at(record + ENTRY_OFFSET), &out->offset}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        if (wanted[i].here == NOT_HERE) {
+        if (wanted[i].here == PS_ZIP_NOT_HERE) {
             if (num_bytes < sizeof(uint64_t)) {
                 return false;
             }
@@ -204,7 +199,7 @@ static bool take_extra(entry *out, const unsigned char *record, const unsigned c
         if (size > num_bytes - head) {
             return false;
         }
-        if (half_at(extra) == EXTRA_ZIP64) {
+        if (half_at(extra) == PS_ZIP_EXTRA_64) {
             return take_zip64(out, extra + head, size, record);
         }
         extra += head + size;
@@ -298,25 +293,28 @@ static pspec_status choose(const archive *whole, const char *wanted, entry *out)
 /* ---- opening ----------------------------------------------------------------------------- */
 
 static pspec_status start_member(ps_zip *zip, const archive *whole, const entry *one) {
-    unsigned char local[LOCAL_BYTES];
-    if ((one->flags & FLAG_ENCRYPTED) != 0 || (one->method != STORED && one->method != DEFLATED)) {
+    unsigned char local[PS_ZIP_LOCAL_BYTES];
+    if ((one->flags & FLAG_ENCRYPTED) != 0 ||
+        (one->method != PS_ZIP_STORED && one->method != DEFLATED)) {
         return ps_fail(whole->error, PSPEC_ERROR_INPUT,
                        "%s: its member is encrypted, or compressed otherwise than by deflate; "
                        "numpy.savez and savez_compressed write archives that can be read",
                        whole->name);
     }
     PS_TRY(read_at(whole, one->offset, local, sizeof local));
-    const uint64_t start = one->offset + LOCAL_BYTES + half_at(local + LOCAL_NAME_BYTES) +
-                           half_at(local + LOCAL_EXTRA_BYTES);
+    const uint64_t start = one->offset + PS_ZIP_LOCAL_BYTES +
+                           half_at(local + PS_ZIP_LOCAL_NAME_BYTES) +
+                           half_at(local + PS_ZIP_LOCAL_EXTRA_BYTES);
     if (!begins(local, "PK\3\4")) {
         return fail_damaged(whole, "a member is not where its directory says");
     }
     PS_TRY(read_at(whole, start, local, 0)); /* goes there */
     zip->size = one->size;
     zip->crc = one->crc;
-    return one->method == STORED ? PSPEC_OK
-                                 : ps_gzip_create(&zip->inflater, PS_GZIP_RAW, whole->descriptor,
-                                                  whole->name, NULL, 0, whole->error);
+    return one->method == PS_ZIP_STORED
+               ? PSPEC_OK
+               : ps_gzip_create(&zip->inflater, PS_GZIP_RAW, whole->descriptor, whole->name, NULL,
+                                0, whole->error);
 }
 
 static pspec_status open_member(ps_zip *zip, archive *whole, const char *wanted) {
