@@ -11,6 +11,12 @@ void ps_answer_begin_next(const ps_answer_hooks *hooks) {
     }
 }
 
+void ps_answer_begin_job(const ps_answer_hooks *hooks, ps_watch *watch, ps_device **open_device) {
+    *watch = hooks->watch;
+    *open_device = hooks->device != NULL ? hooks->device : *open_device;
+    ps_answer_begin_next(hooks);
+}
+
 void ps_answer_end(const ps_answer_hooks *hooks) {
     if (hooks->end != NULL) {
         hooks->end(hooks->payload);

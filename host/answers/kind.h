@@ -48,6 +48,8 @@ typedef struct ps_answer_hooks {
 /* Call the hooks `next` and `end`, if there are such. */
 void ps_answer_begin_next(const ps_answer_hooks *hooks);
 void ps_answer_end(const ps_answer_hooks *hooks);
+/* Begins the work of a job, whose question gets who hears of it, and the device that is open. */
+void ps_answer_begin_job(const ps_answer_hooks *hooks, ps_watch *watch, ps_device **open_device);
 /* false where nobody can say. */
 bool ps_answer_is_interrupted(const ps_answer_hooks *hooks);
 /* Calls the hook `warn` with a sentence, if there is somebody to hear it. */

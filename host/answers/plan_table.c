@@ -15,12 +15,6 @@ ps_lead ps_plan_table_lead(const char *job) {
     return (ps_lead){.num = 1, .names = {"job"}, .cells = {PS_TEXT(job)}};
 }
 
-void ps_plan_table_begin_question(ps_planner *planner, const ps_request *request, size_t index) {
-    if (ps_request_num_questions(request) > 1) {
-        planner->lead = ps_lead_make(request, index);
-    }
-}
-
 static pspec_status add_row(const ps_planner *planner, const ps_cell *cells, ps_error *error) {
     return ps_lead_add_row(planner->table, &planner->lead, cells, NUM_COLUMNS, error);
 }
@@ -179,12 +173,17 @@ pspec_status ps_plan_table_add_job(ps_planner *planner, const ps_request *argume
     return add_candidates(planner, job->plan, job->phases, job->repeats, error);
 }
 
-pspec_status ps_plan_table_find_lack(const ps_planner *planner,
-                                     const ps_plan_constraints *constraints, bool *lacks_device,
-                                     ps_error *error) {
+pspec_status ps_plan_table_begin_question(ps_planner *planner, const ps_request *request,
+                                          size_t index, const ps_plan_constraints *constraints,
+                                          ps_device **open_device, bool *lacks_device,
+                                          ps_error *error) {
     ps_device_limits *limits = NULL;
     size_t num = 0;
     ps_error reason = {0};
+    if (ps_request_num_questions(request) > 1) {
+        planner->lead = ps_lead_make(request, index);
+    }
+    *open_device = planner->device;
     *lacks_device = planner->device == NULL && ps_plan_may_need_device(constraints) &&
                     ps_device_list(&limits, &num, &reason) == PSPEC_ERROR_NO_DEVICE;
     free(limits);

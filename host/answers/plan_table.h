@@ -27,14 +27,14 @@ pspec_status ps_plan_table_create(ps_table **out, const ps_lead *lead,
                                   ps_error *error) PS_MUST_CHECK;
 /* That of a scene, whose questions are jobs: the name, borrowed. */
 ps_lead ps_plan_table_lead(const char *job);
-/* Rows are of number `index` of the questions of a request from here on, where it has several. */
-void ps_plan_table_begin_question(ps_planner *planner, const ps_request *request, size_t index);
-
-/* Without any device the host's engines are planned, and the header says why there is none. A
- * device that was named and is not there is an error, as for the command itself. */
-pspec_status ps_plan_table_find_lack(const ps_planner *planner,
-                                     const ps_plan_constraints *constraints, bool *lacks_device,
-                                     ps_error *error) PS_MUST_CHECK;
+/* Rows are of number `index` of the questions of a request from here on, where it has several. The
+ * question gets the planner's device. Without any device the host's engines are planned, and the
+ * header says why there is none; a device that was named and is not there is an error, as for the
+ * command itself. */
+pspec_status ps_plan_table_begin_question(ps_planner *planner, const ps_request *request,
+                                          size_t index, const ps_plan_constraints *constraints,
+                                          ps_device **open_device, bool *lacks_device,
+                                          ps_error *error) PS_MUST_CHECK;
 
 /* A job with a choice of engines. */
 typedef struct ps_planned {

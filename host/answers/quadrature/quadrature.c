@@ -64,10 +64,8 @@ static pspec_status add_plan(ps_planner *planner, const ps_request *request,
 static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_quadrature_question *question, size_t index, ps_error *error) {
     ps_quadrature_job *job = NULL;
-    question->open_device = planner->device;
-    ps_plan_table_begin_question(planner, request, index);
-    PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
-                                   &question->may_lack_device, error));
+    PS_TRY(ps_plan_table_begin_question(planner, request, index, &question->limits.constraints,
+                                        &question->open_device, &question->may_lack_device, error));
     PS_TRY(ps_quadrature_job_create(&job, question, error));
     pspec_status status = ps_quadrature_job_rate(job, error);
     if (status == PSPEC_OK) {
@@ -103,11 +101,7 @@ static void warn_of_standard_error(const ps_quadrature_result *result, double st
 
 static pspec_status run_one(ps_quadrature_job **job, ps_quadrature_question *question,
                             const ps_answer_hooks *hooks, ps_error *error) {
-    question->watch = hooks->watch;
-    if (hooks->device != NULL) {
-        question->open_device = hooks->device;
-    }
-    ps_answer_begin_next(hooks);
+    ps_answer_begin_job(hooks, &question->watch, &question->open_device);
     PS_TRY(ps_quadrature_job_create(job, question, error));
     if (hooks->tell_plan != NULL) {
         hooks->tell_plan(hooks->payload, &(*job)->setup.plan);

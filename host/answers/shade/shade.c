@@ -109,10 +109,9 @@ static pspec_status add_plan(ps_planner *planner, const ps_request *request,
 static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_shade_question *question, size_t index, ps_error *error) {
     ps_shade_job *job = NULL;
-    question->rules.open_device = planner->device;
-    ps_plan_table_begin_question(planner, request, index);
-    PS_TRY(ps_plan_table_find_lack(planner, &question->rules.limits.constraints,
-                                   &question->rules.may_lack_device, error));
+    ps_quadrature_question *const rules = &question->rules;
+    PS_TRY(ps_plan_table_begin_question(planner, request, index, &rules->limits.constraints,
+                                        &rules->open_device, &rules->may_lack_device, error));
     PS_TRY(ps_shade_job_create(&job, question, error));
     pspec_status status = ps_quadrature_job_rate(job->rules, error);
     if (status == PSPEC_OK) {
@@ -138,9 +137,8 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
 static pspec_status run_one(shading *self, size_t i, const ps_answer_hooks *hooks,
                             ps_error *error) {
     ps_shade_question *const question = &self->questions[i];
-    question->rules.watch = hooks->watch;
-    question->rules.open_device = hooks->device != NULL ? hooks->device : self->device;
-    ps_answer_begin_next(hooks);
+    question->rules.open_device = self->device;
+    ps_answer_begin_job(hooks, &question->rules.watch, &question->rules.open_device);
     PS_TRY(ps_shade_job_create(&self->jobs[i], question, error));
     ps_quadrature_job *const rules = self->jobs[i]->rules;
     if (hooks->tell_plan != NULL) {

@@ -52,11 +52,7 @@ static void warn_of_standard_error(const ps_power_job *job, double standard_erro
 
 pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
                                 const ps_answer_hooks *hooks, ps_error *error) {
-    question->watch = hooks->watch;
-    if (hooks->device != NULL) {
-        question->open_device = hooks->device;
-    }
-    ps_answer_begin_next(hooks);
+    ps_answer_begin_job(hooks, &question->watch, &question->open_device);
     PS_TRY(ps_power_job_create(job, question, error));
     warn_of_hours(*job, question->limits.constraints.offers, hooks);
     if (hooks->tell_plan != NULL) {
@@ -142,10 +138,9 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
     for (size_t i = 0; i < list->num; i++) {
         ps_power_job *job = NULL;
         ps_power_question *const question = &list->questions[i];
-        question->open_device = planner->device;
-        ps_plan_table_begin_question(planner, request, i);
-        PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
-                                       &question->may_lack_device, error));
+        PS_TRY(ps_plan_table_begin_question(planner, request, i, &question->limits.constraints,
+                                            &question->open_device, &question->may_lack_device,
+                                            error));
         PS_TRY(ps_power_job_create(&job, question, error));
         ps_power_job_rate_skips(job);
         const pspec_status status = ps_spectra_plan_job(planner, request, job, NULL, i, error);

@@ -29,10 +29,9 @@ static void add_trials(const void *job, ps_phases *phases) {
 static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_variance_question *question, size_t index, ps_error *error) {
     ps_variance_job *job = NULL;
-    question->spectrum.open_device = planner->device;
-    ps_plan_table_begin_question(planner, request, index);
-    PS_TRY(ps_plan_table_find_lack(planner, &question->spectrum.limits.constraints,
-                                   &question->spectrum.may_lack_device, error));
+    ps_power_question *const spectrum = &question->spectrum;
+    PS_TRY(ps_plan_table_begin_question(planner, request, index, &spectrum->limits.constraints,
+                                        &spectrum->open_device, &spectrum->may_lack_device, error));
     PS_TRY(ps_variance_job_create(&job, question, error));
     ps_power_job_rate_skips(job->spectrum);
     const ps_plan_more more = {add_trials, job};
@@ -56,11 +55,7 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
 
 static pspec_status run_one(ps_variance_job **job, ps_variance_question *question,
                             const ps_answer_hooks *hooks, ps_error *error) {
-    question->spectrum.watch = hooks->watch;
-    if (hooks->device != NULL) {
-        question->spectrum.open_device = hooks->device;
-    }
-    ps_answer_begin_next(hooks);
+    ps_answer_begin_job(hooks, &question->spectrum.watch, &question->spectrum.open_device);
     PS_TRY(ps_variance_job_create(job, question, error));
     ps_power_job *const spectrum = (*job)->spectrum;
     if (hooks->tell_plan != NULL) {
