@@ -51,7 +51,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            "realizations of one average, a curve NAME beside those of samplers",
                        .set = ps_add_set, .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"),
-                             OF(BIT(variance) | BIT(shade), 0),
+                             OF(BIT(variance) | BIT(shade) | BIT(truncation), 0),
                              .help = "what is integrated, see Integrands",
                              TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =

@@ -140,15 +140,19 @@ static void find_error(const harmonic_conversion *conversion, size_t degree, dou
     take_root(sum + most / (2 * conversion->smoothness + 1), most, root, bound);
 }
 
-static void find_errors(harmonic_conversion *conversion, double *errors, double *bounds) {
-    for (size_t l = 0; l <= conversion->sh_degree; l++) {
-        conversion->difference[l] = conversion->b[l];
+/* b_l - b'_l becomes that of one hemispherical degree more. */
+static void take_degree(harmonic_conversion *conversion, size_t degree) {
+    const double *const row = conversion->matrix + degree * (conversion->sh_degree + 1);
+    for (size_t l = degree; l <= conversion->sh_degree; l++) {
+        conversion->difference[l] -= conversion->hsh[degree] * row[l];
     }
+}
+
+static void find_errors(harmonic_conversion *conversion, double *errors, double *bounds) {
+    memcpy(conversion->difference, conversion->b,
+           (conversion->sh_degree + 1) * sizeof *conversion->b);
     for (size_t degree = 0; degree <= conversion->max_degree; degree++) {
-        const double *const row = conversion->matrix + degree * (conversion->sh_degree + 1);
-        for (size_t l = degree; l <= conversion->sh_degree; l++) {
-            conversion->difference[l] -= conversion->hsh[degree] * row[l];
-        }
+        take_degree(conversion, degree);
         find_error(conversion, degree, &errors[degree], &bounds[degree]);
     }
 }
@@ -188,4 +192,50 @@ pspec_status ps_truncation_hemispherical(const ps_brdf *brdf, double smoothness,
         is_done = degree >= LAST || are_good(max_degree, tolerance, errors, bounds);
     }
     return PSPEC_OK;
+}
+
+/* ---- light ---------------------------------------------------------------------------------- */
+
+static double sum_squares(const double *difference, const double *powers, size_t first,
+                          size_t num) {
+    double sum = 0;
+    for (size_t l = num; l-- > first;) { /* small ones first */
+        sum += powers[l] * difference[l] * difference[l];
+    }
+    return sum;
+}
+
+static pspec_status shade_spherical(const ps_brdf *brdf, size_t max_degree, const double *powers,
+                                    size_t num_powers, double *squares, ps_error *error) {
+    double *b = NULL;
+    PS_TRY(PS_NEW(&b, num_powers, "coefficients of a lobe", error));
+    const pspec_status status = ps_brdf_spherical(brdf, num_powers - 1, b, error);
+    for (size_t degree = 0; degree <= max_degree && status == PSPEC_OK; degree++) {
+        squares[degree] = sum_squares(b, powers, degree + 1, num_powers);
+    }
+    free(b);
+    return status;
+}
+
+pspec_status ps_truncation_of_light(const ps_brdf *brdf, bool is_hemispherical, size_t max_degree,
+                                    const double *powers, size_t num_powers, double *squares,
+                                    ps_error *error) {
+    const double any_smoothness = 1.5;
+    harmonic_conversion conversion = {
+        .max_degree = max_degree, .sh_degree = num_powers - 1, .smoothness = any_smoothness};
+    if (!is_hemispherical) {
+        return shade_spherical(brdf, max_degree, powers, num_powers, squares, error);
+    }
+    const pspec_status status = prepare(&conversion, brdf, error);
+    for (size_t degree = 0; degree <= max_degree && status == PSPEC_OK; degree++) {
+        if (degree == 0) {
+            memcpy(conversion.difference, conversion.b, num_powers * sizeof *conversion.b);
+        }
+        if (degree < num_powers) {
+            take_degree(&conversion, degree);
+        }
+        squares[degree] = sum_squares(conversion.difference, powers, 0, num_powers);
+    }
+    free(conversion.a);
+    return status;
 }

@@ -10,6 +10,7 @@
 #include "rules/representer.h"
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Most degrees L of hemispherical harmonics: the conversion to spherical ones takes L X^2 steps, X
@@ -28,6 +29,12 @@ pspec_status ps_truncation_spherical(const ps_representer *representer, size_t m
 pspec_status ps_truncation_hemispherical(const ps_brdf *brdf, double smoothness, size_t max_degree,
                                          double tolerance, double *errors, double *bounds,
                                          size_t *sh_degree, ps_error *error) PS_MUST_CHECK;
+
+/* Of light with these P_F(l) [num_powers], and none beyond, instead of the a_l of a space: the mean
+ * square over all orientations, sum_l P_F(l) (b_l - b'_l)^2, for L = 0 .. max_degree. */
+pspec_status ps_truncation_of_light(const ps_brdf *brdf, bool is_hemispherical, size_t max_degree,
+                                    const double *powers, size_t num_powers, double *squares,
+                                    ps_error *error) PS_MUST_CHECK;
 
 /* Hemispherical harmonics written in spherical ones
  * (docs/mathematics/quadrature.md#hemispherical-harmonics). */

@@ -44,6 +44,12 @@ EOF
 "$program" run scene.yaml -o folder --quiet >/dev/null || complain 'scene'
 [[ $(grep -h '^white-hemisphere,16' folder/*.csv | head -1) == "$(tail -1 both)" ]] || complain "scene: $(ls folder)"
 
+# truncated products have errors with that light, too
+"$program" truncation --brdf diffuse -l 3 --integrand coefficients:file=light.txt >out || complain 'truncation'
+[[ $(grep '^degree' out) == degree,error,equivalent_points,rmse && $(tail -1 out) == *,0 ]] || complain "truncation: $(<out)"
+"$program" truncation --brdf diffuse --integrand cap --integrand cap >out 2>err && complain 'two lights'
+says 'one --integrand is the light'
+
 # what is refused
 refuses 'one --integrand is the light' --brdf diffuse --sampler fibonacci-hemisphere
 refuses 'one --integrand is the light' --brdf diffuse --integrand cap --integrand square --sampler fibonacci-hemisphere

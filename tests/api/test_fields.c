@@ -45,7 +45,7 @@ static const char *const questions[] = {
     "quadrature sampler=fibonacci-hemisphere points=8 brdf=diffuse weights=optimal "
     "weights-out=w.npy",
     "quadrature files=near.txt brdf=diffuse weights=optimal drop-below-horizon max-degree=2",
-    "truncation brdf=glossy:n=4 max-degree=2",
+    "truncation brdf=glossy:n=4 max-degree=2 integrand=map:file=light.pfm",
     "shade sampler=white-hemisphere sampler=fibonacci-hemisphere points=4,8 brdf=diffuse "
     "integrand=coefficients:file=light.txt shifts=3",
     "shade files=above.txt brdf=diffuse integrand=map:file=light.pfm shifts=3",

@@ -201,6 +201,37 @@ static void exact_lobes(void **state) {
     drop(phong);
 }
 
+/* Light whose powers are the a_l of a space has its worst-case errors, up to what the space has
+ * beyond; light of one degree has one square of the lobe. */
+static void light(void **state) {
+    enum { POWERS = 2 * LAST, FEW = 12, ONE = 3 };
+    double squares[LAST + 1];
+    double one[ONE + 1] = {0, 0, 0, 2};
+    (void)state;
+    for (int on_hemisphere = 0; on_hemisphere < 2; on_hemisphere++) {
+        subject *lobe = make("glossy:n=30", 1.5, on_hemisphere == 1);
+        assert_ok(ps_truncation_of_light(lobe->brdf, on_hemisphere == 1, LAST, lobe->representer.a,
+                                         POWERS, squares, error));
+        for (size_t l = 0; l <= FEW; l++) {
+            assert_near(sqrt(squares[l]), lobe->errors[l], 2e-3, 0);
+        }
+        assert_ok(ps_truncation_of_light(lobe->brdf, on_hemisphere == 1, LAST, one, ONE + 1,
+                                         squares, error));
+        if (on_hemisphere == 0) {
+            const double b = lobe->representer.b[ONE];
+            assert_near(squares[0], 2 * b * b, 1e-14, 0);
+            assert_near(squares[ONE - 1], 2 * b * b, 1e-14, 0);
+            assert_true(squares[ONE] == 0 && squares[LAST] == 0);
+        }
+        drop(lobe);
+    }
+    subject *diffuse = make("diffuse", 1.5, true);
+    assert_ok(ps_truncation_of_light(diffuse->brdf, true, 2, diffuse->representer.a, POWERS,
+                                     squares, error));
+    assert_near(squares[1], 0, 0, 1e-26);
+    drop(diffuse);
+}
+
 static void refusals(void **state) {
     double values[1];
     size_t degree = 0;
@@ -239,6 +270,7 @@ int main(void) {
                                        cmocka_unit_test(table_1),
                                        cmocka_unit_test(laws),
                                        cmocka_unit_test(exact_lobes),
+                                       cmocka_unit_test(light),
                                        cmocka_unit_test(refusals),
                                        cmocka_unit_test(ends_of_the_ladder)};
     return cmocka_run_group_tests_name("truncation", tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* Errors of shading integrals over random orientations of the normal, measured and predicted. */
 #include "answers/kind.h"
 #include "answers/lead.h"
+#include "answers/quadrature/light_header.h"
 #include "answers/quadrature/quadrature_table.h"
 #include "answers/quadrature/rule_list.h"
 #include "answers/spectra/spectra.h"
@@ -37,26 +38,17 @@ static void discard(void *computed) {
 
 /* ---- question ------------------------------------------------------------------------------ */
 
-static pspec_status check_light(const ps_request *request, ps_error *error) {
-    return request->num_integrands == 1 && request->integrands_given.num == 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "one --integrand is the light, as in --integrand map:file=sky.hdr, and "
-                         "%zu were given",
-                         request->num_integrands);
-}
-
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     ps_rule_list list = {0};
     const pspec_status status = ps_rule_list_make(&list, request, PS_COMMAND_shade, error);
     ps_rule_list_free(&list);
-    return status == PSPEC_OK ? check_light(request, error) : status;
+    return status == PSPEC_OK ? ps_light_check(request, true, error) : status;
 }
 
 static pspec_status make_questions(shading *self, const ps_request *request, ps_error *error) {
     ps_rule_list *const list = &self->list;
     PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
-    PS_TRY(check_light(request, error));
+    PS_TRY(ps_light_check(request, true, error));
     PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
     PS_TRY(PS_NEW(&self->questions, list->num, "questions", error));
     for (size_t i = 0; i < list->num; i++) {
@@ -182,22 +174,6 @@ static double score(const ps_shade_result *result) {
     return (result->measured.mean - result->predicted.mean) / error;
 }
 
-static pspec_status add_light(ps_table *table, const ps_request *request, const shading *self,
-                              ps_error *error) {
-    const ps_integrand *const integrand = self->light.integrand;
-    const char *const note = ps_integrand_note(integrand);
-    const ps_meta entries[] = {
-        {"integrand", PS_TEXT(request->integrands[0])},
-        {"integral", PS_NUMBER(ps_integrand_integral(integrand))},
-        {"light_degree", PS_INTEGER(self->light.max_degree)},
-        {"shading_bound", PS_NUMBER(self->light.shading_bound)},
-        {"z_score_is", PS_TEXT("of squares: (rmse^2 - predicted^2) over its standard error")},
-    };
-    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
-    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
-                        : PSPEC_OK;
-}
-
 static pspec_status add_one(ps_table *table, const ps_request *request, const shading *self,
                             size_t i, ps_error *error) {
     const ps_shade_job *const job = self->jobs[i];
@@ -229,7 +205,10 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     const ps_lead first = ps_lead_make(request, 0);
     PS_TRY(ps_lead_create_table(&out->table, "shade", &first, columns, NUM_COLUMNS, error));
     PS_TRY(ps_quadrature_begin_header(out->table, request, &self->questions[0].rules, error));
-    PS_TRY(add_light(out->table, request, self, error));
+    PS_TRY(ps_light_add_header(out->table, request, &self->light, error));
+    PS_TRY(ps_table_add_meta(out->table, "z_score_is",
+                             PS_TEXT("of squares: (rmse^2 - predicted^2) over its standard error"),
+                             error));
     for (size_t i = 0; i < self->list.num; i++) {
         PS_TRY(add_one(out->table, request, self, i, error));
     }
@@ -257,14 +236,6 @@ static const ps_picture_kind pictures[] = {
     {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
-    {"integrand", "", PS_ENTRY, 0, "", "the light"},
-    {"integral", "", PS_ENTRY, 0, "", "its integral over the sphere"},
-    {"integrand_note", "", PS_ENTRY, 0, "where there is something to say",
-     "what else there is to know of it"},
-    {"light_degree", "", PS_ENTRY, 0, "",
-     "the last degree of light in the exact integrals and in the prediction"},
-    {"shading_bound", "", PS_ENTRY, 0, "",
-     "what the exact integrals cannot be off by more than, at any orientation"},
     {"z_score_is", "", PS_ENTRY, 0, "", "what the column of that name is"},
     {"orientations", "", PS_ENTRIES, 0, "", "random orientations of every rule"},
     {"rmse", "", PS_ENTRIES, 0, "", "as the column"},
@@ -281,8 +252,13 @@ static const ps_field_row own_fields[] = {
     {"z_score", "", PS_COLUMN, 0, "", "what measurement and prediction are apart"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points,   ps_fields_rules,
-                                             own_fields,      ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked,
+                                             ps_fields_points,
+                                             ps_fields_rules,
+                                             ps_fields_light,
+                                             own_fields,
+                                             ps_fields_computed,
+                                             NULL};
 
 static const ps_compared_field compared[] = {{"rmse", "rmse_error", false, ps_compared_rule_bound},
                                              {.value = NULL}};

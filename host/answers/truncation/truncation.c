@@ -1,10 +1,12 @@
 /* The error of shading integrals as truncated products in harmonics, and how many points of a
  * rule have the same. */
 #include "answers/kind.h"
+#include "answers/quadrature/light_header.h"
 #include "base/memory.h"
 #include "request/options.h"
 #include "answers/spectra/spectrum_header.h"
 #include "jobs/quadrature/truncation_job.h"
+#include "rules/truncation.h"
 
 #include <stdio.h>
 #include <math.h>
@@ -12,6 +14,12 @@
 #include <string.h>
 
 enum { DEFAULT_DEGREE = 20, MOST_DEGREE = 10000 };
+
+typedef struct products {
+    ps_truncation_job job;
+    ps_light light;  /* {0}: none */
+    double *squares; /* [max_degree + 1]: mean square errors with it; NULL: there is no light */
+} products;
 
 static ps_truncation_question question_of(const ps_request *request) {
     const char *const harmonics = request->harmonics;
@@ -36,7 +44,7 @@ static pspec_status check_question(const ps_request *arguments, ps_error *error)
                        ps_option_show(arguments, PS_OPTION_MAX_DEGREE).text,
                        (unsigned long long)arguments->max_degree, MOST_DEGREE);
     }
-    return PSPEC_OK;
+    return ps_light_check(arguments, false, error);
 }
 
 /* Products in harmonics are the host's: there is nothing to choose. */
@@ -50,20 +58,33 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
                                   error);
 }
 
+static pspec_status shade(products *self, const ps_request *request, ps_error *error) {
+    const ps_truncation_question *const question = &self->job.question;
+    PS_TRY(ps_light_make(&self->light, request->integrands[0], self->job.brdf, error));
+    PS_TRY(PS_NEW(&self->squares, question->max_degree + 1, "errors", error));
+    return ps_truncation_of_light(self->job.brdf, question->is_hemispherical, question->max_degree,
+                                  self->light.powers, self->light.max_degree + 1, self->squares,
+                                  error);
+}
+
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
     const ps_truncation_question question = question_of(request);
     PS_TRY(check_question(request, error));
-    PS_TRY(ps_allocate(out, 1, sizeof(ps_truncation_job), "an answer", error));
-    *(ps_truncation_job *)*out = (ps_truncation_job){0};
+    PS_TRY(ps_allocate(out, 1, sizeof(products), "an answer", error));
+    products *const self = *out;
     ps_answer_begin_next(hooks);
-    return ps_truncation_job_run(*out, &question, &hooks->watch, error);
+    PS_TRY(ps_truncation_job_run(&self->job, &question, &hooks->watch, error));
+    return request->num_integrands > 0 ? shade(self, request, error) : PSPEC_OK;
 }
 
 static void discard(void *computed) {
-    if (computed != NULL) {
-        ps_truncation_job_free(computed);
-        free(computed);
+    products *const self = computed;
+    if (self != NULL) {
+        ps_truncation_job_free(&self->job);
+        ps_light_free(&self->light);
+        free(self->squares);
+        free(self);
     }
 }
 
@@ -103,15 +124,19 @@ static pspec_status add_header(ps_table *table, const ps_truncation_job *job,
     return note != NULL ? ps_table_add_meta(table, "note", PS_TEXT(note), error) : PSPEC_OK;
 }
 
-static pspec_status make_table(ps_table **out, const ps_truncation_job *job,
-                               const ps_request *request, ps_error *error) {
-    static const char *const columns[] = {"degree", "error", "equivalent_points"};
+static pspec_status make_table(ps_table **out, const products *self, const ps_request *request,
+                               ps_error *error) {
+    static const char *const columns[] = {"degree", "error", "equivalent_points", "rmse"};
     enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
-    PS_TRY(ps_table_create(out, "truncation", columns, NUM_COLUMNS, error));
+    const ps_truncation_job *const job = &self->job;
+    const bool has_light = self->squares != NULL;
+    PS_TRY(ps_table_create(out, "truncation", columns, NUM_COLUMNS - (has_light ? 0 : 1), error));
     PS_TRY(add_header(*out, job, request, error));
+    PS_TRY(has_light ? ps_light_add_header(*out, request, &self->light, error) : PSPEC_OK);
     for (size_t l = 0; l <= job->question.max_degree; l++) {
         const ps_cell cells[NUM_COLUMNS] = {PS_INTEGER(l), PS_NUMBER(job->errors[l]),
-                                            ps_number_or_missing(job->points[l])};
+                                            ps_number_or_missing(job->points[l]),
+                                            PS_NUMBER(has_light ? sqrt(self->squares[l]) : NAN)};
         PS_TRY(ps_table_add_row(*out, cells, error));
     }
     return PSPEC_OK;
@@ -148,9 +173,12 @@ static const ps_field_row own_fields[] = {
     {"error", "", PS_COLUMN, 0, "", "E(L), the error of products up to and including L"},
     {"equivalent_points", "", PS_COLUMN, 0, "",
      "N of spherical Fibonacci points with that error; missing above 32768 and for tables"},
+    {"rmse", "", PS_COLUMN, 0, "--integrand",
+     "root of the mean square error with that light over all orientations"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, ps_fields_light,
+                                             ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {{"degree", NULL, false, NULL}, {.value = NULL}};
 
@@ -163,7 +191,8 @@ const ps_kind ps_kind_truncation = {
         "it is a sum over harmonics up to and including degree L, for light from the unit ball of "
         "the Sobolev space H^S: E(L)^2 = sum_{l>L} a_l b_l^2 for spherical harmonics. "
         "equivalent_points is the number of spherical Fibonacci points, morphed to the lobe and "
-        "with equal weights, whose worst-case error is the same.",
+        "with equal weights, whose worst-case error is the same. With --integrand rmse is the root "
+        "of the mean square error of that light over all orientations.",
     .examples =
         {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5 -l 12",
          "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},
