@@ -4,8 +4,9 @@
 
 #include "answers/kind.h"
 #include "base/watch.h"
-#include "cli/signals.h"
 
+#include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Exit codes of the program (docs/user/conventions.md#exit-codes). */
@@ -64,6 +65,19 @@ int ps_progress_tell(const ps_watch_report *report, void *progress);
  * text as the format where none was said. */
 void ps_terminal_settle(const ps_command *command, ps_request *arguments);
 
+/* ---- signals: signals.c ---------------------------------------------------------------------- */
+
+/* Set by the handlers, and read by whoever works. */
+extern volatile sig_atomic_t ps_interrupted;
+
+void ps_signals_prepare(void);
+
+/* From now on the process ends with this exit code and says nothing, should its end take long. */
+void ps_signals_end(int exit_code);
+
+/* Has somebody closed the other end of a pipe that was written to? */
+bool ps_signals_pipe_closed(void);
+
 /* ---- work that a terminal sees: a progress line, warnings on standard error, interrupts ------ */
 
 typedef struct ps_shown {
@@ -84,5 +98,12 @@ ps_answer_hooks ps_shown_hooks(ps_shown *shown);
  * PSPEC_ERROR_CHECK. */
 pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments,
                           ps_error *error) PS_MUST_CHECK;
+
+/* bench --scenes: what skipping is worth, scene by scene. Answers the scenes arguments->files with
+ * and without skips, in turn, without the cache, and compares the answers of every question. A row
+ * for each result; PSPEC_ERROR_CHECK, after the table is made, when answers differ by more than
+ * both sides announce. *out may be there after an error, too. */
+pspec_status ps_bench_scenes(ps_table **out, const ps_request *arguments,
+                             ps_error *error) PS_MUST_CHECK;
 
 #endif

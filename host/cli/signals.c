@@ -1,6 +1,11 @@
+/* Signals: what asks the program to end ends it within a second, wherever it is.
+ *
+ * SIGINT, SIGTERM and SIGHUP first set ps_interrupted, which long work looks at, so that the
+ * command itself gives everything up and says how far it was. Where it does not within 0.7 s,
+ * because it is inside a driver that compiles, say, a timer ends the process: temporary files are
+ * removed, children ended, and the sentence and the exit code are the same.
+ */
 #define _XOPEN_SOURCE 700 /* readlink, timers */
-
-#include "cli/signals.h"
 
 #include "cli/command.h"
 

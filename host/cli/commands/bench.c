@@ -2,7 +2,6 @@
 #include "answers/output_check.h"
 #include "answers/picture.h"
 #include "cli/command.h"
-#include "cli/commands/bench_scenes.h"
 #include "request/options.h"
 #include "store/figures_file.h"
 #include "verify/bench/bench.h"

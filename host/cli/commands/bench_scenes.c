@@ -1,5 +1,3 @@
-#include "cli/commands/bench_scenes.h"
-
 #include "cli/command.h"
 #include "scene/run/run.h"
 

@@ -33,7 +33,8 @@ static void warn_of_gnuplot(const ps_run *run) {
     ps_text_free(&path);
 }
 
-pspec_status ps_run_prepare(ps_run *run, ps_error *error) {
+/* All that can be found out before the work: questions, folder, former run, cache. */
+static pspec_status prepare(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_check_inputs(run, error));
     PS_TRY(ps_run_check_folder(run, error));
@@ -88,7 +89,7 @@ static void tell_of_pictures(const ps_run *run) {
 }
 
 static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
-    PS_TRY(ps_run_prepare(run, error));
+    PS_TRY(prepare(run, error));
     PS_TRY(ps_run_answer(run, error));
     PS_TRY(ps_run_write(run, error));
     tell_of_pictures(run);

@@ -148,8 +148,6 @@ pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
  * repeats what was typed then: POINTSPEC_MEMORY of today is not for it. */
 pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments,
                                ps_error *error) PS_MUST_CHECK;
-/* All that can be found out before the work: questions, folder, former run, cache. */
-pspec_status ps_run_prepare(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Writes all files. The record comes first: with it the folder is one of a run, whatever happens
  * next. A picture that cannot be drawn is no error: run->num_undrawn. */
 pspec_status ps_run_write(ps_run *run, ps_error *error) PS_MUST_CHECK;
