@@ -56,7 +56,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
         {NAMED("shifts", 0, "S"), OF(BIT(variance) | BIT(shade), 0),
-         .help = "{shade:orientations of every set (default 1000, of all sets together)}{:random "
+         .help = "{shade:orientations of every set (default 1000, of all sets together; 0: "
+                 "they are predicted alone)}{:random "
                  "shifts, on the sphere rotations, of every set that is measured (default 1; of a "
                  "single set in files 100; 0: nothing is measured)}",
          COUNT(num_shifts), .minimum = 0, .maximum = MOST_SHIFTS},

@@ -31,6 +31,9 @@ predicted=$(tail -1 out | cut -d, -f3)
 runs 0 --brdf diffuse "${light[@]}" points.npy
 [[ $(tail -1 out | cut -d, -f3) == "$predicted" ]] || complain "files: $(tail -1 out)"
 
+runs 0 --brdf diffuse --integrand coefficients:file=light.txt --shifts 0 --sampler fibonacci-hemisphere -n 16
+[[ $(tail -1 out) == ,,"$predicted",0, ]] || complain "predicted alone: $(tail -1 out)"
+
 # pictures, plans and scenes
 runs 0 --brdf diffuse "${light[@]}" --sampler fibonacci-hemisphere -n 8,16 --plot a.svg
 grep -q RMSE a.svg || complain 'picture'

@@ -124,6 +124,7 @@ static void ask(asked *out, const char *lobe, const char *integrand, const char 
                   .accuracy.tolerance = 1e-10,
                   .limits.constraints = {.engine = "host_direct", .precision = -1}},
         .light = &out->light,
+        .num_orientations = PS_USUAL_ORIENTATIONS,
         .seed = SEED};
 }
 

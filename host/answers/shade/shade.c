@@ -59,7 +59,8 @@ static pspec_status make_questions(shading *self, const ps_request *request, ps_
         self->questions[i] = (ps_shade_question){
             .rules = *rules,
             .light = &self->light,
-            .num_orientations = request->is_given[PS_OPTION_SHIFTS] ? request->num_shifts : 0,
+            .num_orientations =
+                request->is_given[PS_OPTION_SHIFTS] ? request->num_shifts : PS_USUAL_ORIENTATIONS,
             .seed = request->seed};
     }
     return PSPEC_OK;
@@ -182,12 +183,12 @@ static pspec_status add_one(ps_table *table, const ps_request *request, const sh
     const ps_lead lead = ps_lead_make(request, i);
     const ps_meta entries[] = {
         {"orientations", PS_INTEGER(result->num_orientations)},
-        {"rmse", PS_NUMBER(sqrt(result->measured.mean))},
+        {"rmse", ps_number_or_missing(sqrt(result->measured.mean))},
         {"rmse_predicted", PS_NUMBER(sqrt(result->predicted.mean))},
         {"rmse_beyond", PS_NUMBER(sqrt(result->beyond))},
     };
     const ps_cell cells[NUM_COLUMNS] = {
-        PS_NUMBER(sqrt(result->measured.mean)),
+        ps_number_or_missing(sqrt(result->measured.mean)),
         ps_number_or_missing(error_of_root(result->measured)),
         PS_NUMBER(sqrt(result->predicted.mean)),
         ps_number_or_missing(error_of_root(result->predicted)),

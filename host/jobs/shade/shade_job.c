@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of all rules together, unless it is said: the root of the mean of squares is known to 2 %. */
-enum { ORIENTATIONS = 1000 };
+enum { USUAL_ORIENTATIONS = 1000 };
 /* Values of one call: half a second of a processor, after which somebody may stop the work. */
 enum { CALL_VALUES = 1 << 24 };
 
@@ -104,7 +103,8 @@ static pspec_status hear(void *payload, uint64_t rule, const pspec_pattern *patt
     const ps_weight_sums weights = ps_rule_weight_sums(&view);
     predict(job, degrees, max_degree, weights.square);
     job->num_rules++;
-    return measure(job, rule, pattern, weights.sum, error);
+    return job->result.num_orientations > 0 ? measure(job, rule, pattern, weights.sum, error)
+                                            : PSPEC_OK;
 }
 
 /* ---- all of them --------------------------------------------------------------------------- */
@@ -127,8 +127,9 @@ static uint64_t choose_orientations(const ps_shade_job *job) {
     const ps_quadrature_setup *const setup = &job->rules->setup;
     const uint64_t num =
         setup->needs.one_realization || setup->num_realizations == 0 ? 1 : setup->num_realizations;
-    return job->question->num_orientations > 0 ? job->question->num_orientations
-                                               : (ORIENTATIONS + num - 1) / num;
+    return job->question->num_orientations != PS_USUAL_ORIENTATIONS
+               ? job->question->num_orientations
+               : (USUAL_ORIENTATIONS + num - 1) / num;
 }
 
 pspec_status ps_shade_job_create(ps_shade_job **out, const ps_shade_question *question,
@@ -173,8 +174,13 @@ pspec_status ps_shade_job_run(ps_shade_job *job, ps_error *error) {
     out->measured = finish(&job->measured, job->num_rules);
     out->predicted = finish(&job->predicted, job->num_rules);
     out->beyond = finish(&job->beyond, job->num_rules).mean;
-    if (job->num_rules == 1) {
+    if (out->num_orientations == 0) {
+        out->measured = (ps_mean){NAN, NAN};
+    }
+    if (job->num_rules == 1 && out->num_orientations > 0) {
         out->measured = finish(&job->orientations, out->num_orientations);
+    }
+    if (job->num_rules == 1) {
         out->predicted.standard_error = 0;
     }
     ps_trials_destroy(job->trials);

@@ -11,17 +11,21 @@
 #include "jobs/shade/light.h"
 #include "trials/trials.h"
 
+/* Of all rules together: the root of the mean of squares is known to 2 %. */
+#define PS_USUAL_ORIENTATIONS UINT64_MAX
+
 typedef struct ps_shade_question {
     ps_quadrature_question rules; /* without an observer */
     const ps_light *light;
-    uint64_t num_orientations; /* of each rule; 0: 1000 in all, and at least one */
-    uint64_t seed;             /* of the orientations */
+    /* Of each rule; 0: nothing is measured; PS_USUAL_ORIENTATIONS: 1000 in all */
+    uint64_t num_orientations;
+    uint64_t seed; /* of the orientations */
 } ps_shade_question;
 
 typedef struct ps_shade_result {
     uint64_t num_orientations; /* of each rule */
     /* Means of squares over rules, with standard errors: those of a single rule are over
-     * orientations, and its prediction has none */
+     * orientations, and its prediction has none; nan where nothing is measured */
     ps_mean measured, predicted;
     double beyond; /* of predicted: what rules are taken to have beyond the degrees, as white noise
                       has it */
