@@ -153,6 +153,16 @@ static ps_figure with_axes(const ps_figure *figure) {
     return out;
 }
 
+/* A frame that is alone has to show something, as zeros on a logarithmic axis do not. */
+static pspec_status check_frame(const ps_script_page *page, const ps_figure *figure,
+                                ps_error *error) {
+    return figure->form != PS_FIGURE_FRAME || figure->num_panels > 1 ||
+                   ps_script_has_places(&page->panels[0])
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "there is nothing to plot: none of its numbers has a place on its axes");
+}
+
 pspec_status ps_script_print_figure(ps_text *out, const ps_figure *asked, const char *terminal,
                                     ps_error *error) {
     static ps_script_place *const places[] = {[PS_FIGURE_SPECTRA] = ps_script_place_spectra,
@@ -163,6 +173,9 @@ pspec_status ps_script_print_figure(ps_text *out, const ps_figure *asked, const 
     ps_script_page page = {.terminal = terminal};
     ps_pool memory = {0};
     pspec_status status = places[figure.form](&page, &memory, &figure, error);
+    if (status == PSPEC_OK) {
+        status = check_frame(&page, &figure, error);
+    }
     if (status == PSPEC_OK) {
         print_terminal(out, &page);
         print_data(out, &page);
