@@ -61,6 +61,27 @@
         return sum;                                                                                \
     }
 
+#define PLAIN_MAP(name, real, table)                                                               \
+    double name(const real *points, size_t num, bench_plain_numbers of) {                          \
+        const size_t width = (size_t)of.a[0], height = (size_t)of.a[1];                            \
+        double sum = 0;                                                                            \
+        for (size_t j = 0; j < num; j++) {                                                         \
+            const real x = points[3 * j], y = points[3 * j + 1], z = points[3 * j + 2];            \
+            const real polar = atan2(sqrt(x * x + y * y), z);                                      \
+            const real down = polar * (real)(2 * of.a[1] / TWO_PI) + (real)0.5;                    \
+            const real turn = atan2(y, x) * (real)(of.a[0] / TWO_PI) - (real)0.5;                  \
+            const real along = turn < 0 ? turn + (real)width : turn;                               \
+            const size_t row = (size_t)down, column = (size_t)along % width;                       \
+            const size_t next = column + 1 < width ? column + 1 : 0;                               \
+            const real rest = down - (real)row, across = along - (real)column;                     \
+            const real share = row == 0 ? 2 * rest - 1 : row == height ? 2 * rest : rest;          \
+            const real *const above = of.table + row * width, *const below = above + width;        \
+            sum += (1 - share) * (above[column] * (1 - across) + above[next] * across) +           \
+                   share * (below[column] * (1 - across) + below[next] * across);                  \
+        }                                                                                          \
+        return sum;                                                                                \
+    }
+
 PLAIN_DISK(bench_plain_disk_single, float)
 PLAIN_DISK(bench_plain_disk_double, double)
 PLAIN_BOX(bench_plain_box_single, float)
@@ -69,3 +90,5 @@ PLAIN_GAUSSIAN(bench_plain_gaussian_single, float)
 PLAIN_GAUSSIAN(bench_plain_gaussian_double, double)
 PLAIN_WAVE(bench_plain_wave_single, float)
 PLAIN_WAVE(bench_plain_wave_double, double)
+PLAIN_MAP(bench_plain_map_single, float, singles)
+PLAIN_MAP(bench_plain_map_double, double, doubles)
