@@ -7,11 +7,14 @@
 
 /* Pixels of the largest image: a square of 16384 on each side. */
 #define PS_IMAGE_MOST_PIXELS ((size_t)1 << 28)
+/* Of either side: a row is in memory before it is known to be there. */
+#define PS_IMAGE_MOST_SIDE 65536
 
 typedef struct ps_image {
     size_t width, height;
     unsigned num_channels; /* 1; or 3: red, green, blue */
     float *pixels;         /* [height][width][num_channels], the top row first */
+    size_t capacity;       /* numbers that there is room for */
 } ps_image;
 
 /* Reads the only image of a file, which its first bytes tell the format of; ps_image_free frees it,

@@ -2,6 +2,8 @@
 
 #include "base/memory.h"
 
+#include <math.h>
+
 pspec_status ps_image_read_bytes(ps_input *input, void *out, size_t num, ps_error *error) {
     size_t count = 0;
     PS_TRY(ps_input_read(input, out, num, &count, error));
@@ -23,14 +25,25 @@ pspec_status ps_image_read_line(ps_input *input, char line[PS_IMAGE_LINE_BYTES],
                    input->name, PS_IMAGE_LINE_LETTERS - 1);
 }
 
+static pspec_status reserve(ps_image *image, size_t num_rows, ps_error *error) {
+    void *pixels = image->pixels;
+    PS_TRY(ps_grow(&pixels, &image->capacity, num_rows * image->width * image->num_channels,
+                   sizeof *image->pixels, "an image", error));
+    image->pixels = pixels;
+    return PSPEC_OK;
+}
+
 pspec_status ps_image_make(ps_image *out, const ps_input *input, double width, double height,
                            double least_bytes, ps_error *error) {
     uint64_t left = 0;
     const bool is_known = ps_input_bytes_left(input, &left);
-    if (!(width >= 1 && height >= 1 && width * height <= (double)PS_IMAGE_MOST_PIXELS)) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: an image of %g x %g pixels; there may be 1 to %zu of them", input->name,
-                       width, height, PS_IMAGE_MOST_PIXELS);
+    if (!(width >= 1 && height >= 1 && width == floor(width) && height == floor(height) &&
+          width <= PS_IMAGE_MOST_SIDE && height <= PS_IMAGE_MOST_SIDE &&
+          width * height <= (double)PS_IMAGE_MOST_PIXELS)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "%s: an image of %g x %g pixels; there may be %zu of them, and %d along a side",
+            input->name, width, height, PS_IMAGE_MOST_PIXELS, PS_IMAGE_MOST_SIDE);
     }
     if (is_known && (double)left < least_bytes) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
@@ -39,5 +52,24 @@ pspec_status ps_image_make(ps_image *out, const ps_input *input, double width, d
     }
     out->width = (size_t)width;
     out->height = (size_t)height;
-    return PS_NEW(&out->pixels, out->width * out->height * out->num_channels, "an image", error);
+    return is_known ? reserve(out, out->height, error) : PSPEC_OK;
+}
+
+pspec_status ps_image_row(ps_image *image, size_t y, float **out, ps_error *error) {
+    PS_TRY(reserve(image, y + 1, error));
+    *out = image->pixels + y * image->width * image->num_channels;
+    return PSPEC_OK;
+}
+
+void ps_image_turn(ps_image *image) {
+    const size_t row = image->width * image->num_channels;
+    for (size_t y = 0; y < image->height / 2; y++) {
+        float *const above = image->pixels + y * row;
+        float *const below = image->pixels + (image->height - 1 - y) * row;
+        for (size_t i = 0; i < row; i++) {
+            const float kept = above[i];
+            above[i] = below[i];
+            below[i] = kept;
+        }
+    }
 }

@@ -26,9 +26,14 @@ pspec_status ps_image_read_line(ps_input *input, char line[PS_IMAGE_LINE_BYTES],
 /* Exactly so many bytes. */
 pspec_status ps_image_read_bytes(ps_input *input, void *out, size_t num,
                                  ps_error *error) PS_MUST_CHECK;
-/* Room for the pixels, after a look at the size; the rest of the file must have least_bytes, where
- * its length is known. */
+/* Looks at the size; the rest of the file must have least_bytes, where its length is known, and
+ * then there is room for all pixels at once. */
 pspec_status ps_image_make(ps_image *out, const ps_input *input, double width, double height,
                            double least_bytes, ps_error *error) PS_MUST_CHECK;
+/* Row number y, in the order of the file, from 0 on: makes room for it unless there is, for a pipe
+ * may announce what never comes. */
+pspec_status ps_image_row(ps_image *image, size_t y, float **out, ps_error *error) PS_MUST_CHECK;
+/* The rows from the last to the first. */
+void ps_image_turn(ps_image *image);
 
 #endif

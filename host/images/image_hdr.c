@@ -14,6 +14,7 @@ enum { RED, GREEN, BLUE, EXPONENT, RGBE };
 /* Pixels are in the units of light times all exposures. */
 static pspec_status read_header(ps_input *input, double *exposure, ps_error *error) {
     char line[PS_IMAGE_LINE_BYTES];
+    char shown[PS_TOKEN_BYTES];
     static const char exposure_word[] = "EXPOSURE=";
     for (bool is_first = true;; is_first = false) {
         double factor = 0;
@@ -23,7 +24,7 @@ static pspec_status read_header(ps_input *input, double *exposure, ps_error *err
         }
         if (strncmp(line, "FORMAT=", 7) == 0 && strcmp(line + 7, "32-bit_rle_rgbe") != 0) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s is not read; 32-bit_rle_rgbe is",
-                           input->name, line);
+                           input->name, ps_token_show(shown, line, strlen(line)));
         }
         if (strncmp(line, exposure_word, strlen(exposure_word)) == 0) {
             const char *const end =
@@ -31,7 +32,7 @@ static pspec_status read_header(ps_input *input, double *exposure, ps_error *err
             *exposure *= factor;
             if (end == NULL || !(isfinite(*exposure) && *exposure > 0)) {
                 return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s is no exposure", input->name,
-                               line);
+                               ps_token_show(shown, line, strlen(line)));
             }
         }
     }
@@ -57,13 +58,14 @@ static const char *take_axis(const char *text, char letter, bool *is_turned, dou
 static pspec_status read_size(ps_input *input, double *width, double *height, turning *out,
                               ps_error *error) {
     char line[PS_IMAGE_LINE_BYTES];
+    char shown[PS_TOKEN_BYTES];
     PS_TRY(ps_image_read_line(input, line, error));
     const char *end = take_axis(line, 'Y', &out->is_upward, height, '+');
     end = end != NULL ? take_axis(end, 'X', &out->is_leftward, width, '-') : NULL;
     if (end == NULL || *end != '\0') {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: \"%s\" is no size that is read, which is \"-Y height +X width\"",
-                       input->name, line);
+                       input->name, ps_token_show(shown, line, strlen(line)));
     }
     return PSPEC_OK;
 }
@@ -156,14 +158,16 @@ static pspec_status read_rows(ps_image *out, ps_input *input, turning turned, do
     if (row == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for a row of an image");
     }
-    for (size_t i = 0; i < out->height && status == PSPEC_OK; i++) {
-        const size_t y = turned.is_upward ? out->height - 1 - i : i;
-        status = read_row(input, row, out->width, error);
-        if (status == PSPEC_OK) {
-            decode(out->pixels + EXPONENT * y * out->width, row, out->width, turned.is_leftward,
-                   exposure);
-        }
+    for (size_t y = 0; y < out->height; y++) {
+        float *pixels = NULL;
+        PS_TRY_OUT(status, read_row(input, row, out->width, error));
+        PS_TRY_OUT(status, ps_image_row(out, y, &pixels, error));
+        decode(pixels, row, out->width, turned.is_leftward, exposure);
     }
+    if (turned.is_upward) {
+        ps_image_turn(out);
+    }
+out:
     free(row);
     return status;
 }

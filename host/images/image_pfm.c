@@ -1,5 +1,6 @@
 /* Portable float map: two letters, width, height, a scale whose sign is the order of bytes, and the
  * rows of float32 from the lowest up. */
+#include "files/text_lines.h"
 #include "images/image_format.h"
 
 #include <string.h>
@@ -21,12 +22,13 @@ static pspec_status read_word(ps_input *input, char word[PS_IMAGE_LINE_BYTES], p
 
 static pspec_status read_number(ps_input *input, const char *what, double *out, ps_error *error) {
     char word[PS_IMAGE_LINE_BYTES];
+    char shown[PS_TOKEN_BYTES];
     PS_TRY(read_word(input, word, error));
     const char *const end = ps_decimal_parse(word, out);
     return end != NULL && *end == '\0'
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%.40s\" is no %s of a PFM image",
-                         input->name, word, what);
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%s\" is no %s of a PFM image",
+                         input->name, ps_token_show(shown, word, strlen(word)), what);
 }
 
 static void swap_bytes(float *pixels, size_t num) {
@@ -52,9 +54,12 @@ pspec_status ps_image_read_pfm(ps_image *out, ps_input *input, ps_error *error) 
     const double bytes = width * height * out->num_channels * (double)sizeof(float);
     PS_TRY(ps_image_make(out, input, width, height, bytes, error));
     const size_t row = out->width * out->num_channels;
-    for (size_t y = out->height; y-- > 0;) {
-        PS_TRY(ps_image_read_bytes(input, out->pixels + y * row, row * sizeof(float), error));
+    for (size_t y = 0; y < out->height; y++) {
+        float *pixels = NULL;
+        PS_TRY(ps_image_row(out, y, &pixels, error));
+        PS_TRY(ps_image_read_bytes(input, pixels, row * sizeof *pixels, error));
     }
+    ps_image_turn(out);
     if ((scale < 0) != (*(const unsigned char *)&one == 1)) {
         swap_bytes(out->pixels, out->height * row);
     }
