@@ -131,11 +131,11 @@ static void show_axes(ps_script_panel *out, const ps_plot_axes *asked) {
     out->y.shown = ps_plot_span_asked(out->y.shown, asked->has_y, asked->y);
 }
 
-/* A single series needs no key. */
+/* A single series needs no key, unless its label says more than the title of the picture does. */
 static void place_key(ps_script_panel *out, double below) {
     ps_script_box where = out->where;
     where.bottom += below;
-    if (out->panel.num_series > 1) {
+    if (out->panel.num_series > 1 || out->panel.series[0].label != NULL) {
         out->key = ps_script_key_of(&out->panel, where);
         out->where.bottom -= ps_script_key_height(&out->key);
     }
