@@ -24,7 +24,10 @@
 typedef struct ps_answer_hooks {
     ps_watch watch;
     ps_device
-        *device;   /* borrowed; NULL: the one that the request names is opened where it is needed */
+        *device; /* borrowed; NULL: the one that the request names is opened where it is needed */
+    /* Where kinds that `renew` leave what they computed with, for the same question of other sets
+     * of the caller, to be given to `discard`: NULL there before the first. NULL: nowhere */
+    void **kept;
     void *payload; /* of the calls */
     /* The work for the next sampler, for files, or for a scene begins. */
     void (*next)(void *payload);
@@ -143,7 +146,8 @@ typedef struct ps_command {
     pspec_status (*check_question)(const ps_request *request, ps_error *error);
 
     /* The answer. All the work: *out is what the following are made of, given to discard, also
-     * after an error. It borrows from the request. */
+     * after an error. It borrows from the request. *out is NULL before, or of a row that renews
+     * what it was before of a request that differs in sets of the caller alone. */
     pspec_status (*compute)(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error);
     /* *out is {0} before, and freed by ps_answer_free, also after an error. */
@@ -153,6 +157,7 @@ typedef struct ps_command {
      * state. *out is as that of tabulate. */
     pspec_status (*merge)(ps_answer *out, const ps_parts *parts, ps_error *error);
     void (*discard)(void *computed); /* NULL is allowed */
+    bool renews;
 
     /* What the tables mean. */
     const char *const *summary; /* header entries that are columns of a summary, ended by NULL */

@@ -117,18 +117,22 @@ static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void 
 
 pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_request *request,
                                const ps_answer_hooks *hooks, ps_error *error) {
-    void *computed = NULL;
+    void *mine = NULL;
+    void **const kept = hooks->kept != NULL && kind->renews ? hooks->kept : &mine;
     ps_table_format format = PS_FORMAT_CSV;
     ps_request own = *request;
     *out = (ps_answer){0};
     PS_TRY(check(&format, kind, request, hooks, error));
     own.wants_state = request->wants_state || format == PS_FORMAT_NPZ;
-    pspec_status status = kind->compute(&computed, &own, hooks, error);
+    pspec_status status = kind->compute(kept, &own, hooks, error);
     ps_answer_end(hooks);
     if (status == PSPEC_OK) {
-        status = write_files(out, kind, computed, &own, format, hooks, error);
+        status = write_files(out, kind, *kept, &own, format, hooks, error);
     }
-    kind->discard(computed);
+    if (status != PSPEC_OK || kept == &mine) {
+        kind->discard(*kept);
+        *kept = NULL;
+    }
     return status;
 }
 

@@ -17,6 +17,13 @@ typedef struct asking {
     ps_given_set *given;     /* [question->num_sets] */
 } asking;
 
+void ps_public_forget(pspec_question *question) {
+    if (question->kept != NULL) {
+        question->row->discard(question->kept);
+        question->kept = NULL;
+    }
+}
+
 /* ---- the caller's patterns --------------------------------------------------------------- */
 
 static pspec_status next(void *payload, uint64_t realization, pspec_pattern *out, bool *has_set,
@@ -42,8 +49,11 @@ static pspec_status take_set(asking *self, size_t i, ps_error *error) {
     void *files = question->files;
     const char *const name = ps_text_string(&set->name);
     ps_request *const request = &self->request;
-    self->given[i] = (ps_given_set){
-        .name = name, .next = next, .payload = set, .most = set->give != NULL ? set->num : 0};
+    self->given[i] = (ps_given_set){.name = name,
+                                    .next = next,
+                                    .payload = set,
+                                    .most = set->give != NULL ? set->num : 0,
+                                    .num = set->num_kept};
     request->reading.given.num = i + 1;
     if (strcmp(name, PS_CALLER_POINTS) == 0) {
         PS_TRY(ps_grow(&files, &question->files_capacity, request->num_files + 1,
@@ -130,9 +140,11 @@ static void say_plan(void *payload, const ps_plan *plan) {
 }
 
 /* Callbacks of the context, and its device if it is open. */
-static ps_answer_hooks hooks_of(pspec_context *context) {
+static ps_answer_hooks hooks_of(pspec_question *question) {
+    pspec_context *const context = question->context;
     return (ps_answer_hooks){.watch = context->watch,
                              .device = context->device,
+                             .kept = question->num_sets > 0 ? &question->kept : NULL,
                              .payload = context,
                              .warn = warn,
                              .tell_missing = warn,
@@ -158,40 +170,48 @@ static const ps_command *choose(ps_request *request, const ps_command *row) {
     return is_array ? &ps_kind_points : row;
 }
 
-static pspec_status produce(ps_answer *out, const ps_command *row, pspec_context *context,
+static pspec_status produce(ps_answer *out, const ps_command *row, pspec_question *question,
                             const ps_request *request, ps_error *error) {
     if (row->run != NULL) {
-        const ps_answer_hooks hooks = hooks_of(context);
+        const ps_answer_hooks hooks = hooks_of(question);
         PS_TRY(check_output(request, row, error));
         return row->run(out, request, &hooks, error);
     }
     PS_TRY(row->check_question(request, error)); /* before a device is opened for nothing */
     if (!row->is_of_host && ps_plan_may_need_device(&request->limits.constraints)) {
-        PS_TRY(ps_context_open_device(context));
+        PS_TRY(ps_context_open_device(question->context));
     }
-    const ps_answer_hooks hooks = hooks_of(context);
+    const ps_answer_hooks hooks = hooks_of(question);
     return ps_answer_produce(out, row, request, &hooks, error);
 }
 
 static pspec_status answer(pspec_answer **out, asking *self, bool is_plan, ps_error *error) {
-    pspec_context *const context = self->question->context;
     const ps_command *const row = choose(&self->request, self->question->row);
     ps_answer made = {0};
     pspec_status status = PSPEC_OK;
     if (is_plan) {
-        const ps_answer_hooks hooks = hooks_of(context);
+        const ps_answer_hooks hooks = hooks_of(self->question);
         status =
             self->question->row->plan != NULL
                 ? ps_plan_command(&made.table, self->question->row, &self->request, &hooks, error)
                 : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s is not planned", row->name);
     } else {
-        status = produce(&made, row, context, &self->request, error);
+        status = produce(&made, row, self->question, &self->request, error);
     }
     if (status != PSPEC_OK) {
         ps_answer_free(&made);
         return status;
     }
     return ps_public_answer(out, &made, is_plan ? NULL : row->fields, error);
+}
+
+/* Samplers and files are asked anew, and so is what had another limit. */
+static void forget_useless(pspec_question *question) {
+    const uint64_t limit = question->context->memory_limit;
+    if (question->num_sets == 0 || question->kept_limit != limit) {
+        ps_public_forget(question);
+    }
+    question->kept_limit = limit;
 }
 
 static pspec_status ask(pspec_answer **out, pspec_question *question, bool is_plan) {
@@ -201,6 +221,7 @@ static pspec_status ask(pspec_answer **out, pspec_question *question, bool is_pl
     }
     ps_error *const error = &question->context->error;
     *out = NULL;
+    forget_useless(question);
     pspec_status status = begin(&self, question, is_plan ? "plan " : "", error);
     if (status == PSPEC_OK) {
         status = answer(out, &self, is_plan, error);

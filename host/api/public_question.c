@@ -42,6 +42,7 @@ void pspec_question_destroy(pspec_question *question) {
     if (question == NULL) {
         return;
     }
+    ps_public_forget(question);
     pspec_question_reset(question);
     for (size_t i = 0; i < question->num_texts; i++) {
         free(question->texts[i]);
@@ -95,6 +96,7 @@ static pspec_status add_file(pspec_question *self, const char *path, ps_error *e
     }
     PS_TRY(refuse_stream(files_name, path, error));
     PS_TRY(keep_text(self, &path, error));
+    ps_public_forget(self);
     PS_TRY(ps_grow(&files, &self->files_capacity, self->num_files + 1, sizeof *self->files,
                    "names of files", error));
     self->files = files;
@@ -124,6 +126,7 @@ static pspec_status apply(pspec_question *self, ps_option_id id, const char *val
     PS_TRY(keep_text(self, &value, error));
     PS_TRY(ps_option_apply(&changed, id, ps_command_words(self->row, id), value, error));
     self->request = changed;
+    ps_public_forget(self);
     ps_option_append(&self->words, id, shown != NULL ? shown : value);
     return ps_text_check(&self->words, error);
 }

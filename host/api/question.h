@@ -41,7 +41,12 @@ struct pspec_question {
     size_t num_integrands; /* of the caller */
     ps_caller_integrand integrands[PS_MAX_INTEGRANDS];
     ps_given_integrand given[PS_MAX_INTEGRANDS]; /* which the request names */
+    void *kept; /* what the last answer was computed with (ps_answer_hooks); NULL: nothing */
+    uint64_t kept_limit; /* of memory, at the last answer */
 };
+
+/* Options change, and what was computed with others is of no use. */
+void ps_public_forget(pspec_question *question);
 
 /* The path that stands for points of the caller without a set of their own. */
 #define PS_CALLER_POINTS "memory"

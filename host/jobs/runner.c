@@ -11,6 +11,11 @@ uint64_t ps_runner_held(const ps_runner *runner) {
     return runner->estimator != NULL ? (uint64_t)runner->plan->chosen->host_bytes : 0;
 }
 
+static pspec_status begin(ps_runner *runner, ps_error *error) {
+    runner->num_done = 0;
+    return runner->kind->begin(runner->job, error);
+}
+
 /* Makes the estimator of the plan instead of the one before; fails where nothing is feasible. */
 static pspec_status start(ps_runner *runner, ps_error *error) {
     PS_TRY(ps_plan_require(runner->plan, runner->problem, error));
@@ -21,9 +26,8 @@ static pspec_status start(ps_runner *runner, ps_error *error) {
     options.precision = chosen->precision;
     options.batch = options.batch > 0 ? options.batch : chosen->batch;
     ps_runner_free(runner);
-    runner->num_done = 0;
     PS_TRY(ps_estimator_create(&runner->estimator, &options, runner->device, error));
-    return runner->kind->begin(runner->job, error);
+    return begin(runner, error);
 }
 
 /* All realizations, or as many as the standard error needs. Looks, and so what ends a job, do not
@@ -111,7 +115,12 @@ static pspec_status settle(ps_runner *runner, ps_error *error) {
 }
 
 pspec_status ps_runner_run(ps_runner *runner, ps_error *error) {
-    PS_TRY(start(runner, error));
+    if (runner->estimator != NULL) {
+        ps_estimator_reset(runner->estimator);
+        PS_TRY(begin(runner, error));
+    } else {
+        PS_TRY(start(runner, error));
+    }
     PS_TRY(add_all(runner, error));
     return settle(runner, error);
 }

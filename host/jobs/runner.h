@@ -58,8 +58,9 @@ void ps_runner_free(ps_runner *runner);
 
 /* Adds all realizations, or as many as the standard error takes, to the estimator of the plan, and
  * makes sure that the averages are within the tolerance: where powers are too large, by another
- * plan and all realizations again. Where no plan reaches it, or realizations cannot be had again,
- * PSPEC_ERROR_TOLERANCE comes with estimator, plan and problem as they were. */
+ * plan and all realizations again. An estimator of the plan that is there already is reset. Where
+ * no plan reaches it, or realizations cannot be had again, PSPEC_ERROR_TOLERANCE comes with
+ * estimator, plan and problem as they were. */
 pspec_status ps_runner_run(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
 
 /* Bytes of the machine's memory that the estimator has, which another plan need not count as taken.

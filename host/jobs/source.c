@@ -285,6 +285,23 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
     return next_from_files(source, set, part, has_set, error);
 }
 
+uint64_t ps_source_num_sets(const ps_source *source) {
+    const ps_point_options *const options = &source->options.points;
+    uint64_t num = 0;
+    if (options->sets.last > 0 ||
+        !ps_given_sets_are_all(&options->given, source->paths, source->num_paths)) {
+        return 0;
+    }
+    for (size_t i = 0; i < source->num_paths; i++) {
+        const uint64_t own = ps_given_sets_find(&options->given, source->paths[i])->num;
+        if (own == 0) {
+            return 0;
+        }
+        num += own;
+    }
+    return num;
+}
+
 bool ps_source_can_rewind(const ps_source *source) {
     return !source->is_lost;
 }

@@ -206,6 +206,14 @@ ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path) {
     return i < given->num ? &given->sets[i] : NULL;
 }
 
+bool ps_given_sets_are_all(const ps_given_sets *given, const char *const *paths, size_t num_paths) {
+    bool are_given = num_paths > 0;
+    for (size_t i = 0; i < num_paths && are_given; i++) {
+        are_given = ps_given_sets_find(given, paths[i]) != NULL;
+    }
+    return are_given;
+}
+
 pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
                              ps_error *error) {
     for (size_t i = 0; i < num; i++) {

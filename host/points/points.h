@@ -78,6 +78,7 @@ typedef struct ps_given_set {
                          ps_error *error);
     void *payload;
     uint64_t most;      /* sets; 0: as many as there are. For what makes sets without an end */
+    uint64_t num;       /* sets that there are, for whoever plans; 0: nobody knows */
     uint64_t num_calls; /* of next, counted by readers, so that each knows whose view there is */
 } ps_given_set;
 
@@ -88,6 +89,8 @@ typedef struct ps_given_sets {
 
 /* NULL: a path is that of a file. */
 ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path);
+/* All paths are those of given sets. */
+bool ps_given_sets_are_all(const ps_given_sets *given, const char *const *paths, size_t num_paths);
 
 typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_INPUT_FORMATS */

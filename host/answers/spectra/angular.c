@@ -135,6 +135,7 @@ const ps_kind ps_kind_angular = {
     .tabulate = tabulate,
     .merge = merge,
     .discard = ps_spectra_discard,
+    .renews = true,
     .fields = fields,
     .summary = ps_spectra_summary,
     .pictures = pictures,

@@ -50,10 +50,23 @@ static void warn_of_standard_error(const ps_power_job *job, double standard_erro
 
 /* ---- jobs ---------------------------------------------------------------------------------- */
 
+static pspec_status get_ready(ps_power_job **job, const ps_power_question *question,
+                              ps_error *error) {
+    bool is_ready = false;
+    if (*job != NULL) {
+        PS_TRY(ps_power_job_renew(*job, question, &is_ready, error));
+    }
+    if (is_ready) {
+        return PSPEC_OK;
+    }
+    ps_power_job_destroy(*job);
+    return ps_power_job_create(job, question, error);
+}
+
 pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
                                 const ps_answer_hooks *hooks, ps_error *error) {
     ps_answer_begin_job(hooks, &question->watch, &question->open_device);
-    PS_TRY(ps_power_job_create(job, question, error));
+    PS_TRY(get_ready(job, question, error));
     warn_of_hours(*job, question->limits.constraints.offers, hooks);
     if (hooks->tell_plan != NULL) {
         hooks->tell_plan(hooks->payload, &(*job)->plan);
@@ -76,15 +89,39 @@ pspec_status ps_answer_open_device(ps_device **out, const ps_request *request,
                : PSPEC_OK;
 }
 
+static void destroy_jobs(ps_spectra *self) {
+    for (size_t i = 0; i < self->num_jobs; i++) {
+        ps_power_job_destroy(self->jobs[i]);
+    }
+    free(self->jobs);
+    self->jobs = NULL;
+    self->num_jobs = 0;
+}
+
+/* The questions, with the jobs that have answered the same of other sets, if there are as many. */
+static pspec_status begin(ps_spectra *self, const ps_request *request, ps_question_kind kind,
+                          ps_error *error) {
+    ps_questions_free(&self->list);
+    PS_TRY(ps_questions_make(&self->list, request, kind, error));
+    if (self->num_jobs != self->list.num) {
+        destroy_jobs(self);
+        PS_TRY(PS_NEW(&self->jobs, self->list.num, "jobs", error));
+        self->num_jobs = self->list.num;
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_spectra_compute(void **out, const ps_request *request, ps_question_kind kind,
                                 const ps_answer_hooks *hooks, ps_error *error) {
-    PS_TRY(ps_allocate(out, 1, sizeof(ps_spectra), "jobs", error));
+    PS_TRY(*out == NULL ? ps_allocate(out, 1, sizeof(ps_spectra), "jobs", error) : PSPEC_OK);
     ps_spectra *const spectra = *out;
+    PS_TRY(begin(spectra, request, kind, error));
     ps_question_list *const list = &spectra->list;
-    PS_TRY(ps_questions_make(list, request, kind, error));
-    PS_TRY(PS_NEW(&spectra->jobs, list->num, "jobs", error));
-    PS_TRY(ps_answer_open_device(&spectra->device, request, &list->questions[0].limits.constraints,
-                                 list->num, hooks, error));
+    if (spectra->device == NULL) {
+        PS_TRY(ps_answer_open_device(&spectra->device, request,
+                                     &list->questions[0].limits.constraints, list->num, hooks,
+                                     error));
+    }
     for (size_t i = 0; i < list->num; i++) {
         list->questions[i].open_device = spectra->device;
         PS_TRY(ps_spectra_run_one(&spectra->jobs[i], &list->questions[i], hooks, error));
@@ -97,10 +134,7 @@ void ps_spectra_discard(void *computed) {
     if (spectra == NULL) {
         return;
     }
-    for (size_t i = 0; spectra->jobs != NULL && i < spectra->list.num; i++) {
-        ps_power_job_destroy(spectra->jobs[i]);
-    }
-    free(spectra->jobs);
+    destroy_jobs(spectra);
     ps_questions_free(&spectra->list);
     ps_device_close(spectra->device);
     free(spectra);

@@ -9,16 +9,19 @@
 /* One job for each question; all have run. */
 typedef struct ps_spectra {
     ps_question_list list;
-    ps_device *device;   /* of all of them, where they share one that was opened for them */
-    ps_power_job **jobs; /* [list.num] */
+    ps_device *device; /* of all of them, where they share one that was opened for them */
+    size_t num_jobs;
+    ps_power_job **jobs; /* [num_jobs], which is list.num */
 } ps_spectra;
 
-/* Asks and runs. *out is a ps_spectra, for ps_spectra_discard, also after an error. */
+/* Asks and runs. *out is a ps_spectra, for ps_spectra_discard, also after an error; before it is
+ * NULL or one to be renewed (ps_kind.compute). */
 pspec_status ps_spectra_compute(void **out, const ps_request *request, ps_question_kind kind,
                                 const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_spectra_discard(void *computed);
 
-/* Runs one job of a question, which must outlive it. *job may be there after a failure, too. */
+/* Runs one job of a question, which must outlive it: *job where it can answer it
+ * (ps_power_job_renew), else a new one; NULL: there is none. *job may be there after an error. */
 pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
                                 const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 

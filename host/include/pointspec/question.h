@@ -152,6 +152,11 @@ PSPEC_EXPORT pspec_status pspec_question_plan(pspec_answer **out, pspec_question
 
 /** Answers the question of all patterns so far.
  *
+ * Plan, frequencies and buffers of "power", "angular" and "pairs" stay with the question: after
+ * pspec_question_reset() and pspec_question_add() of as many patterns of the same size an answer
+ * costs no more than its sums, and has the bits of a new question's. A change of options gives
+ * their memory back, and so does pspec_question_destroy().
+ *
  * #PSPEC_ERROR_INVALID_ARGUMENT: options that do not go together. #PSPEC_ERROR_INPUT: points or
  * files that cannot be used; the sentence names the set (from 1) and the point.
  * #PSPEC_ERROR_TOLERANCE: no engine reaches the tolerance. #PSPEC_ERROR_MEMORY: none fits the

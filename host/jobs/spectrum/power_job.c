@@ -8,108 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- source ------------------------------------------------------------------------------ */
-
-static void turn(ps_power_job *job) {
-    if (job->question->is_turned) {
-        ps_source_turn(job->sets.source);
-    }
-}
-
-static pspec_status report_progress(void *payload, ps_error *error) {
-    const ps_power_job *const job = payload;
-    return ps_watch_tell(&job->question->watch, "realizations", job->runner.num_done,
-                         job->num_realizations, NULL, error);
-}
-
-/* Asked by the engine while it works, and while points are made or counted: progress has not
- * changed since the last batch. */
-static bool should_stop(void *payload) {
-    return report_progress(payload, NULL) != PSPEC_OK;
-}
-
-static int ask_while_sampling(const ps_watch_report *report, void *payload) {
-    (void)report;
-    return should_stop(payload);
-}
-
-/* The sampler as it is needed: without shifts that nobody sees, one realization that stands for
- * all. */
-static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    job->request = *question->sampler;
-    job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
-    job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
-    const ps_sets_options options = ps_limits_sets(&question->limits, question->accuracy.no_skip);
-    PS_TRY(ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, &options,
-                             &(ps_watch){ask_while_sampling, job}, error));
-    turn(job);
-    return PSPEC_OK;
-}
-
-/* A quarter of a limit that was typed leaves room for what computes with the points. */
-static uint64_t choose_whole_bytes(const ps_power_question *question) {
-    const uint64_t limit = question->limits.constraints.memory_limit / 4;
-    const uint64_t asked =
-        question->whole_bytes > 0 ? question->whole_bytes : PS_SOURCE_WHOLE_BYTES;
-    return limit > 0 && limit < asked ? limit : asked;
-}
-
-static pspec_status open_files(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    const uint64_t whole_bytes = choose_whole_bytes(question);
-    const ps_source_options options = {.points = question->point_options,
-                                       .whole_bytes = whole_bytes,
-                                       .kept_bytes = whole_bytes,
-                                       .should_stop = should_stop,
-                                       .payload = job};
-    job->num_realizations = question->num_sets;
-    job->sets.source = question->source;
-    job->sets.is_borrowed = question->source != NULL;
-    if (!job->sets.is_borrowed) {
-        PS_TRY(ps_source_files(&job->sets.source, question->paths, question->num_paths, &options,
-                               error));
-    }
-    turn(job);
-    return PSPEC_OK;
-}
-
-/* A set alone has ways of its own. Nobody waits for a second set of a stream that is not kept, nor
- * for a second file. */
-static pspec_status count_sets(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    bool is_last = false;
-    if (job->num_realizations == 0 && question->source == NULL && question->num_paths == 1 &&
-        ps_source_can_rewind(job->sets.source)) {
-        PS_TRY(ps_power_sets_is_last(&job->sets, &is_last, error));
-        job->num_realizations = is_last ? 1 : 0;
-    }
-    return PSPEC_OK;
-}
-
-/* The shape of the first set: a sampler's is known, a file is read. */
-static pspec_status find_shape(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    bool has_set = false;
-    job->sets.keeps_first = question->keeps_first;
-    if (question->sampler != NULL) {
-        job->dimension = question->sampler->dimension;
-        job->num_points = question->sampler->num_points;
-        job->most_points = ps_sampler_most_points(question->sampler);
-        return PSPEC_OK;
-    }
-    PS_TRY(open_files(job, error));
-    PS_TRY(ps_power_sets_peek(&job->sets, &has_set, error));
-    job->sets.looks_at_axes = !question->on_sphere && job->sets.next.box.num_axes == 0;
-    if (!has_set) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
-    }
-    job->dimension = job->sets.next.dimension;
-    job->num_points = ps_power_sets_next_points(&job->sets);
-    job->most_points = job->num_points;
-    return count_sets(job, error);
-}
-
 /* ---- plan -------------------------------------------------------------------------------- */
 
 static pspec_status open_device(ps_power_job *job, ps_error *error) {
@@ -144,7 +42,7 @@ static pspec_status plan(void *payload, ps_error *error) {
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(check_names(job, error));
-    PS_TRY(find_shape(job, error));
+    PS_TRY(ps_power_source_begin(job, error));
     if (question->weights.path != NULL) {
         PS_TRY(
             ps_power_sets_read_weights(&job->sets, question->weights.path, job->num_points, error));
@@ -153,7 +51,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
                                 (size_t)job->num_points, &job->sets.next.box, error));
     ps_power_needs_find(job);
     if (question->sampler != NULL) {
-        PS_TRY(open_sampler(job, error));
+        PS_TRY(ps_power_source_sampler(job, error));
     }
     const bool has_only_block_set = /* nothing tells beforehand that it is */
         question->on_sphere && !question->keeps_sets && question->harmonics != PS_NO_HARMONICS &&
@@ -200,17 +98,23 @@ void ps_power_job_release(ps_power_job *job) {
     ps_power_sets_release(&job->sets);
 }
 
+/* Results that every job has; what else there may be is of one run. */
+static void free_results(ps_power_job *job) {
+    ps_spectrum_free(&job->spectrum);
+    ps_text_free(&job->description);
+    free(job->c2);
+    job->c2 = NULL;
+}
+
 void ps_power_job_destroy(ps_power_job *job) {
     if (job == NULL) {
         return;
     }
     ps_runner_free(&job->runner);
     ps_device_sets_destroy(job->device_sets);
-    ps_spectrum_free(&job->spectrum);
-    ps_text_free(&job->description);
+    free_results(job);
     free(job->coefficients);
     free(job->kept);
-    free(job->c2);
     free(job->weights);
     free(job->weighted);
     free(job->weighted_blocks);
@@ -238,7 +142,7 @@ static ps_estimator_options choose_options(void *payload) {
         .want_c2 = question->wants_pair_sums,
         .weights = job->weights,
         .num_weighted = question->num_weighted,
-        .should_stop = should_stop,
+        .should_stop = ps_power_job_should_stop,
         .payload = payload,
     };
 }
@@ -305,7 +209,7 @@ static pspec_status rewind_sets(void *payload, ps_error *error) {
 static const ps_runner_kind kind = {.plan = plan,
                                     .options = choose_options,
                                     .begin = begin,
-                                    .tell = report_progress,
+                                    .tell = ps_power_job_tell,
                                     .give = give,
                                     .look = look_at_errors,
                                     .rewind = rewind_sets};
@@ -375,6 +279,7 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_power_coefficients_begin(job, error));
     PS_TRY(weigh(job, error));
     job->runner = (ps_runner){.kind = &kind,
+                              .estimator = job->runner.estimator,
                               .job = job,
                               .problem = &job->problem,
                               .plan = &job->plan,
@@ -383,4 +288,37 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
                               .is_sequential = job->needs.sequential};
     PS_TRY(ps_runner_run(&job->runner, error));
     return finish(job, error);
+}
+
+/* ---- again ------------------------------------------------------------------------------- */
+
+/* Nothing that was measured has changed the plan or the engine, and sets are all that is read. The
+ * question that the job had may be gone. */
+static bool can_renew(const ps_power_job *job, const ps_power_question *question) {
+    return job->runner.estimator != NULL && !job->runner.was_replanned &&
+           job->runner.accuracy.largest_points <= job->most_points &&
+           question->harmonics == PS_NO_HARMONICS && !question->keeps_first &&
+           question->num_weighted == 0 && question->weights.path == NULL &&
+           ps_given_sets_are_all(&question->point_options.given, question->paths,
+                                 question->num_paths);
+}
+
+pspec_status ps_power_job_renew(ps_power_job *job, const ps_power_question *question,
+                                bool *is_ready, ps_error *error) {
+    const unsigned dimension = job->dimension;
+    const uint64_t num_points = job->num_points;
+    const uint64_t num_realizations = job->num_realizations;
+    *is_ready = false;
+    if (!can_renew(job, question)) {
+        return PSPEC_OK;
+    }
+    free_results(job);
+    ps_power_sets_free(&job->sets);
+    job->question = question;
+    PS_TRY(ps_power_source_begin(job, error));
+    *is_ready = job->dimension == dimension && job->num_points == num_points &&
+                job->num_realizations == num_realizations && job->sets.part.is_whole &&
+                job->sets.next.has_weights == job->problem.has_weights &&
+                job->problem.block_points == 0;
+    return PSPEC_OK;
 }

@@ -121,6 +121,13 @@ void ps_power_job_destroy(ps_power_job *job);
 
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 
+/* A job that has run is asked again, by a question that differs in sets of the caller alone. Where
+ * they are as many as those before, and the first has the same shape, *is_ready: run will answer
+ * with the plan and the estimator that there are, to the bit as a new job would. Else, and after an
+ * error, the job is to be destroyed. */
+pspec_status ps_power_job_renew(ps_power_job *job, const ps_power_question *question,
+                                bool *is_ready, ps_error *error) PS_MUST_CHECK;
+
 /* For who shows the shares of skips: makes those that depend on the plan better than from counts,
  * by planning again, which takes milliseconds. Before run. */
 void ps_power_job_rate_skips(ps_power_job *job);

@@ -4,6 +4,17 @@
 
 #include "jobs/spectrum/power_job.h"
 
+/* payload is the job. Progress; ps_runner_kind.tell. */
+pspec_status ps_power_job_tell(void *payload, ps_error *error) PS_MUST_CHECK;
+/* Asked by the engine while it works, and while points are made or counted: progress has not
+ * changed since the last batch. */
+bool ps_power_job_should_stop(void *payload);
+/* The shape of the first set: a sampler's is known, a file is read. */
+pspec_status ps_power_source_begin(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+/* The sampler as it is needed: without shifts that nobody sees, one realization that stands for
+ * all. */
+pspec_status ps_power_source_sampler(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+
 /* Does the device make the sampler's points, as the plan is? */
 bool ps_power_job_leaves_points(const ps_power_job *job);
 /* Then tells the estimator, before the first realization; and ps_runner_kind.give. */
