@@ -41,13 +41,14 @@ typedef pspec_status ps_make_figure(ps_figure *out, ps_pool *memory, const ps_ch
 typedef enum ps_dealing { PS_OF_CURVES, PS_OF_COUNTS, PS_OF_EACH, PS_OF_SETS } ps_dealing;
 
 /* Who draws it, and what has to be asked for: several numbers of points, --scatter, pictures (a key
- * of scenes; a command asks by --plot). */
+ * of scenes; a command asks by --plot), --integrand. */
 enum { PS_BY_SCENE = 1, PS_BY_COMMAND = 2 };
 typedef enum ps_picture_need {
     PS_NEEDS_NOTHING,
     PS_NEEDS_COUNTS,
     PS_NEEDS_SCATTER,
-    PS_NEEDS_PICTURES
+    PS_NEEDS_PICTURES,
+    PS_NEEDS_INTEGRAND
 } ps_picture_need;
 
 /* A line of every curve: a column, or a header entry, against those of x. */
@@ -84,10 +85,12 @@ struct ps_picture_kind {
 
 /* One of a scene: a column against degrees, on a logarithmic axis. */
 #define PS_PICTURE_OF_DEGREES(file, words, column, degrees, numbers)                               \
+    PS_PICTURE_WHERE(PS_NEEDS_NOTHING, file, words, column, degrees, numbers)
+#define PS_PICTURE_WHERE(need, file, words, column, degrees, numbers)                              \
     {                                                                                              \
-        .suffix = (file), .what = (words), .make = ps_lines_figure, .by = PS_BY_SCENE,             \
-        .x = "degree", .lines = {{.y = (column)}}, .x_label = (degrees), .y_label = (numbers),     \
-        .is_log_y = true                                                                           \
+        .needs = (need), .suffix = (file), .what = (words), .make = ps_lines_figure,               \
+        .by = PS_BY_SCENE, .x = "degree", .lines = {{.y = (column)}}, .x_label = (degrees),        \
+        .y_label = (numbers), .is_log_y = true                                                     \
     }
 
 /* A curve for each question, of PS_OF_COUNTS for those that differ in the number of points alone,

@@ -53,13 +53,19 @@ pspec_status ps_half_range_matrix(size_t max_from, size_t max_to, double *matrix
 /* 2^0 .. 2^15 points are the ladder; the last rung takes 5e8 pairs. */
 enum { PS_EQUAL_ERROR_RUNGS = 16, PS_EQUAL_ERROR_MOST = 1 << (PS_EQUAL_ERROR_RUNGS - 1) };
 
-/* Begins as {.representer = .., .morph = ..}; remembers the errors of its ladder. */
+/* Begins as {.representer = .., .morph = ..}, or {.error_of = .., .payload = ..} for another error
+ * E_SF; remembers the errors of its ladder. */
 typedef struct ps_equal_error {
     const ps_representer *representer;
     ps_morph morph;
+    pspec_status (*error_of)(void *payload, size_t num_points, double *out, ps_error *error);
+    void *payload;
     double ladder[PS_EQUAL_ERROR_RUNGS]; /* E_SF(2^i), 0 until it is known */
 } ps_equal_error;
 
+/* Its points, [num_points][3], freed by the caller. */
+pspec_status ps_fibonacci_rule(double **out, size_t num_points, ps_morph morph,
+                               ps_error *error) PS_MUST_CHECK;
 /* E_SF(num_points). */
 pspec_status ps_fibonacci_error(const ps_representer *representer, const ps_morph *morph,
                                 size_t num_points, double *out, ps_error *error) PS_MUST_CHECK;

@@ -215,6 +215,42 @@ static void batches(void **state) {
     forget(&job);
 }
 
+/* What N points have, N points have: a rung of the ladder, one between, and on the device as on the
+ * host. More are needed for less, and none for nothing. */
+static void points_of_equal_error(void **state) {
+    static const size_t nums[] = {64, 90, 700};
+    enum { NUM = sizeof nums / sizeof nums[0] };
+    double errors[NUM + 2];
+    double points[NUM + 2];
+    double on_device[NUM + 2];
+    asked job;
+    ps_device *const device = test_open_device();
+    (void)state;
+    for (size_t i = 0; i < NUM; i++) {
+        ask(&job, "diffuse", "coefficients:file=light.txt", "fibonacci-hemisphere", nums[i], 1);
+        job.question.rules.max_degree = job.light.max_degree;
+        job.question.num_orientations = 0;
+        errors[i] = sqrt(answer(&job).predicted.mean);
+        if (i + 1 < NUM) {
+            forget(&job);
+        }
+    }
+    errors[NUM] = 0;
+    errors[NUM + 1] = 1e9;
+    ps_quadrature_question rules = {.brdf = job.brdf, .smoothness = 1.5};
+    assert_ok(ps_shade_equal_points(&job.light, &rules, errors, NUM + 2, points, error));
+    rules.open_device = device;
+    assert_ok(ps_shade_equal_points(&job.light, &rules, errors, NUM + 2, on_device, error));
+    for (size_t i = 0; i < NUM; i++) {
+        assert_true(fabs(points[i] / (double)nums[i] - 1) < (i == 0 ? 1e-9 : 0.02));
+        assert_true(fabs(on_device[i] / points[i] - 1) < 1e-6);
+    }
+    assert_true(isnan(points[NUM]));
+    assert_true(points[NUM + 1] == 1);
+    forget(&job);
+    ps_device_close(device);
+}
+
 static void other_light_is_refused(void **state) {
     ps_brdf *brdf = NULL;
     ps_light light;
@@ -233,7 +269,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_integrals),        cmocka_unit_test(closed_forms),
         cmocka_unit_test(predictions_hold),       cmocka_unit_test(batches),
-        cmocka_unit_test(other_light_is_refused),
+        cmocka_unit_test(other_light_is_refused), cmocka_unit_test(points_of_equal_error),
     };
     return cmocka_run_group_tests_name("shade_job", tests, make_files, remove_files);
 }

@@ -6,6 +6,7 @@
 #include "request/options.h"
 #include "answers/spectra/spectrum_header.h"
 #include "jobs/quadrature/truncation_job.h"
+#include "jobs/shade/shade_job.h"
 #include "rules/truncation.h"
 
 #include <stdio.h>
@@ -17,8 +18,11 @@ enum { DEFAULT_DEGREE = 20, MOST_DEGREE = 10000 };
 
 typedef struct products {
     ps_truncation_job job;
-    ps_light light;  /* {0}: none */
-    double *squares; /* [max_degree + 1]: mean square errors with it; NULL: there is no light */
+    ps_light light; /* {0}: none */
+    /* With it, [max_degree + 1]: root mean square errors, and points that have them; NULL: none */
+    double *errors, *points;
+    ps_device *device; /* NULL: none is there, or needed */
+    bool owns_device;
 } products;
 
 static ps_truncation_question question_of(const ps_request *request) {
@@ -47,24 +51,54 @@ static pspec_status check_question(const ps_request *arguments, ps_error *error)
     return ps_light_check(arguments, false, error);
 }
 
+/* Map of 1024 x 512, 20 degrees, diffuse lobe, for all rules of up to 32768 points and 256 degrees:
+ * two cores, AVX-512, PoCL 3.1. */
+static const double light_seconds = 4;
+
 /* Products in harmonics are the host's: there is nothing to choose. */
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
     const ps_truncation_question question = question_of(request);
     ps_phases phases = ps_plan_table_begin_phases(planner);
     PS_TRY(check_question(request, error));
     PS_TRY(ps_truncation_phases(&question, &phases, error));
+    if (request->num_integrands > 0) {
+        ps_phases_add(&phases, "points with the light's error", light_seconds);
+        ps_phases_say(&phases, "points with the light's error", "the same for the light");
+        ps_phases_limit(&phases, "points with the light's error");
+    }
     ps_plan_table_add_picture(&phases, request);
     return ps_plan_table_add_host(planner, &phases, 0, "series of the lobe, in double precision",
                                   error);
 }
 
-static pspec_status shade(products *self, const ps_request *request, ps_error *error) {
+/* Points of equal errors are those of rules with spectra, which a device has faster. */
+static pspec_status find_points(products *self, const ps_request *request,
+                                const ps_answer_hooks *hooks, ps_error *error) {
+    ps_quadrature_question rules = {.brdf = self->job.brdf,
+                                    .smoothness = request->smoothness,
+                                    .limits = request->limits,
+                                    .watch = hooks->watch};
+    PS_TRY(ps_limits_open_device(&request->limits, hooks->device, true, &rules.open_device,
+                                 &self->owns_device, error));
+    self->device = rules.open_device;
+    return ps_shade_equal_points(&self->light, &rules, self->errors,
+                                 self->job.question.max_degree + 1, self->points, error);
+}
+
+static pspec_status shade(products *self, const ps_request *request, const ps_answer_hooks *hooks,
+                          ps_error *error) {
     const ps_truncation_question *const question = &self->job.question;
+    const size_t num = question->max_degree + 1;
     PS_TRY(ps_light_make(&self->light, request->integrands[0], self->job.brdf, error));
-    PS_TRY(PS_NEW(&self->squares, question->max_degree + 1, "errors", error));
-    return ps_truncation_of_light(self->job.brdf, question->is_hemispherical, question->max_degree,
-                                  self->light.powers, self->light.max_degree + 1, self->squares,
-                                  error);
+    PS_TRY(PS_NEW(&self->errors, 2 * num, "errors", error));
+    self->points = self->errors + num;
+    PS_TRY(ps_truncation_of_light(self->job.brdf, question->is_hemispherical, question->max_degree,
+                                  self->light.powers, self->light.max_degree + 1, self->errors,
+                                  error));
+    for (size_t l = 0; l < num; l++) {
+        self->errors[l] = sqrt(self->errors[l]);
+    }
+    return find_points(self, request, hooks, error);
 }
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
@@ -75,7 +109,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     products *const self = *out;
     ps_answer_begin_next(hooks);
     PS_TRY(ps_truncation_job_run(&self->job, &question, &hooks->watch, error));
-    return request->num_integrands > 0 ? shade(self, request, error) : PSPEC_OK;
+    return request->num_integrands > 0 ? shade(self, request, hooks, error) : PSPEC_OK;
 }
 
 static void discard(void *computed) {
@@ -83,7 +117,10 @@ static void discard(void *computed) {
     if (self != NULL) {
         ps_truncation_job_free(&self->job);
         ps_light_free(&self->light);
-        free(self->squares);
+        free(self->errors);
+        if (self->owns_device) {
+            ps_device_close(self->device);
+        }
         free(self);
     }
 }
@@ -126,17 +163,20 @@ static pspec_status add_header(ps_table *table, const ps_truncation_job *job,
 
 static pspec_status make_table(ps_table **out, const products *self, const ps_request *request,
                                ps_error *error) {
-    static const char *const columns[] = {"degree", "error", "equivalent_points", "rmse"};
-    enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+    static const char *const columns[] = {"degree", "error", "equivalent_points", "rmse",
+                                          "rmse_points"};
+    enum { NUM_COLUMNS = sizeof columns / sizeof columns[0], OF_LIGHT = 2 };
     const ps_truncation_job *const job = &self->job;
-    const bool has_light = self->squares != NULL;
-    PS_TRY(ps_table_create(out, "truncation", columns, NUM_COLUMNS - (has_light ? 0 : 1), error));
+    const bool has_light = self->errors != NULL;
+    PS_TRY(ps_table_create(out, "truncation", columns, NUM_COLUMNS - (has_light ? 0 : OF_LIGHT),
+                           error));
     PS_TRY(add_header(*out, job, request, error));
     PS_TRY(has_light ? ps_light_add_header(*out, request, &self->light, error) : PSPEC_OK);
     for (size_t l = 0; l <= job->question.max_degree; l++) {
-        const ps_cell cells[NUM_COLUMNS] = {PS_INTEGER(l), PS_NUMBER(job->errors[l]),
-                                            ps_number_or_missing(job->points[l]),
-                                            PS_NUMBER(has_light ? sqrt(self->squares[l]) : NAN)};
+        const ps_cell cells[NUM_COLUMNS] = {
+            PS_INTEGER(l), PS_NUMBER(job->errors[l]), ps_number_or_missing(job->points[l]),
+            PS_NUMBER(has_light ? self->errors[l] : NAN),
+            ps_number_or_missing(has_light ? self->points[l] : NAN)};
         PS_TRY(ps_table_add_row(*out, cells, error));
     }
     return PSPEC_OK;
@@ -161,6 +201,11 @@ static const ps_picture_kind pictures[] = {
      .is_log_y = true},
     PS_PICTURE_OF_DEGREES("-points", "points with the same error", "equivalent_points",
                           "largest degree L", "N"),
+    PS_PICTURE_WHERE(PS_NEEDS_INTEGRAND, "-rmse", "error with the light", "rmse",
+                     "largest degree L", "RMSE"),
+    PS_PICTURE_WHERE(PS_NEEDS_INTEGRAND, "-rmse_points",
+                     "points with the same error with the light", "rmse_points", "largest degree L",
+                     "N"),
     {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
@@ -175,6 +220,8 @@ static const ps_field_row own_fields[] = {
      "N of spherical Fibonacci points with that error; missing above 32768 and for tables"},
     {"rmse", "", PS_COLUMN, 0, "--integrand",
      "root of the mean square error with that light over all orientations"},
+    {"rmse_points", "", PS_COLUMN, 0, "--integrand",
+     "N of those points with that root, by their spectrum; missing above 32768 and for tables"},
     {.name = NULL}};
 
 static const ps_field_row *const fields[] = {ps_fields_asked, own_fields, ps_fields_light,
@@ -192,7 +239,8 @@ const ps_kind ps_kind_truncation = {
         "the Sobolev space H^S: E(L)^2 = sum_{l>L} a_l b_l^2 for spherical harmonics. "
         "equivalent_points is the number of spherical Fibonacci points, morphed to the lobe and "
         "with equal weights, whose worst-case error is the same. With --integrand rmse is the root "
-        "of the mean square error of that light over all orientations.",
+        "of the mean square error of that light over all orientations, and rmse_points the number "
+        "of the same points that have it.",
     .examples =
         {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5 -l 12",
          "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},

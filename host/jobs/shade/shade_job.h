@@ -50,4 +50,12 @@ pspec_status ps_shade_job_create(ps_shade_job **out, const ps_shade_question *qu
 void ps_shade_job_destroy(ps_shade_job *job); /* NULL is allowed */
 pspec_status ps_shade_job_run(ps_shade_job *job, ps_error *error) PS_MUST_CHECK;
 
+/* How many spherical Fibonacci points of the hemisphere, morphed to the lobe and of equal weights,
+ * have these root mean square errors with the light, by (Q5), as ps_equal_error_points has it:
+ * points[num]. rules: with brdf and smoothness, the device, who watches degrees; NULL for the
+ * device takes the host, which is slow. */
+pspec_status ps_shade_equal_points(const ps_light *light, const ps_quadrature_question *rules,
+                                   const double *errors, size_t num, double *points,
+                                   ps_error *error) PS_MUST_CHECK;
+
 #endif

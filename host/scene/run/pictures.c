@@ -246,7 +246,9 @@ static bool is_wanted(const ps_scene_result *asked, const ps_picture_kind *kind)
            (kind->needs != PS_NEEDS_COUNTS || find_points(asked) < asked->num_entries) &&
            (kind->needs != PS_NEEDS_SCATTER ||
             ps_scene_find_entry(asked, PS_OPTION_SCATTER) != NULL) &&
-           (kind->needs != PS_NEEDS_PICTURES || asked->wants_pictures);
+           (kind->needs != PS_NEEDS_PICTURES || asked->wants_pictures) &&
+           (kind->needs != PS_NEEDS_INTEGRAND ||
+            ps_scene_find_entry(asked, PS_OPTION_INTEGRAND) != NULL);
 }
 
 /* All pictures of curves, those of a group together. */
@@ -256,7 +258,9 @@ static pspec_status list_curves(ps_pictures *out, const ps_scene_result *asked,
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
         for (const ps_picture_kind *kind = kinds; kind->dealing == PS_OF_CURVES && kind->make;
              kind++) {
-            PS_TRY(add_group(out, asked, (ps_picture){.kind = kind}, &how, g, error));
+            PS_TRY(is_wanted(asked, kind)
+                       ? add_group(out, asked, (ps_picture){.kind = kind}, &how, g, error)
+                       : PSPEC_OK);
         }
     }
     return PSPEC_OK;
