@@ -159,7 +159,7 @@ routes=$docs/../bench-output/pairs_routes.txt
 [[ -s $routes ]] || { mkdir -p "${routes%/*}" && "$build/bench/bench_pairs" routes >"$routes"; }
 "$docs/scripts/pairs_routes.sh" figure "$routes" "$images/pairs_routes.png"
 
-# Figures 1 to 5 of Marques et al., for docs/user/quadrature.md.
+# Figures 1 to 5 of Marques et al., for docs/user/reproduction.md.
 "$docs/scripts/reproduction.sh" "$pointspec" figures "$images"
 
 # Time against error, pointspec and the libraries of others, from the last ./dev bench peers.

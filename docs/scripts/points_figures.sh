@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15_figure*.png, pictures of points for
-# docs/user/samplers.md, of points and spectra for docs/samplers, and of P15 for docs/user/reproduction.md. Four minutes
+# docs/user/samplers.md, of points and spectra for docs/samplers, and of both papers for docs/user/reproduction.md. Four minutes
 # on two cores; needs gnuplot and rsvg-convert.
 set -euo pipefail
 pointspec=$(realpath "$1") folder=$2
@@ -22,7 +22,7 @@ points sphere 768 white-sphere zphi healpix-jittered fibonacci spiral poisson-di
 points hemisphere 512 white-hemisphere fibonacci-hemisphere fibonacci-hemisphere:morph=diffuse \
     larcher-pillichshammer:lift=hemisphere
 
-# P15's Figures 1 to 5, as docs/scenes/p15_figure*.yaml have them; of Figure 2 one picture of all five results.
+# P15's Figures 1 to 5 and M18's Figures 7 and 8, as docs/scenes have them; of Figure 2 one picture of all five results.
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 scenes=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../scenes")
@@ -66,6 +66,9 @@ do for [panel in "gaussian disk"] {
          bound("step", panel) using 2:11 with linespoints pointtype 7 linecolor "#cc79a7" title "step"
 }
 GNUPLOT
+scene m18_figure7 # with the map of POINTSPEC_TEST_DATA
+rsvg-convert -w 900 "$scratch/m18_figure7/diffuse-rmse-1.svg" -o "$folder/m18_figure7.png"
+rsvg-convert -w 900 "$scratch/m18_figure7/truncation-rmse.svg" -o "$folder/m18_figure8.png"
 echo "figures: p15_figure3.png" >&2
 "$pointspec" sample --sampler healpix --sampler healpix-jittered --sampler ccvt-sphere --sampler poisson-disk-sphere --sampler white-sphere \
     -n 768 --plot "$folder/p15_figure3.png"

@@ -22,6 +22,9 @@ typedef struct ps_image {
  * too large; formats that are known and not read (OpenEXR, PNG, JPEG, TIFF) by their names. Numbers
  * are those of the file: PFM may have some that are negative or not finite. */
 pspec_status ps_image_read(ps_image *out, const char *path, ps_error *error) PS_MUST_CHECK;
+/* An image of light that is made up, as of every direction: the sky over a courtyard. */
+pspec_status ps_image_invent(ps_image *out, size_t width, size_t height,
+                             ps_error *error) PS_MUST_CHECK;
 void ps_image_free(ps_image *image);
 
 /* Luminance of linear red, green and blue (ITU-R BT.709), or the value of a single channel. */

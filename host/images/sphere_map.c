@@ -50,11 +50,13 @@ static void fill_pole(double *pole, const double *row, size_t width) {
     }
 }
 
-pspec_status ps_sphere_map_read(ps_sphere_map *out, const char *path, ps_map_channel channel,
-                                bool may_clamp, ps_error *error) {
+pspec_status ps_sphere_map_read(ps_sphere_map *out, const char *path, size_t invented_width,
+                                ps_map_channel channel, bool may_clamp, ps_error *error) {
     ps_image image = {0};
     *out = (ps_sphere_map){0};
-    pspec_status status = ps_image_read(&image, path, error);
+    pspec_status status =
+        path != NULL ? ps_image_read(&image, path, error)
+                     : ps_image_invent(&image, invented_width, (invented_width + 1) / 2, error);
     if (status == PSPEC_OK) {
         out->width = image.width;
         out->height = image.height;

@@ -24,11 +24,13 @@ typedef struct ps_sphere_map {
     size_t num_clamped;
 } ps_sphere_map;
 
-/* Reads the image, any channel of one with a single channel being that. What is negative or not
- * finite counts as 0 where may_clamp is true, and is counted; else it is PSPEC_ERROR_INPUT, which
- * names the pixel. ps_sphere_map_free frees it, also after a failure. */
-pspec_status ps_sphere_map_read(ps_sphere_map *out, const char *path, ps_map_channel channel,
-                                bool may_clamp, ps_error *error) PS_MUST_CHECK;
+/* Reads the image, or makes one up where the path is NULL, invented_width wide; any channel of one
+ * with a single channel being that. What is negative or not finite counts as 0 where may_clamp is
+ * true, and is counted; else it is PSPEC_ERROR_INPUT, which names the pixel. ps_sphere_map_free
+ * frees it, also after a failure. */
+pspec_status ps_sphere_map_read(ps_sphere_map *out, const char *path, size_t invented_width,
+                                ps_map_channel channel, bool may_clamp,
+                                ps_error *error) PS_MUST_CHECK;
 void ps_sphere_map_free(ps_sphere_map *map);
 
 /* Over all of the sphere, or over z >= 0: int F dS and int (F - its mean)^2 dS, right to rounding.

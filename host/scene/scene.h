@@ -17,6 +17,8 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+#define PS_SCENE_NO_DATA "it is not in the folder that POINTSPEC_TEST_DATA names"
+
 /* One value of a key: a text; of `files`, and of a set, the paths that belong together. */
 typedef struct ps_scene_value {
     size_t num_texts;
@@ -65,6 +67,8 @@ typedef struct ps_scene {
     const char *title, *description; /* NULL: none */
     /* What relative paths of the scene are relative to, with its /; "" for the current one */
     const char *folder;
+    /* A file of "data:" that is not there, which an integrand does without; NULL: none */
+    const char *missing;
     size_t num_results;
     ps_scene_result *results;
     /* of a record: what the questions, in their order, gave then; NULL in other scenes */

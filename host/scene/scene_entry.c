@@ -5,7 +5,9 @@
 #include "request/option_text.h"
 #include "scene/scene_file.h"
 
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* A key has at most so many values: lists are typed by people. */
 enum { MOST_VALUES = 1000 };
@@ -29,21 +31,66 @@ const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text
     return find != NULL ? find(ps_command_words(kind, (ps_option_id)option), text) : NULL;
 }
 
-/* The path, a part of *text, becomes relative to what the scene's folder is relative to. */
-static pspec_status resolve(const ps_scene_file *file, const ps_scene_value *value,
-                            const char **text, const char *path) {
+/* The first bytes of *text, and the path behind them in another folder. */
+static pspec_status move_path(const ps_scene_file *file, const char **text, size_t num_before,
+                              const char *folder, const char *path) {
+    ps_text joined = {0};
+    ps_text_append_bytes(&joined, *text, num_before);
+    ps_text_append(&joined, "%s%s", folder, path);
+    return ps_text_keep(text, &file->scene->memory, &joined, file->error);
+}
+
+/* An integrand is taken without its file, as the scene's page has it then. */
+static pspec_status do_without(const ps_scene_file *file, ps_scene_value *value, size_t index,
+                               const char *path) {
+    static const char key[] = ":file="; /* or ",file=" behind other parameters */
+    const char *const text = value->originals[index];
+    const size_t num_before = (size_t)(path - text);
+    const size_t length = sizeof key - 1;
+    if (num_before < length || strncmp(path - length + 1, key + 1, length - 1) != 0) {
+        (void)ps_scene_complain(file, value->line, NULL, "cannot read \"%s\": " PS_SCENE_NO_DATA,
+                                path);
+        return file->error->status = PSPEC_ERROR_IO; /* the scene may be right */
+    }
+    PS_TRY(move_path(file, &value->originals[index], num_before - length, "", ""));
+    value->texts[index] = value->originals[index];
+    value->label = value->originals[0];
+    file->scene->missing = path;
+    return PSPEC_OK;
+}
+
+/* "data:" stands for the folder of test data, which not every machine has. */
+static pspec_status resolve_data(const ps_scene_file *file, ps_scene_value *value, size_t index,
+                                 const char *path) {
+    const char *const text = value->texts[index];
+    const char *const folder = getenv("POINTSPEC_TEST_DATA");
+    const size_t num_before = (size_t)(path - text);
+    ps_text start = {0};
+    ps_text_append(&start, "%s/", folder != NULL ? folder : "");
+    const pspec_status status = move_path(file, &value->texts[index], num_before,
+                                          ps_text_string(&start), path + strlen(PS_SCENE_DATA));
+    ps_text_free(&start);
+    PS_TRY(status);
+    return folder != NULL && access(value->texts[index] + num_before, R_OK) == 0
+               ? PSPEC_OK
+               : do_without(file, value, index, path);
+}
+
+/* The path, a part of the text, becomes relative to what the scene's folder is relative to. */
+static pspec_status resolve(const ps_scene_file *file, ps_scene_value *value, size_t index,
+                            const char *path) {
+    const char **const text = &value->texts[index];
     if (strcmp(path, "-") == 0) {
         return complain_of_stream(file, value);
     }
-    if (is_absolute(path)) {
-        return PSPEC_OK;
+    if (strncmp(path, PS_SCENE_DATA, strlen(PS_SCENE_DATA)) == 0) {
+        return resolve_data(file, value, index, path);
     }
     /* "-odd.txt" alone would be an option in the command line of the question */
     const bool is_odd = file->scene->folder[0] == '\0' && path == *text && path[0] == '-';
-    ps_text joined = {0};
-    ps_text_append_bytes(&joined, *text, (size_t)(path - *text));
-    ps_text_append(&joined, "%s%s", is_odd ? "./" : file->scene->folder, path);
-    return ps_text_keep(text, &file->scene->memory, &joined, file->error);
+    return is_absolute(path) ? PSPEC_OK
+                             : move_path(file, text, (size_t)(path - *text),
+                                         is_odd ? "./" : file->scene->folder, path);
 }
 
 static pspec_status resolve_paths(const ps_scene_file *file, const ps_kind *kind, int option,
@@ -51,7 +98,7 @@ static pspec_status resolve_paths(const ps_scene_file *file, const ps_kind *kind
     for (size_t i = 0; i < value->num_texts; i++) {
         const char *const path = ps_scene_find_path(kind, option, value->texts[i]);
         if (path != NULL) {
-            PS_TRY(resolve(file, value, &value->texts[i], path));
+            PS_TRY(resolve(file, value, i, path));
         }
     }
     return PSPEC_OK;

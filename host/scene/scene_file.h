@@ -33,6 +33,8 @@ pspec_status ps_scene_build(ps_scene_file *file, yaml_parser_t *parser) PS_MUST_
 pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser);
 
 /* Of "-" among what a scene reads. */
+/* What a path of test data begins with. */
+#define PS_SCENE_DATA "data:"
 #define PS_SCENE_NO_STREAM "a scene can be run again, standard input (-) cannot"
 
 /* Reads the only document of a file, "-" for standard input. */

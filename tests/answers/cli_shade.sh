@@ -47,6 +47,18 @@ EOF
 "$program" run scene.yaml -o folder --quiet >/dev/null || complain 'scene'
 [[ $(grep -h '^white-hemisphere,16' folder/*.csv | head -1) == "$(tail -1 both)" ]] || complain "scene: $(ls folder)"
 
+# of test data that is not there an integrand does without its file, and other files are missed
+printf 'scene: 1\nresults:\n  - {result: shade, brdf: diffuse, integrand: "map:width=64,file=data:sky.pfm", samplers: fibonacci-hemisphere, points: 8}\n' >data.yaml
+POINTSPEC_TEST_DATA=$PWD "$program" run data.yaml -o there --quiet >/dev/null || complain 'test data'
+grep -q "^# integrand: map:width=64,file=$PWD/sky.pfm" there/*.csv || complain "test data: $(<there/shade-1.csv)"
+grep -q 'data:sky.pfm' there/record.json || complain 'record of test data'
+POINTSPEC_TEST_DATA=$PWD/nowhere "$program" run data.yaml -o absent >/dev/null 2>err || complain 'no test data'
+says '"data:sky.pfm": it is not in the folder that POINTSPEC_TEST_DATA names; what the integrand is without a file stands in for it'
+grep -q '^# integrand_note: no file: light made up, 64 x 32 pixels' absent/*.csv || complain "no test data: $(<absent/shade-1.csv)"
+sed -i 's/integrand: .*sky.pfm"/integrand: map, weights: "data:w.txt"/' data.yaml
+POINTSPEC_TEST_DATA='' "$program" run data.yaml -o other >/dev/null 2>err && complain 'weights of test data'
+says 'cannot read "data:w.txt"'
+
 # truncated products have errors with that light, too
 "$program" truncation --brdf diffuse -l 3 --integrand coefficients:file=light.txt >out || complain 'truncation'
 [[ $(grep '^degree' out) == degree,error,equivalent_points,rmse,rmse_points && $(tail -1 out) == *,0, ]] || complain "truncation: $(<out)"

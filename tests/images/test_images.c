@@ -266,17 +266,40 @@ static void light_is_neither_negative_nor_nan(void **state) {
     put(&file, numbers, sizeof numbers);
     assert_true(test_write_file(test_path(*state, "map", path), file.all, file.num));
     ps_error failure = {0};
-    assert_int_equal(ps_sphere_map_read(&map, path, PS_MAP_RED, false, &failure),
+    assert_int_equal(ps_sphere_map_read(&map, path, 0, PS_MAP_RED, false, &failure),
                      PSPEC_ERROR_INPUT);
     ps_sphere_map_free(&map);
     assert_non_null(strstr(failure.message, "row 0, column 0, from 0, is inf"));
-    assert_ok(ps_sphere_map_read(&map, path, PS_MAP_RED, true, error));
+    assert_ok(ps_sphere_map_read(&map, path, 0, PS_MAP_RED, true, error));
     assert_int_equal(map.num_clamped, 3);
     assert_true(map.rows[3] == 0 && map.rows[4] == 3 && map.rows[5] == 0.5 && map.rows[6] == 1 &&
                 map.rows[7] == 0 && map.rows[8] == 0);
     assert_true(fabs(map.rows[0] - 3.5 / 3) < 1e-15);
     assert_true(fabs(map.rows[9] - 1.0 / 3) < 1e-15);
     ps_sphere_map_free(&map);
+}
+
+/* Light made up is a function of the direction: sizes agree, and the brightest pixel is the sun. */
+static void made_up_light(void **state) {
+    double integrals[2];
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        ps_sphere_map map;
+        ps_map_moments moments;
+        size_t brightest = 0;
+        assert_ok(ps_sphere_map_read(&map, NULL, (size_t)256 << i, PS_MAP_LUMINANCE, false, error));
+        assert_ok(ps_sphere_map_moments(&moments, &map, false, error));
+        integrals[i] = moments.integral;
+        for (size_t k = 0; k < map.width * map.height; k++) {
+            assert_true(map.rows[map.width + k] > 0);
+            brightest = map.rows[map.width + k] > map.rows[map.width + brightest] ? k : brightest;
+        }
+        const double height = PS_PI * (0.5 - (double)(brightest / map.width) / (double)map.height);
+        const double azimuth = PS_TWO_PI * (double)(brightest % map.width) / (double)map.width;
+        assert_true(fabs(height - 0.9) < 0.03 && fabs(azimuth - 1) < 0.03);
+        ps_sphere_map_free(&map);
+    }
+    assert_true(fabs(integrals[1] / integrals[0] - 1) < 0.01);
 }
 
 /* Through a pipe nobody knows what comes: rows are given room as they are there. */
@@ -321,7 +344,7 @@ static void known_maps(void **state) {
              channel++) {
             ps_sphere_map map;
             ps_map_moments moments;
-            assert_ok(ps_sphere_map_read(&map, path, (ps_map_channel)channel, false, error));
+            assert_ok(ps_sphere_map_read(&map, path, 0, (ps_map_channel)channel, false, error));
             assert_ok(ps_sphere_map_moments(&moments, &map, false, error));
             assert_true(fabs(moments.integral / PS_FOUR_PI / maps[i].means[channel] - 1) < 4e-4);
             ps_sphere_map_free(&map);
@@ -343,6 +366,7 @@ int main(void) {
         cmocka_unit_test(every_prefix_is_refused),
         cmocka_unit_test(nonsense_is_one_sentence),
         cmocka_unit_test(light_is_neither_negative_nor_nan),
+        cmocka_unit_test(made_up_light),
         cmocka_unit_test(pipes_promise_in_vain),
         cmocka_unit_test(known_maps),
     };

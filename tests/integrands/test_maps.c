@@ -228,8 +228,12 @@ static void words(void **state) {
     refuse("map:file=map.pfm,clamp=maybe", "no|yes");
     refuse("map:file=map.pfm,channel=alpha", "luminance|red|green|blue");
     refuse("map:file=nothing.hdr", "nothing.hdr");
-    refuse("map", "file");
-    ps_integrand *const self = test_integrand("map:file=map.pfm,clamp=yes", TEST_SPHERE);
+    refuse("map:width=1", "1 is not between 2 and 16384");
+    ps_integrand *self = test_integrand("map:width=8", TEST_SPHERE);
+    assert_string_equal(ps_integrand_note(self), "no file: light made up, 8 x 4 pixels");
+    assert_null(ps_integrand_file(self));
+    ps_integrand_destroy(self);
+    self = test_integrand("map:file=map.pfm,clamp=yes", TEST_SPHERE);
     assert_string_equal(ps_integrand_note(self),
                         "4 x 3 pixels cover the sphere, which are not 2:1; 1 pixels were negative "
                         "or not finite, and count as 0");

@@ -36,6 +36,10 @@ static pspec_status read_word(const ps_integrand *self, const char *key, const c
 static void describe(map *own) {
     const ps_sphere_map *const image = &own->map;
     int length = 0;
+    if (own->path == NULL) {
+        length = snprintf(own->note, sizeof own->note, "no file: light made up, %zu x %zu pixels",
+                          image->width, image->height);
+    }
     if (image->width != 2 * image->height) {
         length = snprintf(own->note, sizeof own->note,
                           "%zu x %zu pixels cover the sphere, which are not 2:1", image->width,
@@ -62,12 +66,18 @@ static pspec_status create(ps_integrand *self, const char *const *values, ps_err
     map *own = NULL;
     int channel = 0;
     int clamps = 0;
+    uint64_t width = 0;
     PS_TRY(PS_NEW(&own, 1, "a map", error));
     self->own = own;
-    PS_TRY(ps_integrand_copy_path(self, values[0], &own->path, error));
+    if (values[0][0] != '\0') {
+        PS_TRY(ps_integrand_copy_path(self, values[0], &own->path, error));
+    }
     PS_TRY(read_word(self, "channel", values[1], PS_MAP_CHANNELS, &channel, error));
     PS_TRY(read_word(self, "clamp", values[2], "no|yes", &clamps, error));
-    PS_TRY(ps_sphere_map_read(&own->map, own->path, (ps_map_channel)channel, clamps == 1, error));
+    PS_TRY(ps_parse_count(values[3], "width of integrand map", 2, PS_IMAGE_MOST_SIDE / 4, &width,
+                          error));
+    PS_TRY(ps_sphere_map_read(&own->map, own->path, (size_t)width, (ps_map_channel)channel,
+                              clamps == 1, error));
     describe(own);
     give_table(self, own);
     return ps_sphere_map_moments(&own->moments, &own->map, ps_integrand_is_on_hemisphere(self),
@@ -139,9 +149,10 @@ const ps_integrand_kind ps_integrand_map = {
     .kernel = "map",
     .summary = "light from every direction, an equirectangular image in HDR or PFM",
     .domains = PS_INTEGRAND_ROUND,
-    .parameters = {{"file", "", "Radiance HDR or PFM, +z at the top"},
+    .parameters = {{"file", "", "Radiance HDR or PFM, +z at the top; empty: made up"},
                    {"channel", "luminance", PS_MAP_CHANNELS},
-                   {"clamp", "no", "yes: pixels below 0 and NaN count as 0"}},
+                   {"clamp", "no", "yes: pixels below 0 and NaN count as 0"},
+                   {"width", "1024", "pixels of a row where no file is: of light made up"}},
     .create = create,
     .destroy = destroy,
     .integral = integral,

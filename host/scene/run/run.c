@@ -33,6 +33,16 @@ static void warn_of_gnuplot(const ps_run *run) {
     ps_text_free(&path);
 }
 
+/* An integrand without its file is another function. */
+static void warn_of_data(const ps_run *run) {
+    if (run->scene->missing != NULL) {
+        ps_answer_warn(&run->hooks,
+                       "\"%s\": " PS_SCENE_NO_DATA "; what the integrand is without a file stands "
+                       "in for it",
+                       run->scene->missing);
+    }
+}
+
 /* All that can be found out before the work: questions, folder, former run, cache. */
 static pspec_status prepare(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
@@ -41,6 +51,7 @@ static pspec_status prepare(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_read_former(run, error));
     PS_TRY(ps_run_open_cache(run, error));
     warn_of_gnuplot(run);
+    warn_of_data(run);
     return PSPEC_OK;
 }
 
