@@ -1,6 +1,5 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
 #include "cli/command.h"
-#include "integrands/brdf.h"
 #include "integrands/integrand.h"
 #include "request/option_help.h"
 #include "request/options.h"
@@ -110,7 +109,7 @@ static void print_samplers(FILE *stream, ps_domain domain) {
     }
 }
 
-/* ---- BRDFs --------------------------------------------------------------------------------- */
+/* ---- integrands ---------------------------------------------------------------------------- */
 
 static void print_parameters(FILE *stream, const ps_parameter *parameters) {
     for (const ps_parameter *p = parameters; p->key != NULL; p++) {
@@ -120,21 +119,19 @@ static void print_parameters(FILE *stream, const ps_parameter *parameters) {
     }
 }
 
-static void print_brdfs(FILE *stream) {
-    fputs("\nBRDFs, with the defaults of their parameters:\n", stream);
-    for (size_t i = 0; ps_brdf_kinds[i] != NULL; i++) {
-        print_item(stream, ps_brdf_kinds[i]->name, ps_brdf_kinds[i]->summary);
-        print_parameters(stream, ps_brdf_kinds[i]->parameters);
-    }
-}
-
-/* ---- integrands ---------------------------------------------------------------------------- */
-
-static void print_integrands(FILE *stream) {
-    fputs("\nIntegrands, with the defaults of their parameters:\n", stream);
+/* Lobes are BRDFs, and integrands where they are divided by their integrals. */
+static void print_integrands(FILE *stream, bool are_brdfs) {
+    fprintf(stream, "\n%s, with the defaults of their parameters:\n",
+            are_brdfs ? "BRDFs" : "Integrands");
     for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
-        print_item(stream, ps_integrand_kinds[i]->name, ps_integrand_kinds[i]->summary);
-        print_parameters(stream, ps_integrand_kinds[i]->parameters);
+        const ps_integrand_kind *const kind = ps_integrand_kinds[i];
+        char text[TEXT_BYTES];
+        snprintf(text, sizeof text, "%s%s", kind->summary,
+                 kind->lobe != NULL && !are_brdfs ? "; divided by its integral" : "");
+        if (kind->lobe != NULL || !are_brdfs) {
+            print_item(stream, kind->name, text);
+            print_parameters(stream, kind->parameters);
+        }
     }
 }
 
@@ -153,10 +150,10 @@ void ps_help_command(FILE *stream, const ps_command *command) {
         print_samplers(stream, command->samples);
     }
     if (ps_command_takes(command, PS_OPTION_BRDF)) {
-        print_brdfs(stream);
+        print_integrands(stream, true);
     }
     if (ps_command_takes(command, PS_OPTION_INTEGRAND)) {
-        print_integrands(stream);
+        print_integrands(stream, false);
     }
     fputs("\nExamples:\n", stream);
     for (size_t i = 0; i < sizeof command->examples / sizeof command->examples[0]; i++) {

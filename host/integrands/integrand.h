@@ -37,6 +37,8 @@ typedef struct ps_integrand_kind {
     const char *name;
     const char *aliases; /* separated by blanks; NULL: none */
     const char *summary; /* one line, for help */
+    /* Of a lobe of reflection, which is a BRDF, too: integrands/lobes/lobe.h. NULL: it is none. */
+    const struct ps_lobe *lobe;
     /* "ball": ball_value of kernels/integrands/ball.h has its values; NULL: the host has them. */
     const char *kernel;
     unsigned domains;     /* bits PS_INTEGRAND_ON(ps_sampler_domain) */

@@ -23,10 +23,8 @@ pspec_status ps_integrand_vector(const ps_integrand *integrand, const char *key,
                                  ps_error *error) PS_MUST_CHECK;
 /* The member values, from NAME_value of kernels/integrands/NAME.h, which is compiled for doubles
  * here: PRECISION 64 stands before it. */
-#define PS_INTEGRAND_VALUES(value) PS_INTEGRAND_VALUES_AS(values, value)
-#define PS_INTEGRAND_VALUES_AS(function, value)                                                    \
-    static void function(const ps_integrand *self, const double *points, size_t num,               \
-                         double *out) {                                                            \
+#define PS_INTEGRAND_VALUES(value)                                                                 \
+    static void values(const ps_integrand *self, const double *points, size_t num, double *out) {  \
         const unsigned dimension = self->place.dimension;                                          \
         for (size_t i = 0; i < num; i++) {                                                         \
             out[i] = value(points + i * dimension, dimension, self->numbers);                      \
@@ -62,6 +60,8 @@ typedef struct ps_half_angle {
 } ps_half_angle;
 ps_half_angle ps_integrand_half_angle(double x);
 
+/* cosh n - sinh(n)/n, times 2 e^-n, a factor of the energy of exp(n (z - 1)). */
+double ps_integrand_lobe_spread(double n);
 /* C(cos g) of exp(n (z - 1)) on the whole sphere (docs/mathematics/integrands_sphere.md#lobes). */
 double ps_integrand_lobe_correlation(double n, double x);
 /* The member reach of exp(n (z - 1)) on the whole sphere, and of its even extension on the

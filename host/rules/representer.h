@@ -7,7 +7,7 @@
 #ifndef PS_RULES_REPRESENTER_H
 #define PS_RULES_REPRESENTER_H
 
-#include "integrands/brdf.h"
+#include "integrands/lobes/brdf.h"
 
 #include <stddef.h>
 

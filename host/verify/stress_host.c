@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "engines/host/host_direct.h"
-#include "integrands/brdf.h"
+#include "integrands/lobes/brdf.h"
 #include "math/gauss_legendre.h"
 #include "math/pi.h"
 #include "math/sobolev.h"
@@ -101,7 +101,7 @@ out:
     return status;
 }
 
-/* integrands/brdf.h */
+/* integrands/lobes/brdf.h */
 static const double lobe_bound = 3e-12;
 
 /* I_{l+1/2}(n) overflows for n > 713 and e^-n is 0 above 745: only their quotients can be had. */

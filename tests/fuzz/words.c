@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "fuzz.h"
-#include "integrands/brdf.h"
+#include "integrands/lobes/brdf.h"
 #include "request/options.h"
 #include "samplers/sampler.h"
 

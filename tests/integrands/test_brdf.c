@@ -2,7 +2,7 @@
 #include "harness.h"
 #include "test_folder.h"
 
-#include "integrands/brdf.h"
+#include "integrands/lobes/brdf.h"
 #include "math/gauss_legendre.h"
 #include "math/pi.h"
 

@@ -1,7 +1,7 @@
 /* kappa and kappa_0 of wide lobes, whose series converge slowest, against integrals over rings. */
 #include "harness_quadrature.h"
 
-#include "integrands/brdf.h"
+#include "integrands/lobes/brdf.h"
 #include "math/pi.h"
 
 #include <math.h>

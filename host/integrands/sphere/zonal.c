@@ -43,3 +43,49 @@ ps_half_angle ps_integrand_half_angle(double x) {
     const double cosine = fmin(fmax(x, -1), 1);
     return (ps_half_angle){sqrt((1 - cosine) / 2), sqrt((1 + cosine) / 2)};
 }
+
+/* ---- e^{n(z-1)} ---------------------------------------------------------------------------- */
+
+/* Without the subtraction where it would lose digits. */
+double ps_integrand_lobe_spread(double n) {
+    const double few = 1;
+    const int num_terms = 12; /* of the series for n < 1: the next is 1e-26 */
+    if (n >= few) {
+        return 1 + exp(-2 * n) + expm1(-2 * n) / n;
+    }
+    double term = 1; /* n^2k/(2k+1)! */
+    double sum = 0;
+    for (int k = 1; k <= num_terms; k++) {
+        term *= n * n / (2 * k * (2 * k + 1));
+        sum += 2 * k * term;
+    }
+    return 2 * exp(-n) * sum;
+}
+
+/* With q = |u + v| = 2 cos(g/2), the mean of e^{n (Ru + Rv).e} over rotations is sinh(nq)/(nq). */
+double ps_integrand_lobe_correlation(double n, double x) {
+    const ps_half_angle half = ps_integrand_half_angle(x);
+    const double y = 4 * n * half.cosine;                               /* 2 n q */
+    const double below = 2 * half.sine * half.sine / (1 + half.cosine); /* 2 - q */
+    return PS_FOUR_PI * exp(-n * below) * (y > 0 ? -expm1(-y) / y : 1);
+}
+
+/* F_l0^2 = (2l+1) F_00^2 lambda_l^2, lambda_{l+1}/lambda_l = I_{nu+1}(n)/I_nu(n) at nu = l + 1/2,
+ * which is at most n/(nu + 1/2 + sqrt((nu + 1/2)^2 + n^2)) (Amos 1974). From there on terms fall
+ * faster than a geometric series. Even degrees alone have more than a quarter of the energy. */
+double ps_integrand_lobe_reach(double n) {
+    const double quarter = 0.25;
+    const double energy =
+        quarter * ps_integrand_lobe_spread(n) * n / -expm1(-2 * n); /* over F_00^2 */
+    double term = 1;                                                /* at least (2l+1) lambda_l^2 */
+    double rest = INFINITY;
+    double l = 0;
+    while (rest > PS_BEYOND_REACH * energy) {
+        const double ratio = n / (l + 1 + hypot(l + 1, n));
+        const double factor = (2 * l + 3) / (2 * l + 1) * ratio * ratio;
+        term *= factor;
+        rest = factor < 1 ? term / (1 - factor) : INFINITY; /* factors fall: the next is smaller */
+        l += 1;
+    }
+    return l - 1; /* rest is of l and all beyond */
+}

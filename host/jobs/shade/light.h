@@ -6,7 +6,7 @@
 #ifndef PS_JOBS_SHADE_LIGHT_H
 #define PS_JOBS_SHADE_LIGHT_H
 
-#include "integrands/brdf.h"
+#include "integrands/lobes/brdf.h"
 #include "integrands/integrand.h"
 
 typedef struct ps_sphere_series ps_sphere_series; /* integrands/files/series.h */

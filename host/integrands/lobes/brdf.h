@@ -1,44 +1,19 @@
 /* Lobes of reflection p(z) around an axis, z the cosine to it, as weights of shading integrals:
  * their zonal coefficients in spherical and hemispherical harmonics
- * (docs/mathematics/quadrature.md#lobes). One file per lobe, one table.
+ * (docs/mathematics/quadrature.md#lobes). Each is an integrand, too (integrands/lobes/lobe.h).
  *
  *     phat = p/(2 pi r_s),  r_s = int p dz,   b_l = int phat Y_l0 dS,   b_0 = 1/(2 sqrt pi) for all of them
  */
-#ifndef PS_INTEGRANDS_BRDF_H
-#define PS_INTEGRANDS_BRDF_H
+#ifndef PS_INTEGRANDS_LOBES_BRDF_H
+#define PS_INTEGRANDS_LOBES_BRDF_H
 
-#include "base/grammar.h"
+#include "base/status.h"
 #include "math/morph.h"
 
 #include <stdbool.h>
-
-enum { PS_MAX_BRDF_PARAMETERS = 2 };
+#include <stddef.h>
 
 typedef struct ps_brdf ps_brdf;
-
-/* What the lobes of one name have in common. Members may be NULL where it says so. */
-typedef struct ps_brdf_kind {
-    const char *name;
-    const char *summary; /* one line, for help */
-    /* ended by key NULL; default "": must be given */
-    ps_parameter parameters[PS_MAX_BRDF_PARAMETERS + 1];
-    /* Reads values[i] of parameters[i] and checks them. NULL: nothing to read. */
-    pspec_status (*create)(ps_brdf *, const char *const *values, ps_error *);
-    double (*norm)(const ps_brdf *);              /* r_s */
-    double (*energy)(const ps_brdf *);            /* sum b_l^2 = int phat^2 dS */
-    double (*density)(const ps_brdf *, double z); /* p(z) */
-    /* b_0 .. b_L; and b~_0 .. b~_L, NULL where the lobe goes below the horizon. */
-    pspec_status (*spherical)(const ps_brdf *, size_t max_degree, double *b, ps_error *);
-    pspec_status (*hemispherical)(const ps_brdf *, size_t max_degree, double *b, ps_error *);
-    bool (*is_below)(const ps_brdf *); /* has it a part below the horizon? NULL: never */
-    /* D_0 = int int |u-v|^(2s-2) phat phat in closed form. NULL: not known. */
-    double (*mean_distance)(const ps_brdf *, double smoothness);
-    ps_morph (*morph)(const ps_brdf *);   /* that gives points its density; NULL: none known */
-    const char *(*note)(const ps_brdf *); /* what a result should say of it, or NULL; may be NULL */
-} ps_brdf_kind;
-
-/* All lobes, ended by NULL. */
-extern const ps_brdf_kind *const ps_brdf_kinds[];
 
 /* Parses "NAME[:key=value,...]"; *out is freed by ps_brdf_destroy. Exponents n <= 0, files that
  * hold no lobe and the like are errors with a sentence. */

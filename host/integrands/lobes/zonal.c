@@ -1,11 +1,13 @@
 /* A lobe from a file: values at heights, linear in z between them, 0 outside. Everything is
  * integrated exactly. */
-#include "integrands/brdf_kind.h"
+#define PRECISION 64
+#include "integrands/zonal.h"
 
 #include "base/memory.h"
+#include "integrands/files/coefficient_file.h"
+#include "integrands/lobes/lobe.h"
 #include "points/lists/number_rows.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -174,6 +176,17 @@ static pspec_status fill_nodes(ps_brdf *brdf, const char *path, const char *unit
     return PSPEC_OK;
 }
 
+static pspec_status fill_densities(ps_brdf *brdf, ps_error *error) {
+    const size_t num = brdf->num_nodes;
+    const double whole = PS_TWO_PI * norm(brdf);
+    PS_TRY(PS_NEW(&brdf->densities, 2 * num, "a lobe", error));
+    for (size_t i = 0; i < num; i++) {
+        brdf->densities[i] = brdf->nodes[i];
+        brdf->densities[num + i] = density(brdf, brdf->nodes[i]) / whole;
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *error) {
     const char *const path = values[0];
     const char *const unit = values[1];
@@ -188,16 +201,38 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "BRDF zonal: of=%s is not one of cosine, degrees, radians", unit);
     }
+    PS_TRY(PS_NEW(&brdf->path, strlen(path) + 1, "a path", error));
+    memcpy(brdf->path, path, strlen(path));
     PS_TRY(ps_read_rows(path, LINE, &rows, &num, error));
     const pspec_status status = fill_nodes(brdf, path, unit, rows, num, error);
     free(rows);
-    return status;
+    return status == PSPEC_OK ? fill_densities(brdf, error) : status;
 }
 
-const ps_brdf_kind ps_brdf_zonal = {
-    .name = "zonal",
-    .summary = PS_ZONAL_SUMMARY,
-    .parameters = {PS_FILE_PARAMETER, PS_UNIT_PARAMETER, {NULL, NULL, NULL}},
+/* ---- as an integrand ----------------------------------------------------------------------- */
+
+/* The densities, so that nothing is left to divide by. */
+static void fill(ps_integrand *self) {
+    const ps_brdf *const brdf = self->own;
+    self->table = brdf->densities;
+    self->num_table = 2 * brdf->num_nodes;
+    self->numbers[ZONAL_NODES] = (double)brdf->num_nodes;
+    self->needs_doubles = !ps_fit_single(self->table, self->num_table);
+}
+
+static void values(const ps_integrand *self, const double *points, size_t num, double *out) {
+    const ps_brdf *const brdf = self->own;
+    const double whole = PS_TWO_PI * norm(brdf);
+    for (size_t i = 0; i < num; i++) {
+        out[i] = density(brdf, points[3 * i + 2]) / whole;
+    }
+}
+
+static const char *file(const ps_integrand *self) {
+    return ((const ps_brdf *)self->own)->path;
+}
+
+static const ps_lobe lobe = {
     .create = create,
     .norm = norm,
     .energy = energy,
@@ -205,4 +240,18 @@ const ps_brdf_kind ps_brdf_zonal = {
     .spherical = spherical,
     .hemispherical = hemispherical,
     .is_below = is_below,
+    .fill = fill,
+};
+
+const ps_integrand_kind ps_integrand_zonal = {
+    .name = "zonal",
+    .summary = "a table from a file, linear in z between its rows, 0 outside",
+    .parameters = {{"file", "", "rows of direction and value; must be given"},
+                   {"of", "cosine",
+                    "cosine|degrees|radians: what the first column is, to the axis"}},
+    PS_LOBE_ROW,
+    .lobe = &lobe,
+    .kernel = "zonal",
+    .values = values,
+    .file = file,
 };

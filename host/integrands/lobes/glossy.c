@@ -1,10 +1,11 @@
 /* The Gaussian lobe p = e^{n(z-1)} of glossy surfaces, cut at the horizon or not
  * (docs/mathematics/quadrature.md#lobes). */
-#include "integrands/brdf_kind.h"
+#define PRECISION 64
+#include "integrands/glossy.h"
 
 #include "base/memory.h"
+#include "integrands/lobes/lobe.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -135,10 +136,35 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
     return ps_brdf_read_exponent(brdf, values[0], error);
 }
 
-const ps_brdf_kind ps_brdf_glossy = {
-    .name = "glossy",
-    .summary = PS_GLOSSY_SUMMARY,
-    .parameters = {PS_EXPONENT_PARAMETER, PS_CUT_PARAMETER, {NULL, NULL, NULL}},
+/* ---- as an integrand ----------------------------------------------------------------------- */
+
+static void fill(ps_integrand *self) {
+    const double nowhere = -2; /* below every z */
+    const ps_brdf *const brdf = self->own;
+    double *const numbers = self->numbers;
+    numbers[LOBE_AXIS + 2] = 1;
+    numbers[LOBE_RATE] = brdf->exponent / 2;
+    numbers[GLOSSY_SCALE] = 1 / (PS_TWO_PI * norm(brdf));
+    numbers[GLOSSY_LEAST] = brdf->is_whole_sphere ? nowhere : 0;
+}
+
+static double correlation(const ps_integrand *self, const double *x) {
+    const ps_brdf *const brdf = self->own;
+    const double scale = self->numbers[GLOSSY_SCALE];
+    return brdf->is_whole_sphere
+               ? scale * scale * ps_integrand_lobe_correlation(brdf->exponent, x[0])
+               : NAN;
+}
+
+static double reach(const ps_integrand *self) {
+    const ps_brdf *const brdf = self->own;
+    const bool is_whole = brdf->is_whole_sphere || brdf->exponent >= PS_UNCUT_LOBE;
+    return is_whole ? ps_integrand_lobe_reach(brdf->exponent) : INFINITY;
+}
+
+PS_INTEGRAND_VALUES(glossy_value)
+
+static const ps_lobe lobe = {
     .create = create,
     .norm = norm,
     .energy = energy,
@@ -148,4 +174,19 @@ const ps_brdf_kind ps_brdf_glossy = {
     .is_below = is_below,
     .morph = morph,
     .note = note,
+    .fill = fill,
+};
+
+const ps_integrand_kind ps_integrand_glossy = {
+    .name = "glossy",
+    .summary = "e^{n(z-1)}, a Gaussian lobe",
+    .parameters = {{"n", "", "exponent, 0.001 to 1e6; must be given"},
+                   {"cut", "horizon",
+                    "horizon|none: 0 below the horizon, or the lobe on the whole sphere"}},
+    PS_LOBE_ROW,
+    .lobe = &lobe,
+    .kernel = "glossy",
+    .values = values,
+    .correlation = correlation,
+    .reach = reach,
 };

@@ -1,7 +1,8 @@
 /* The Phong lobe p = max(0, z)^n. */
-#include "integrands/brdf_kind.h"
+#define PRECISION 64
+#include "integrands/phong.h"
 
-#include <math.h>
+#include "integrands/lobes/lobe.h"
 
 static double norm(const ps_brdf *brdf) {
     return 1 / (brdf->exponent + 1);
@@ -56,10 +57,24 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
     return ps_brdf_read_exponent(brdf, values[0], error);
 }
 
-const ps_brdf_kind ps_brdf_phong = {
-    .name = "phong",
-    .summary = PS_PHONG_SUMMARY,
-    .parameters = {PS_EXPONENT_PARAMETER, {NULL, NULL, NULL}},
+/* ---- as an integrand ----------------------------------------------------------------------- */
+
+static void fill(ps_integrand *self) {
+    const ps_brdf *const brdf = self->own;
+    self->numbers[PHONG_EXPONENT] = brdf->exponent;
+    self->numbers[PHONG_SCALE] = 1 / (PS_TWO_PI * norm(brdf));
+}
+
+/* z^n with an even n is continued evenly as it is: a polynomial. Others have a kink at the horizon.
+ */
+static double reach(const ps_integrand *self) {
+    const double n = self->numbers[PHONG_EXPONENT];
+    return ps_integrand_is_on_hemisphere(self) && fmod(n, 2) == 0 ? n : INFINITY;
+}
+
+PS_INTEGRAND_VALUES(phong_value)
+
+static const ps_lobe lobe = {
     .create = create,
     .norm = norm,
     .energy = energy,
@@ -67,4 +82,16 @@ const ps_brdf_kind ps_brdf_phong = {
     .spherical = spherical,
     .hemispherical = hemispherical,
     .morph = morph,
+    .fill = fill,
+};
+
+const ps_integrand_kind ps_integrand_phong = {
+    .name = "phong",
+    .summary = "max(0, z)^n",
+    .parameters = {{"n", "", "exponent, 0.001 to 1e6; must be given"}},
+    PS_LOBE_ROW,
+    .lobe = &lobe,
+    .kernel = "phong",
+    .values = values,
+    .reach = reach,
 };

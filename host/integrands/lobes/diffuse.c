@@ -1,7 +1,8 @@
 /* The diffuse lobe p = max(0, z): a matt surface. */
-#include "integrands/brdf_kind.h"
+#define PRECISION 64
+#include "integrands/diffuse.h"
 
-#include <math.h>
+#include "integrands/lobes/lobe.h"
 
 static double norm(const ps_brdf *brdf) {
     (void)brdf;
@@ -63,9 +64,22 @@ static ps_morph morph(const ps_brdf *brdf) {
     return (ps_morph){PS_MORPH_DIFFUSE, 0};
 }
 
-const ps_brdf_kind ps_brdf_diffuse = {
-    .name = "diffuse",
-    .summary = PS_DIFFUSE_SUMMARY,
+/* ---- as an integrand ----------------------------------------------------------------------- */
+
+/* C(g) = 2/(3 pi^2) (sin g + (pi - g) cos g) of max(0, z)/pi. */
+static double common(double x) {
+    const ps_half_angle half = ps_integrand_half_angle(x);
+    const double rest = 2 * atan2(half.cosine, half.sine); /* pi - g */
+    return 2 / (3 * PS_PI * PS_PI) * (2 * half.sine * half.cosine + rest * x);
+}
+
+static double correlation(const ps_integrand *self, const double *x) {
+    return ps_integrand_is_on_hemisphere(self) ? 2 * (common(x[0]) + common(-x[0])) : common(x[0]);
+}
+
+PS_INTEGRAND_VALUES(diffuse_value)
+
+static const ps_lobe lobe = {
     .norm = norm,
     .energy = energy,
     .density = density,
@@ -73,4 +87,14 @@ const ps_brdf_kind ps_brdf_diffuse = {
     .hemispherical = hemispherical,
     .mean_distance = mean_distance,
     .morph = morph,
+};
+
+const ps_integrand_kind ps_integrand_diffuse = {
+    .name = "diffuse",
+    .summary = "max(0, z), z the cosine to the axis",
+    PS_LOBE_ROW,
+    .lobe = &lobe,
+    .kernel = "diffuse",
+    .values = values,
+    .correlation = correlation,
 };
