@@ -1,138 +1,39 @@
 /* Quadrature spectrum and worst-case error of rules for a BRDF. */
 #include "answers/quadrature/quadrature_table.h"
 #include "answers/quadrature/rule_list.h"
-#include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "points/lists/weight_list.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-/* One rule, or one mean over realizations, for each question. */
-typedef struct rules {
-    ps_rule_list list;
-    ps_device *device;        /* of all of them, where they share one that was opened for them */
-    ps_quadrature_job **jobs; /* [list.num] */
-} rules;
-
-static pspec_status ask(rules *self, const ps_request *arguments, ps_error *error) {
-    PS_TRY(ps_rule_list_make(&self->list, arguments, PS_COMMAND_quadrature, error));
-    return PS_NEW(&self->jobs, self->list.num, "jobs", error);
-}
-
-static void release(rules *self) {
-    for (size_t i = 0; self->jobs != NULL && i < self->list.num; i++) {
-        ps_quadrature_job_destroy(self->jobs[i]);
-    }
-    free(self->jobs);
-    ps_rule_list_free(&self->list);
-    ps_device_close(self->device);
-}
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
-    rules self = {0};
-    const pspec_status status = ask(&self, request, error);
-    release(&self);
-    return status;
-}
-
-/* ---- plan ---------------------------------------------------------------------------------- */
-
-static pspec_status add_plan(ps_planner *planner, const ps_request *request,
-                             const ps_quadrature_job *job, size_t index, ps_error *error) {
-    const ps_quadrature_setup *const setup = &job->setup;
-    ps_phases phases = ps_plan_table_begin_phases(planner);
-    const double repeats = ps_quadrature_job_phases(job, &phases);
-    ps_meta notes[2];
-    ps_planned planned = {.problem = &setup->problem,
-                          .needs = &setup->needs,
-                          .limits = ps_device_get_limits(setup->device),
-                          .plan = &setup->plan,
-                          .phases = &phases,
-                          .repeats = repeats,
-                          .notes = notes};
-    ps_plan_table_add_picture(&phases, request);
-    if (setup->degrees_note[0] != '\0') {
-        notes[planned.num_notes++] = (ps_meta){"degrees_note", PS_TEXT(setup->degrees_note)};
-    }
-    if (setup->weights_note[0] != '\0') {
-        notes[planned.num_notes++] = (ps_meta){"weights", PS_TEXT(setup->weights_note)};
-    }
-    return ps_plan_table_add_job(planner, request, &planned, index, error);
-}
-
-static pspec_status plan_one(ps_planner *planner, const ps_request *request,
-                             ps_quadrature_question *question, size_t index, ps_error *error) {
-    ps_quadrature_job *job = NULL;
-    PS_TRY(ps_plan_table_begin_question(planner, request, index, &question->limits.constraints,
-                                        &question->open_device, &question->may_lack_device, error));
-    PS_TRY(ps_quadrature_job_create(&job, question, error));
-    pspec_status status = ps_quadrature_job_rate(job, error);
-    if (status == PSPEC_OK) {
-        status = add_plan(planner, request, job, index, error);
-    }
-    ps_quadrature_job_destroy(job);
+    ps_rule_list list = {0};
+    const pspec_status status = ps_rule_list_make(&list, request, PS_COMMAND_quadrature, error);
+    ps_rule_list_free(&list);
     return status;
 }
 
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
-    rules self = {0};
-    pspec_status status = ask(&self, request, error);
-    for (size_t i = 0; status == PSPEC_OK && i < self.list.num; i++) {
-        status = plan_one(planner, request, &self.list.questions[i], i, error);
+    ps_rule_list list = {0};
+    pspec_status status = ps_rule_list_make(&list, request, PS_COMMAND_quadrature, error);
+    if (status == PSPEC_OK) {
+        status = ps_rule_list_plan(&list, planner, request, error);
     }
-    release(&self);
+    ps_rule_list_free(&list);
     return status;
-}
-
-/* ---- work ---------------------------------------------------------------------------------- */
-
-static void warn_of_standard_error(const ps_quadrature_result *result, double standard_error,
-                                   const ps_answer_hooks *hooks) {
-    char where[48];
-    if (result->has_look && !(result->look.corrected <= standard_error)) {
-        ps_quadrature_look_name(where, sizeof where, &result->look);
-        ps_answer_warn(
-            hooks, "the standard error %.3g was not reached in %llu realizations: it is %.3g of %s",
-            standard_error, (unsigned long long)result->num_realizations, result->look.corrected,
-            where);
-    }
-}
-
-static pspec_status run_one(ps_quadrature_job **job, ps_quadrature_question *question,
-                            const ps_answer_hooks *hooks, ps_error *error) {
-    ps_answer_begin_job(hooks, &question->watch, &question->open_device);
-    PS_TRY(ps_quadrature_job_create(job, question, error));
-    if (hooks->tell_plan != NULL) {
-        hooks->tell_plan(hooks->payload, &(*job)->setup.plan);
-    }
-    PS_TRY(ps_quadrature_job_run(*job, error));
-    ps_answer_tell_profile(hooks, (*job)->setup.device);
-    ps_answer_warn_of(hooks, ps_source_trouble((*job)->rules.sets.source));
-    warn_of_standard_error(&(*job)->result, question->accuracy.standard_error, hooks);
-    ps_quadrature_job_release(*job);
-    return PSPEC_OK;
 }
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
-    PS_TRY(ps_allocate(out, 1, sizeof(rules), "rules", error));
-    rules *const self = *out;
-    PS_TRY(ask(self, request, error));
-    PS_TRY(ps_answer_open_device(&self->device, request,
-                                 &self->list.questions[0].limits.constraints, self->list.num, hooks,
-                                 error));
-    for (size_t i = 0; i < self->list.num; i++) {
-        self->list.questions[i].open_device = self->device;
-        PS_TRY(run_one(&self->jobs[i], &self->list.questions[i], hooks, error));
-    }
-    return PSPEC_OK;
+    PS_TRY(ps_allocate(out, 1, sizeof(ps_rule_list), "rules", error));
+    PS_TRY(ps_rule_list_make(*out, request, PS_COMMAND_quadrature, error));
+    return ps_rule_list_run(*out, request, hooks, error);
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
-    const rules *const self = computed;
-    return ps_quadrature_table(&out->table, request, self->jobs, self->list.num, error);
+    const ps_rule_list *const list = computed;
+    return ps_quadrature_table(&out->table, request, list->jobs, list->num, error);
 }
 
 static pspec_status check_weights_out(const ps_request *request, ps_error *error) {
@@ -142,7 +43,7 @@ static pspec_status check_weights_out(const ps_request *request, ps_error *error
 
 static void discard(void *computed) {
     if (computed != NULL) {
-        release(computed);
+        ps_rule_list_free(computed);
         free(computed);
     }
 }

@@ -1,5 +1,6 @@
 #include "answers/quadrature/rule_list.h"
 
+#include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "request/point_source.h"
 
@@ -118,9 +119,102 @@ pspec_status ps_rule_list_make(ps_rule_list *out, const ps_request *arguments, p
 }
 
 void ps_rule_list_free(ps_rule_list *list) {
+    for (size_t i = 0; list->jobs != NULL && i < list->num; i++) {
+        ps_quadrature_job_destroy(list->jobs[i]);
+    }
+    free(list->jobs);
+    ps_device_close(list->device);
     ps_brdf_destroy(list->brdf);
     free(list->questions);
     free(list->requests);
     ps_file_lists_free(list->files, list->num);
     *list = (ps_rule_list){0};
+}
+
+/* ---- plan ---------------------------------------------------------------------------------- */
+
+static pspec_status add_plan(ps_planner *planner, const ps_request *request,
+                             const ps_quadrature_job *job, size_t index, ps_error *error) {
+    const ps_quadrature_setup *const setup = &job->setup;
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const double repeats = ps_quadrature_job_phases(job, &phases);
+    ps_meta notes[2];
+    ps_planned planned = {.problem = &setup->problem,
+                          .needs = &setup->needs,
+                          .limits = ps_device_get_limits(setup->device),
+                          .plan = &setup->plan,
+                          .phases = &phases,
+                          .repeats = repeats,
+                          .notes = notes};
+    ps_plan_table_add_picture(&phases, request);
+    if (setup->degrees_note[0] != '\0') {
+        notes[planned.num_notes++] = (ps_meta){"degrees_note", PS_TEXT(setup->degrees_note)};
+    }
+    if (setup->weights_note[0] != '\0') {
+        notes[planned.num_notes++] = (ps_meta){"weights", PS_TEXT(setup->weights_note)};
+    }
+    return ps_plan_table_add_job(planner, request, &planned, index, error);
+}
+
+static pspec_status plan_one(ps_planner *planner, const ps_request *request,
+                             ps_quadrature_question *question, size_t index, ps_error *error) {
+    ps_quadrature_job *job = NULL;
+    PS_TRY(ps_plan_table_begin_question(planner, request, index, &question->limits.constraints,
+                                        &question->open_device, &question->may_lack_device, error));
+    PS_TRY(ps_quadrature_job_create(&job, question, error));
+    pspec_status status = ps_quadrature_job_rate(job, error);
+    if (status == PSPEC_OK) {
+        status = add_plan(planner, request, job, index, error);
+    }
+    ps_quadrature_job_destroy(job);
+    return status;
+}
+
+pspec_status ps_rule_list_plan(ps_rule_list *self, ps_planner *planner, const ps_request *request,
+                               ps_error *error) {
+    for (size_t i = 0; i < self->num; i++) {
+        PS_TRY(plan_one(planner, request, &self->questions[i], i, error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- work ---------------------------------------------------------------------------------- */
+
+static void warn_of_standard_error(const ps_quadrature_result *result, double standard_error,
+                                   const ps_answer_hooks *hooks) {
+    char where[48];
+    if (result->has_look && !(result->look.corrected <= standard_error)) {
+        ps_quadrature_look_name(where, sizeof where, &result->look);
+        ps_answer_warn(
+            hooks, "the standard error %.3g was not reached in %llu realizations: it is %.3g of %s",
+            standard_error, (unsigned long long)result->num_realizations, result->look.corrected,
+            where);
+    }
+}
+
+static pspec_status run_one(ps_quadrature_job **job, ps_quadrature_question *question,
+                            const ps_answer_hooks *hooks, ps_error *error) {
+    ps_answer_begin_job(hooks, &question->watch, &question->open_device);
+    PS_TRY(ps_quadrature_job_create(job, question, error));
+    if (hooks->tell_plan != NULL) {
+        hooks->tell_plan(hooks->payload, &(*job)->setup.plan);
+    }
+    PS_TRY(ps_quadrature_job_run(*job, error));
+    ps_answer_tell_profile(hooks, (*job)->setup.device);
+    ps_answer_warn_of(hooks, ps_source_trouble((*job)->rules.sets.source));
+    warn_of_standard_error(&(*job)->result, question->accuracy.standard_error, hooks);
+    ps_quadrature_job_release(*job);
+    return PSPEC_OK;
+}
+
+pspec_status ps_rule_list_run(ps_rule_list *self, const ps_request *request,
+                              const ps_answer_hooks *hooks, ps_error *error) {
+    PS_TRY(PS_NEW(&self->jobs, self->num, "jobs", error));
+    PS_TRY(ps_answer_open_device(&self->device, request, &self->questions[0].limits.constraints,
+                                 self->num, hooks, error));
+    for (size_t i = 0; i < self->num; i++) {
+        self->questions[i].open_device = self->device;
+        PS_TRY(run_one(&self->jobs[i], &self->questions[i], hooks, error));
+    }
+    return PSPEC_OK;
 }

@@ -4,7 +4,6 @@
 #include "answers/quadrature/light_header.h"
 #include "answers/quadrature/quadrature_table.h"
 #include "answers/quadrature/rule_list.h"
-#include "answers/spectra/spectra.h"
 #include "answers/spectra/spectrum_header.h"
 #include "base/memory.h"
 #include "jobs/shade/shade_job.h"
@@ -12,31 +11,46 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct shading {
+typedef struct work {
     ps_rule_list list;
     ps_light light;
-    ps_device *device; /* of all of them, where they share one that was opened for them */
-    ps_shade_question *questions; /* [list.num] */
-    ps_shade_job **jobs;          /* [list.num] */
-} shading;
+    ps_shade_job *shade_jobs; /* [list.num] */
+} work;
 
-static void discard(void *computed) {
-    shading *const self = computed;
-    if (self == NULL) {
-        return;
+static void release(work *self) {
+    for (size_t i = 0; self->shade_jobs != NULL && i < self->list.num; i++) {
+        ps_shade_job_free(&self->shade_jobs[i]);
     }
-    for (size_t i = 0; self->jobs != NULL && i < self->list.num; i++) {
-        ps_shade_job_destroy(self->jobs[i]);
-    }
-    free(self->jobs);
-    free(self->questions);
-    ps_light_free(&self->light);
+    free(self->shade_jobs);
     ps_rule_list_free(&self->list);
-    ps_device_close(self->device);
-    free(self);
+    ps_light_free(&self->light);
 }
 
-/* ---- question ------------------------------------------------------------------------------ */
+static void discard(void *computed) {
+    if (computed != NULL) {
+        release(computed);
+        free(computed);
+    }
+}
+
+static pspec_status ask(work *self, const ps_request *request, ps_error *error) {
+    const uint64_t num_orientations =
+        request->is_given[PS_OPTION_SHIFTS] ? request->num_shifts : PS_USUAL_ORIENTATIONS;
+    ps_rule_list *const list = &self->list;
+    PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
+    PS_TRY(ps_light_check(request, true, error));
+    PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
+    PS_TRY(PS_NEW(&self->shade_jobs, list->num, "questions", error));
+    for (size_t i = 0; i < list->num; i++) {
+        ps_quadrature_question *const rules = &list->questions[i];
+        if (rules->max_degree == 0) { /* degrees of E^2 are no guide: light is less smooth */
+            rules->max_degree = self->light.max_degree;
+        }
+        PS_TRY(ps_shade_job_make(&self->shade_jobs[i], &self->light, num_orientations,
+                                 request->seed, rules, error));
+    }
+    return PSPEC_OK;
+}
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     ps_rule_list list = {0};
@@ -45,118 +59,22 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
     return status == PSPEC_OK ? ps_light_check(request, true, error) : status;
 }
 
-static pspec_status make_questions(shading *self, const ps_request *request, ps_error *error) {
-    ps_rule_list *const list = &self->list;
-    PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
-    PS_TRY(ps_light_check(request, true, error));
-    PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
-    PS_TRY(PS_NEW(&self->questions, list->num, "questions", error));
-    for (size_t i = 0; i < list->num; i++) {
-        ps_quadrature_question *const rules = &list->questions[i];
-        if (rules->max_degree == 0) { /* degrees of E^2 are no guide: light is less smooth */
-            rules->max_degree = self->light.max_degree;
-        }
-        self->questions[i] = (ps_shade_question){
-            .rules = *rules,
-            .light = &self->light,
-            .num_orientations =
-                request->is_given[PS_OPTION_SHIFTS] ? request->num_shifts : PS_USUAL_ORIENTATIONS,
-            .seed = request->seed};
-    }
-    return PSPEC_OK;
-}
-
-/* ---- plan ---------------------------------------------------------------------------------- */
-
-/* Of a processor: 16384 points, double precision, AVX-512, PoCL 3.1; of a harmonic of I(r). */
-static const double value_seconds = 2e-8;
-static const double harmonic_seconds = 2.3e-9;
-
-static void add_orientations(const ps_shade_job *job, ps_phases *phases) {
-    const ps_quadrature_setup *const setup = &job->rules->setup;
-    const double rules = setup->needs.one_realization ? 1 : (double)setup->num_realizations;
-    const double num = rules * (double)job->result.num_orientations;
-    const double values = num * (double)job->rules->shape.num_points;
-    const double degrees = (double)job->question->light->max_degree + 1;
-    ps_phases_add(phases, "trials",
-                  values * value_seconds + num * degrees * degrees / 2 * harmonic_seconds);
-    ps_phases_say(phases, "trials", "%.4g values of light at %.4g orientations", values, num);
-}
-
-static pspec_status add_plan(ps_planner *planner, const ps_request *request,
-                             const ps_shade_job *job, size_t index, ps_error *error) {
-    const ps_quadrature_setup *const setup = &job->rules->setup;
-    ps_phases phases = ps_plan_table_begin_phases(planner);
-    const double repeats = ps_quadrature_job_phases(job->rules, &phases);
-    const ps_planned planned = {.problem = &setup->problem,
-                                .needs = &setup->needs,
-                                .limits = ps_device_get_limits(setup->device),
-                                .plan = &setup->plan,
-                                .phases = &phases,
-                                .repeats = repeats};
-    add_orientations(job, &phases);
-    ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_job(planner, request, &planned, index, error);
-}
-
-static pspec_status plan_one(ps_planner *planner, const ps_request *request,
-                             ps_shade_question *question, size_t index, ps_error *error) {
-    ps_shade_job *job = NULL;
-    ps_quadrature_question *const rules = &question->rules;
-    PS_TRY(ps_plan_table_begin_question(planner, request, index, &rules->limits.constraints,
-                                        &rules->open_device, &rules->may_lack_device, error));
-    PS_TRY(ps_shade_job_create(&job, question, error));
-    pspec_status status = ps_quadrature_job_rate(job->rules, error);
-    if (status == PSPEC_OK) {
-        status = add_plan(planner, request, job, index, error);
-    }
-    ps_shade_job_destroy(job);
-    return status;
-}
-
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
-    shading *self = NULL;
-    PS_TRY(PS_NEW(&self, 1, "a plan", error));
-    pspec_status status = make_questions(self, request, error);
-    for (size_t i = 0; status == PSPEC_OK && i < self->list.num; i++) {
-        status = plan_one(planner, request, &self->questions[i], i, error);
+    work self = {0};
+    pspec_status status = ask(&self, request, error);
+    if (status == PSPEC_OK) {
+        status = ps_rule_list_plan(&self.list, planner, request, error);
     }
-    discard(self);
+    release(&self);
     return status;
-}
-
-/* ---- work ---------------------------------------------------------------------------------- */
-
-static pspec_status run_one(shading *self, size_t i, const ps_answer_hooks *hooks,
-                            ps_error *error) {
-    ps_shade_question *const question = &self->questions[i];
-    question->rules.open_device = self->device;
-    ps_answer_begin_job(hooks, &question->rules.watch, &question->rules.open_device);
-    PS_TRY(ps_shade_job_create(&self->jobs[i], question, error));
-    ps_quadrature_job *const rules = self->jobs[i]->rules;
-    if (hooks->tell_plan != NULL) {
-        hooks->tell_plan(hooks->payload, &rules->setup.plan);
-    }
-    PS_TRY(ps_shade_job_run(self->jobs[i], error));
-    ps_answer_tell_profile(hooks, rules->setup.device);
-    ps_answer_warn_of(hooks, ps_source_trouble(rules->rules.sets.source));
-    ps_quadrature_job_release(rules);
-    return PSPEC_OK;
 }
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
-    PS_TRY(ps_allocate(out, 1, sizeof(shading), "an answer", error));
-    shading *const self = *out;
-    PS_TRY(make_questions(self, request, error));
-    PS_TRY(PS_NEW(&self->jobs, self->list.num, "jobs", error));
-    PS_TRY(ps_answer_open_device(&self->device, request,
-                                 &self->questions[0].rules.limits.constraints, self->list.num,
-                                 hooks, error));
-    for (size_t i = 0; i < self->list.num; i++) {
-        PS_TRY(run_one(self, i, hooks, error));
-    }
-    return PSPEC_OK;
+    PS_TRY(ps_allocate(out, 1, sizeof(work), "an answer", error));
+    work *const self = *out;
+    PS_TRY(ask(self, request, error));
+    return ps_rule_list_run(&self->list, request, hooks, error);
 }
 
 /* ---- the table: a row for every question ---------------------------------------------------- */
@@ -170,16 +88,16 @@ static double error_of_root(ps_mean square) {
     return square.standard_error / (2 * sqrt(square.mean));
 }
 
-static double score(const ps_shade_result *result) {
+static double score(const ps_shade_job *result) {
     const double error = hypot(result->measured.standard_error, result->predicted.standard_error);
     return (result->measured.mean - result->predicted.mean) / error;
 }
 
-static pspec_status add_one(ps_table *table, const ps_request *request, const shading *self,
-                            size_t i, ps_error *error) {
-    const ps_shade_job *const job = self->jobs[i];
-    const ps_shade_result *const result = &job->result;
-    const ps_rule_facts *const facts = &job->rules->result.facts;
+static pspec_status add_one(ps_table *table, const ps_request *request, const work *self, size_t i,
+                            ps_error *error) {
+    const ps_quadrature_job *const job = self->list.jobs[i];
+    const ps_shade_job *const result = &self->shade_jobs[i];
+    const ps_rule_facts *const facts = &job->result.facts;
     const ps_lead lead = ps_lead_make(request, i);
     const ps_meta entries[] = {
         {"orientations", PS_INTEGER(result->num_orientations)},
@@ -194,7 +112,7 @@ static pspec_status add_one(ps_table *table, const ps_request *request, const sh
         ps_number_or_missing(error_of_root(result->predicted)),
         ps_number_or_missing(score(result)),
     };
-    PS_TRY(ps_quadrature_add_header(table, request, i, job->rules,
+    PS_TRY(ps_quadrature_add_header(table, request, i, job,
                                     facts->smallest_points != facts->largest_points, error));
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     return ps_lead_add_row(table, &lead, cells, NUM_COLUMNS, error);
@@ -202,10 +120,10 @@ static pspec_status add_one(ps_table *table, const ps_request *request, const sh
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
-    const shading *const self = computed;
+    const work *const self = computed;
     const ps_lead first = ps_lead_make(request, 0);
     PS_TRY(ps_lead_create_table(&out->table, "shade", &first, columns, NUM_COLUMNS, error));
-    PS_TRY(ps_quadrature_begin_header(out->table, request, &self->questions[0].rules, error));
+    PS_TRY(ps_quadrature_begin_header(out->table, request, &self->list.questions[0], error));
     PS_TRY(ps_light_add_header(out->table, request, &self->light, error));
     PS_TRY(ps_table_add_meta(out->table, "z_score_is",
                              PS_TEXT("of squares: (rmse^2 - predicted^2) over its standard error"),

@@ -123,7 +123,7 @@ static pspec_status begin(void *payload, ps_error *error) {
     job->result = (ps_quadrature_result){.degrees = degrees};
     job->of_rules = (ps_rule_sums){0};
     if (job->question->observer.begin != NULL) {
-        job->question->observer.begin(job->question->observer.payload);
+        job->question->observer.begin(job->question->observer.payload, job);
     }
     memset(job->sums, 0, PS_RULE_SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
     return ps_rules_allocate(&job->rules, choose_batch(job), error);
@@ -274,6 +274,9 @@ pspec_status ps_quadrature_job_run(ps_quadrature_job *job, ps_error *error) {
                               .is_sequential = setup->needs.sequential,
                               .has_no_accuracy = !setup->by_pairs};
     PS_TRY(ps_runner_run(&job->runner, error));
+    if (job->question->observer.end != NULL) {
+        job->question->observer.end(job->question->observer.payload);
+    }
     return ps_quadrature_collect(job, error);
 }
 

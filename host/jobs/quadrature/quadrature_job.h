@@ -7,7 +7,6 @@
 
 #include "jobs/quadrature/quadrature_rules.h"
 #include "jobs/runner.h"
-#include "plan/phases.h"
 #include "spectra/sums.h"
 
 typedef struct ps_quadrature_degree {
@@ -45,7 +44,7 @@ typedef struct ps_rule_sums {
     ps_sums squared, zonal, anisotropic, tail, weight_sum;
 } ps_rule_sums;
 
-typedef struct ps_quadrature_job {
+struct ps_quadrature_job {
     const ps_quadrature_question *question;
     /* Known after create */
     ps_rules rules;
@@ -65,7 +64,7 @@ typedef struct ps_quadrature_job {
     pspec_status told_status;
     ps_error *error; /* of what is told */
     ps_rule_sums of_rules;
-} ps_quadrature_job;
+};
 
 /* Opens the source, of files reads the first two sets, opens the device unless no engine that may
  * be chosen needs it, and plans. The question must outlive the job. Nothing feasible is no error

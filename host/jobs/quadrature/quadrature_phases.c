@@ -118,5 +118,8 @@ double ps_quadrature_job_phases(const ps_quadrature_job *job, ps_phases *phases)
         ps_phases_say(phases, "averages", "zonal sums");
     }
     ps_phases_tabulate(phases, (double)setup->max_degree);
+    if (job->question->observer.add_phases != NULL) {
+        job->question->observer.add_phases(job->question->observer.payload, job, phases);
+    }
     return repeats;
 }

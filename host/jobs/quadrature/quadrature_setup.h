@@ -5,18 +5,25 @@
 #include "base/watch.h"
 #include "frequencies/frequencies.h"
 #include "plan/needs.h"
+#include "plan/phases.h"
 #include "points/points.h"
 #include "points/weights_spec.h"
 #include "rules/kernel/kernel_system.h"
 #include "rules/worst_case_error.h"
 
-/* Who hears of every rule, in the order of realizations; {0}: nobody. */
+typedef struct ps_quadrature_job ps_quadrature_job;
+
+/* Who hears of every rule of a job, in the order of realizations; {0}: nobody. */
 typedef struct ps_rule_observer {
     /* All that was heard is void: it comes again. */
-    void (*begin)(void *payload);
+    void (*begin)(void *payload, const ps_quadrature_job *job);
     /* Number `rule` from 0, its points and weights, and its d_l^2 and C_l^2, [max_degree + 1]. */
     pspec_status (*hear)(void *payload, uint64_t rule, const pspec_pattern *pattern,
                          const ps_degree_error *degrees, size_t max_degree, ps_error *error);
+    /* That was the last; devices of the job are closed after it. */
+    void (*end)(void *payload);
+    /* Adds what its work will take to the plan of the job. */
+    void (*add_phases)(void *payload, const ps_quadrature_job *job, ps_phases *phases);
     void *payload;
 } ps_rule_observer;
 

@@ -23,21 +23,21 @@ static pspec_status predict(fibonacci *self, double *out, ps_error *error) {
     static const char *const name = "points";
     const double tolerance = 1e-10; /* of E^2, as `quadrature` has it */
     ps_given_set given = {.name = name, .next = give, .payload = self, .num = 1};
-    ps_shade_question question = {.rules = *self->rules, .light = self->light};
-    ps_shade_job *job = NULL;
-    question.rules.paths = &name;
-    question.rules.num_paths = 1;
-    question.rules.point_options =
-        (ps_point_options){.domain = PS_DOMAIN_SPHERE, .given = {&given, 1}};
-    question.rules.max_degree = self->light->max_degree;
-    question.rules.accuracy.tolerance = tolerance;
-    question.rules.limits.constraints.precision = -1;
-    question.rules.limits.constraints.engine =
-        self->rules->open_device != NULL ? NULL : "host_direct";
-    PS_TRY(ps_shade_job_create(&job, &question, error));
-    const pspec_status status = ps_shade_job_run(job, error);
-    *out = sqrt(job->result.predicted.mean);
-    ps_shade_job_destroy(job);
+    ps_quadrature_question rules = *self->rules;
+    ps_shade_job shade; /* has nothing to free: it measures nothing */
+    ps_quadrature_job *job = NULL;
+    rules.paths = &name;
+    rules.num_paths = 1;
+    rules.point_options = (ps_point_options){.domain = PS_DOMAIN_SPHERE, .given = {&given, 1}};
+    rules.max_degree = self->light->max_degree;
+    rules.accuracy.tolerance = tolerance;
+    rules.limits.constraints.precision = -1;
+    rules.limits.constraints.engine = self->rules->open_device != NULL ? NULL : "host_direct";
+    PS_TRY(ps_shade_job_make(&shade, self->light, 0, 0, &rules, error));
+    PS_TRY(ps_quadrature_job_create(&job, &rules, error));
+    const pspec_status status = ps_quadrature_job_run(job, error);
+    *out = sqrt(shade.predicted.mean);
+    ps_quadrature_job_destroy(job);
     return status;
 }
 
