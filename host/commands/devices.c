@@ -115,10 +115,7 @@ static pspec_status run(ps_answer *out, const ps_request *request, const ps_answ
                         ps_error *error) {
     ps_table_format format = PS_FORMAT_CSV;
     ps_text why_none = {0};
-    if (request->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
-                       request->files[0]);
-    }
+    PS_TRY(ps_request_check_no_files(request, "", error));
     PS_TRY(ps_table_choose_format(&format, request->format, request->output, error));
     PS_TRY(ps_fields_create_table(&out->table, "devices", own_fields, error));
     ps_table_set_blocks(out->table);

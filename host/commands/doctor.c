@@ -175,10 +175,7 @@ static pspec_status run(ps_answer *out, const ps_request *request, const ps_answ
     ps_text folder = {0};
     ps_error unwritten = {0};
     ps_error ignored = {0};
-    if (request->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
-                       request->files[0]);
-    }
+    PS_TRY(ps_request_check_no_files(request, "", error));
     PS_TRY(
         ps_table_create(&out->table, "doctor", columns, sizeof columns / sizeof columns[0], error));
     PS_TRY(ps_lead_add_origin(out->table, NULL, error));

@@ -36,17 +36,6 @@ static pspec_status fail_cheap(const prefetch *self, ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-static pspec_status check_words(const ps_request *request, ps_error *error) {
-    const char *const useless = request->format != NULL               ? "format"
-                                : request->plot != NULL               ? "plot"
-                                : request->is_given[PS_OPTION_OUTPUT] ? "output"
-                                                                      : NULL;
-    return useless == NULL
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "--prefetch writes no points: there is no use for --%s", useless);
-}
-
 static pspec_status begin(prefetch *out, const ps_request *request, size_t question,
                           ps_error *error) {
     *out = (prefetch){.text = ps_request_sampler(request, question),
@@ -151,7 +140,7 @@ static pspec_status prefetch_one(const ps_request *request, size_t question,
 
 pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
                                 ps_error *error) {
-    PS_TRY(check_words(request, error));
+    PS_TRY(ps_option_pairs_check(request, PS_COMMAND_sample, error));
     PS_TRY(check_room(request, error));
     for (size_t i = 0; i < ps_request_num_questions(request); i++) {
         PS_TRY(prefetch_one(request, i, hooks, error));

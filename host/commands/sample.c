@@ -29,11 +29,7 @@ static pspec_status fail_without_sampler(ps_error *error) {
 
 /* Several samplers and numbers of points may be where no points are written. */
 static pspec_status check_words(const ps_request *request, ps_error *error) {
-    if (request->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "no input file is read, but %s was given; -o FILE names the output",
-                       request->files[0]);
-    }
+    PS_TRY(ps_request_check_no_files(request, "; -o FILE names the output", error));
     if (request->num_sources == 0) {
         return fail_without_sampler(error);
     }

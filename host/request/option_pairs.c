@@ -50,6 +50,10 @@ static const option_pair pairs[] = {
     {PS_OPTION_WEIGHTS, PS_OPTION_SAMPLER, "all of its points count the same", BIT(variance)},
     {PS_OPTION_HEMISPHERE, PS_OPTION_SAMPLER, "it says where its points are", BIT(variance)},
 
+    {PS_OPTION_FORMAT, PS_OPTION_PREFETCH, "it writes no points", 0},
+    {PS_OPTION_PLOT, PS_OPTION_PREFETCH, "it writes no points", 0},
+    {PS_OPTION_OUTPUT, PS_OPTION_PREFETCH, "it writes no points", 0},
+
     {PS_OPTION_AGAINST, PS_OPTION_HOMOGENEOUS,
      "one is about a saved spectrum, the other about realizations alone", 0},
     /* not of the spectrum that check asks for: its request has what the saved one says */

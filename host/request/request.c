@@ -25,6 +25,14 @@ pspec_status ps_request_check_one_count(const ps_request *request, const char *w
                          ps_option_show(request, PS_OPTION_POINTS).text, request->num_counts, why);
 }
 
+pspec_status ps_request_check_no_files(const ps_request *request, const char *instead,
+                                       ps_error *error) {
+    return request->num_files == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given%s",
+                         request->files[0], instead);
+}
+
 bool ps_request_only_draws(const ps_request *request) {
     return request->plot != NULL && !request->is_given[PS_OPTION_OUTPUT] &&
            !request->is_given[PS_OPTION_FORMAT];

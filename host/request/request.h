@@ -196,6 +196,9 @@ ps_bounds_spec ps_request_bounds(const ps_request *request, size_t question);
 /* Refuses several numbers of points; why: "and one output holds sets of one". */
 pspec_status ps_request_check_one_count(const ps_request *request, const char *why,
                                         ps_error *error) PS_MUST_CHECK;
+/* Refuses files; instead: "; -o FILE names the output", or "". */
+pspec_status ps_request_check_no_files(const ps_request *request, const char *instead,
+                                       ps_error *error) PS_MUST_CHECK;
 /* Of commands whose output is points: there is a picture, and nobody said where the points go, or
  * how they are written. Then they are drawn, and that is all. */
 bool ps_request_only_draws(const ps_request *request);

@@ -105,7 +105,7 @@ refuses 2 'csv, json, npy' power --sampler white --format tsv
 # ---- samplers
 refuses 2 'there are white, regular' sample -n 16
 refuses 2 '2 samplers were given' sample --sampler white --sampler sobol
-refuses 2 'no input file is read' sample --sampler white points.txt
+refuses 2 'no file is read' sample --sampler white points.txt
 for command in sample power; do
     refuses 2 'unknown sampler "wite"; did you mean white?' $command -o r --sampler wite
     refuses 2 'has no parameters' $command -o r --sampler white:strata=3

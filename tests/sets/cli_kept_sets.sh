@@ -144,9 +144,9 @@ runs 0 "${bnot[@]}" -m 20 --kept-sets 40960 -o second.txt
 # ---- bad input ----
 refuses 'white makes 16 points about as fast as they are read' --prefetch --sampler white -n 16
 refuses 'larger sets are, of ' --prefetch --sampler bnot -n 16
-refuses 'no use for --output' --prefetch "${bnot[@]}" -o x.txt
-refuses 'no use for --plot' --prefetch "${bnot[@]}" --plot x.png
-refuses 'no use for --format' --prefetch "${bnot[@]}" --format npy
+refuses '-o does not go with --prefetch: it writes no points' --prefetch "${bnot[@]}" -o x.txt
+refuses '--plot does not go with --prefetch: it writes no points' --prefetch "${bnot[@]}" --plot x.png
+refuses '--format does not go with --prefetch: it writes no points' --prefetch "${bnot[@]}" --format npy
 refuses 'unknown sampler "bluenoise"; there are white, ' --prefetch --sampler bluenoise -n 16
 runs 1 --prefetch "${bnot[@]}" -m 1000 --kept-sets 1e6
 says '1000 sets take '

@@ -35,10 +35,7 @@ static ps_truncation_question question_of(const ps_request *request) {
 }
 
 static pspec_status check_question(const ps_request *arguments, ps_error *error) {
-    if (arguments->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
-                       arguments->files[0]);
-    }
+    PS_TRY(ps_request_check_no_files(arguments, "", error));
     if (arguments->brdf == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");

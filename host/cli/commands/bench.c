@@ -250,11 +250,7 @@ static pspec_status check_calibration(const ps_request *arguments, ps_error *err
 
 static pspec_status check_words(const ps_request *arguments, const ps_suite_options *options,
                                 const ps_answer_hooks *hooks, ps_error *error) {
-    if (arguments->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "no file is read, but %s was given; --scenes is for scenes",
-                       arguments->files[0]);
-    }
+    PS_TRY(ps_request_check_no_files(arguments, "; --scenes is for scenes", error));
     PS_TRY(ps_picture_check(arguments, ps_picture_is_all(arguments, true), hooks, error));
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));

@@ -93,10 +93,7 @@ static pspec_status conclude(const ps_stress_totals *totals, ps_error *error) {
 
 static pspec_status check_words(const ps_request *arguments, const ps_suite_options *options,
                                 ps_error *error) {
-    if (arguments->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
-                       arguments->files[0]);
-    }
+    PS_TRY(ps_request_check_no_files(arguments, "", error));
     return ps_suite_check(&ps_stress_suite, options, error);
 }
 
