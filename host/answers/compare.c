@@ -13,14 +13,8 @@ static const double FAR = 7;
 
 /* ---- values ---------------------------------------------------------------------------------- */
 
-static ps_cell cell_at(const ps_table *table, size_t row, const char *name) {
-    size_t column = 0;
-    return ps_table_find_column(table, name, &column) ? ps_table_cell(table, row, column)
-                                                      : PS_MISSING;
-}
-
 static double value_at(const ps_table *table, size_t row, const char *name) {
-    return ps_cell_number(cell_at(table, row, name));
+    return ps_cell_number(ps_table_find_cell(table, row, name));
 }
 
 static double of_header(const ps_table *table, const char *key) {
@@ -29,7 +23,8 @@ static double of_header(const ps_table *table, const char *key) {
 
 static ps_cell find(const ps_compared_field *what, const ps_table *table, size_t row,
                     const char *name) {
-    return what->is_of_header ? ps_table_find_meta(table, name) : cell_at(table, row, name);
+    return what->is_of_header ? ps_table_find_meta(table, name)
+                              : ps_table_find_cell(table, row, name);
 }
 
 static double predicted_errors(const ps_both_tables *both) {

@@ -43,12 +43,6 @@ static bool is_of_same(const ps_table *table, size_t a, size_t b) {
     return column == ps_table_num_columns(table) || !is_lead(table, column);
 }
 
-static ps_cell find_cell(const ps_table *table, size_t row, const char *name) {
-    size_t column = 0;
-    return ps_table_find_column(table, name, &column) ? ps_table_cell(table, row, column)
-                                                      : PS_MISSING;
-}
-
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 /* A row of a part, the number of its question among those of its table, and its curve. */
@@ -115,13 +109,13 @@ static pspec_status find_curve(picture *self, place *own) {
     const ps_table *const table = own->part->table;
     curve found = {.part = own->part,
                    .number = own->number,
-                   .sampler = ps_cell_text(find_cell(table, own->row, "sampler")),
+                   .sampler = ps_cell_text(ps_table_find_cell(table, own->row, "sampler")),
                    .panel_name = "",
                    .panel = panels != NULL ? self->num_panels : own->part->panel,
                    .kind = self->num_kinds};
     PS_TRY(write_label(self, own, &found.label));
     if (panels != NULL) {
-        const ps_cell cell = find_cell(table, own->row, panels);
+        const ps_cell cell = ps_table_find_cell(table, own->row, panels);
         found.panel_name =
             ps_cell_text(cell.kind == PS_CELL_TEXT ? cell : ps_table_find_meta(table, panels));
     }
@@ -197,7 +191,7 @@ static pspec_status take(const picture *self, const double **out, const curve *o
             const ps_table *const table = at->part->table;
             numbers[num++] = ps_cell_number(self->chart->what->is_of_entries
                                                 ? ps_entry_of(table, "sampler", at->number, name)
-                                                : find_cell(table, at->row, name));
+                                                : ps_table_find_cell(table, at->row, name));
         }
     }
     *out = numbers;

@@ -99,6 +99,9 @@ ps_answer_hooks ps_shown_hooks(ps_shown *shown);
 pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments,
                           ps_error *error) PS_MUST_CHECK;
 
+/* The picture of pointspec bench: error against run time, a panel for every case. */
+ps_make_figure ps_bench_figure;
+
 /* bench --scenes: what skipping is worth, scene by scene. Answers the scenes arguments->files with
  * and without skips, in turn, without the cache, and compares the answers of every question. A row
  * for each result; PSPEC_ERROR_CHECK, after the table is made, when answers differ by more than

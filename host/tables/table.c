@@ -214,6 +214,12 @@ ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column) {
     return table->cells[row * table->num_columns + column];
 }
 
+ps_cell ps_table_find_cell(const ps_table *table, size_t row, const char *name) {
+    size_t column = 0;
+    return ps_table_find_column(table, name, &column) ? ps_table_cell(table, row, column)
+                                                      : PS_MISSING;
+}
+
 size_t ps_table_num_meta(const ps_table *table) {
     return table->num_meta;
 }

@@ -141,6 +141,8 @@ const char *ps_table_column_name(const ps_table *table, size_t column);
 bool ps_table_find_column(const ps_table *table, const char *name, size_t *column);
 size_t ps_table_num_rows(const ps_table *table);
 ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column);
+/* Of the first column of that name; missing: there is none. */
+ps_cell ps_table_find_cell(const ps_table *table, size_t row, const char *name);
 size_t ps_table_num_meta(const ps_table *table);
 /* Header entry i, in the order in which they were added. */
 ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key);

@@ -40,13 +40,9 @@ static pspec_status scale_sums(ps_figure *out, ps_pool *memory, const ps_table *
 
 /* sqrt(N), of the mean N where sets differ: what frequencies are divided by. NAN without rows. */
 static double find_unit(const ps_table *table) {
-    size_t frequency = 0;
-    size_t normalized = 0;
-    return ps_table_find_column(table, "frequency", &frequency) &&
-                   ps_table_find_column(table, "normalized_frequency", &normalized) &&
-                   ps_table_num_rows(table) > 0
-               ? ps_cell_number(ps_table_cell(table, 0, frequency)) /
-                     ps_cell_number(ps_table_cell(table, 0, normalized))
+    return ps_table_num_rows(table) > 0
+               ? ps_cell_number(ps_table_find_cell(table, 0, "frequency")) /
+                     ps_cell_number(ps_table_find_cell(table, 0, "normalized_frequency"))
                : (double)NAN;
 }
 

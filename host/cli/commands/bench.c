@@ -15,7 +15,6 @@ typedef struct answer {
     const ps_answer_hooks *hooks;
     ps_device *device;
     ps_figures peaks;
-    ps_bench_rows rows;
     ps_table *table;
     ps_table_stream *stream;
     ps_progress *progress;
@@ -48,7 +47,6 @@ static pspec_status report(void *payload, const ps_bench_row *rows, size_t num, 
     for (size_t i = 0; i < num; i++) {
         PS_TRY(add_row(shown->table, &rows[i], error));
     }
-    PS_TRY(ps_bench_rows_add(&shown->rows, rows, num, error));
     ps_progress_hide(shown->progress);
     return ps_table_stream_update(shown->stream, error);
 }
@@ -137,6 +135,15 @@ static const ps_field_row own_fields[] = {
     {.name = NULL}};
 static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_device, own_fields, NULL};
 
+static void write_title(ps_text *out, const ps_request *request, const ps_table *table) {
+    (void)request;
+    ps_text_append(out, "run time against error, %s",
+                   ps_cell_text(ps_table_find_meta(table, "device")));
+}
+
+static const ps_picture_kind pictures[] = {
+    {.make = ps_bench_figure, .by = PS_BY_COMMAND, .write_title = write_title}, {.make = NULL}};
+
 static pspec_status make_table(answer *shown, ps_table_format format, const char *path,
                                ps_error *error) {
     PS_TRY(ps_fields_create_table(&shown->table, "bench", own_fields, error));
@@ -159,8 +166,7 @@ static pspec_status run_cases(answer *shown, const ps_suite_options *options,
     return arguments->plot == NULL
                ? PSPEC_OK
                : ps_picture_settle(arguments, ps_picture_is_all(arguments, true), shown->hooks,
-                                   ps_bench_plot(arguments->plot, &shown->rows,
-                                                 ps_device_get_limits(shown->device)->name, error),
+                                   ps_picture_draw(pictures, arguments, shown->table, error),
                                    error);
 }
 
@@ -308,7 +314,6 @@ static pspec_status run(ps_answer *out, const ps_request *arguments, const ps_an
                                     : run_cases(&shown, &options, format, path, error);
     ps_table_stream_discard(&shown.stream);
     ps_table_destroy(shown.table);
-    ps_bench_rows_free(&shown.rows);
     ps_device_close(shown.device);
     return status;
 }
