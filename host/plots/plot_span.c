@@ -178,12 +178,9 @@ typedef struct sums {
 } sums;
 
 static sums add_places(const ps_series *series) {
-    double most = 0;
+    const ps_panel alone = {.num_series = 1, .series = series};
+    const double floor = ps_series_floor(series, find_most(&alone));
     sums out = {0};
-    for (size_t i = 0; i < series->num; i++) {
-        most = isfinite(series->y[i]) ? fmax(most, series->y[i]) : most;
-    }
-    const double floor = ps_series_floor(series, most);
     for (size_t i = 0; i < series->num; i++) {
         if (isfinite(series->y[i]) && series->y[i] > floor) {
             const double u = log(series->x[i]);

@@ -19,9 +19,10 @@ bool ps_run_varies(const ps_scene_entry *entry) {
 /* ---- which curves go together ---------------------------------------------------------------- */
 
 /* How curves are dealt out: to pictures by the values of entry `group`, to panels by those of
- * `panel`, or in turn, `chunk` at a time. Entries: num_entries is none. */
+ * `panel`, or by those of `fastest`, `chunk` at a time. Entries: num_entries is none. */
 typedef struct layout {
     size_t points, group, panel;
+    size_t fastest;    /* that changes with every curve */
     size_t num_curves; /* of a picture */
     size_t chunk;
 } layout;
@@ -49,12 +50,17 @@ static size_t find_panels(const ps_scene_result *asked, const layout *how) {
     return best;
 }
 
+static size_t find_fastest(const ps_scene_result *asked, const layout *how) {
+    size_t fastest = asked->num_entries;
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        fastest = is_free(asked, how, i) ? i : fastest;
+    }
+    return fastest;
+}
+
 /* Values of the entry that changes fastest, in panels of nearly the same number. */
 static size_t find_chunk(const ps_scene_result *asked, const layout *how) {
-    size_t num = 1;
-    for (size_t i = 0; i < asked->num_entries; i++) {
-        num = is_free(asked, how, i) ? asked->entries[i].num_values : num;
-    }
+    const size_t num = count_values(asked, how->fastest);
     const size_t num_chunks = (num + MOST_CURVES - 1) / MOST_CURVES;
     return (num + num_chunks - 1) / num_chunks;
 }
@@ -63,7 +69,7 @@ static size_t find_chunk(const ps_scene_result *asked, const layout *how) {
  * alone would be the curve; then panels. */
 static layout find_layout(const ps_scene_result *asked, size_t points, bool has_singles) {
     const size_t none = asked->num_entries;
-    layout how = {points, none, none, 0, 0};
+    layout how = {points, none, none, none, 0, 0};
     how.num_curves = ps_scene_num_questions(asked) / count_values(asked, points);
     size_t first = 0;
     while (first < none && !is_free(asked, &how, first)) {
@@ -74,6 +80,7 @@ static layout find_layout(const ps_scene_result *asked, size_t points, bool has_
         how.group = first;
         how.num_curves = num_left;
     }
+    how.fastest = find_fastest(asked, &how);
     if (how.num_curves > MOST_CURVES) {
         how.panel = find_panels(asked, &how);
         how.chunk = how.panel == none ? find_chunk(asked, &how) : 0;
@@ -106,11 +113,7 @@ static void fill(ps_picture *picture, const ps_scene_result *asked, const layout
         picture->ends[picture->num_panels++] = picture->num_curves;
     }
     if (how->chunk > 0) {
-        size_t fastest = asked->num_entries - 1; /* some entry is free: there are chunks of it */
-        while (!is_free(asked, how, fastest)) {
-            fastest--;
-        }
-        const size_t run = asked->entries[fastest].num_values;
+        const size_t run = count_values(asked, how->fastest);
         picture->num_panels = 0;
         for (size_t at = 0; at < picture->num_curves;) {
             const size_t left = run - at % run;
@@ -181,6 +184,7 @@ static pspec_status add_group(ps_pictures *list, const ps_scene_result *asked, p
     one.group = how->group;
     one.points = how->points;
     one.panel = how->panel;
+    one.fastest = how->fastest;
     one.value = is_group ? &asked->entries[how->group].values[index] : NULL;
     if (is_group) {
         snprintf(one.suffix, sizeof one.suffix, "%s-%zu", stem, index + 1);
@@ -208,8 +212,12 @@ static pspec_status list_runs(ps_pictures *out, const ps_scene_result *asked,
     const size_t none = asked->num_entries;
     const size_t num = ps_scene_num_questions(asked);
     for (size_t i = 0; i < num_pictures; i++) {
-        ps_picture one = {
-            .kind = kind, .group = none, .points = none, .panel = none, .num_panels = 1};
+        ps_picture one = {.kind = kind,
+                          .group = none,
+                          .points = none,
+                          .panel = none,
+                          .fastest = none,
+                          .num_panels = 1};
         const size_t begin = i * num / num_pictures;
         const size_t end = (i + 1) * num / num_pictures;
         PS_TRY(allocate_curves(out, &one, end - begin, error));

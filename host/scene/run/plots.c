@@ -27,16 +27,6 @@ static bool is_told(const ps_scene_result *asked, const ps_picture *what, size_t
            ps_run_varies(&asked->entries[entry]);
 }
 
-/* Where no entry has panels of its own, that is the one that changes fastest; the others tell
- * panels apart. */
-static size_t find_fastest(const ps_scene_result *asked, const ps_picture *what) {
-    size_t fastest = asked->num_entries;
-    for (size_t i = 0; i < asked->num_entries; i++) {
-        fastest = is_told(asked, what, i) ? i : fastest;
-    }
-    return fastest;
-}
-
 static void append_value(const ps_scene_result *asked, size_t question, size_t entry,
                          ps_text *out) {
     ps_text_append(out, "%s%s", out->length > 0 ? ", " : "",
@@ -47,13 +37,12 @@ static void append_value(const ps_scene_result *asked, size_t question, size_t e
  * points from others, whose pictures say N themselves. */
 static void label_panel(const ps_scene_result *asked, const ps_picture *what, size_t question,
                         ps_text *out) {
-    const size_t fastest = find_fastest(asked, what);
     if (what->panel < asked->num_entries) {
         append_value(asked, question, what->panel, out);
         return;
     }
     for (size_t i = 0; i < asked->num_entries; i++) {
-        if (i != fastest && is_told(asked, what, i)) {
+        if (i != what->fastest && is_told(asked, what, i)) {
             append_value(asked, question, i, out);
         }
     }
@@ -61,10 +50,9 @@ static void label_panel(const ps_scene_result *asked, const ps_picture *what, si
 
 static void label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
                         ps_text *out) {
-    const size_t fastest = find_fastest(asked, what);
     const bool is_chunk = what->panel == asked->num_entries;
     for (size_t i = 0; i < asked->num_entries; i++) {
-        if (is_told(asked, what, i) && (what->num_panels == 1 || !is_chunk || i == fastest)) {
+        if (is_told(asked, what, i) && (what->num_panels == 1 || !is_chunk || i == what->fastest)) {
             append_value(asked, question, i, out);
         }
     }

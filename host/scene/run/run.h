@@ -35,8 +35,9 @@ typedef struct ps_picture {
     /* What its questions have and those of other pictures do not; NULL: there are no others */
     const ps_scene_value *value;
     /* Entries of the result: of that value, of the numbers of points along a line, and of the value
-     * that a panel has for itself. num_entries: none. */
-    size_t group, points, panel;
+     * that a panel has for itself; and that which changes fastest, by which panels are told apart
+     * where none has values for itself. num_entries: none. */
+    size_t group, points, panel, fastest;
     /* Questions, a curve each, or the first of a curve against numbers of points, those of a panel
      * together; panel i ends before ends[i]. One panel: a frame without others. */
     size_t num_curves, num_panels;
