@@ -6,6 +6,7 @@
 #define SPHERE (OF(angular) | OF(pairs) | OF(check) | OF(variance))
 #define SPECTRA (TORUS | SPHERE)
 #define RULES (OF(quadrature) | OF(shade))
+#define SETS (RULES | OF(interpolation))
 
 const char *const ps_field_groups[] = {[PS_FIELD_ENTRY] = "entry",
                                        [PS_FIELD_COLUMN] = "column",
@@ -18,7 +19,7 @@ const ps_field_row ps_fields_asked[] = {
     {"command", "", PS_ENTRY, 0, "", "the command line"},
     {"normalization", "", PS_ENTRY, SPECTRA | RULES, "",
      "what power means, and how weights and numbers of points count in it"},
-    {"seed", "", PS_ENTRY, SPECTRA | RULES | OF(sample), "samplers, --per-ring",
+    {"seed", "", PS_ENTRY, SPECTRA | SETS | OF(sample), "samplers, --per-ring",
      "seed of the random numbers"},
     {"homogenize", "", PS_ENTRY, SPECTRA, "samplers",
      "yes or no: was every realization moved at random?"},
@@ -31,30 +32,30 @@ const ps_field_row ps_fields_asked[] = {
     {.name = NULL}};
 
 const ps_field_row ps_fields_points[] = {
-    {"sampler", "", PS_ENTRIES, SPECTRA | RULES | OF(sample), "samplers, --set",
+    {"sampler", "", PS_ENTRIES, SPECTRA | SETS | OF(sample), "samplers, --set",
      "the sampler, or the name of the set of files"},
     {"sampler_note", "", PS_ENTRIES, SPECTRA | OF(sample), "some samplers",
      "what else there is to know of its points"},
-    {"input", "", PS_ENTRIES, SPECTRA | RULES, "several files",
+    {"input", "", PS_ENTRIES, SPECTRA | SETS, "several files",
      "how many files, and how many realizations make the one average; of variance how many of them "
      "predict"},
     {"input_format", "", PS_ENTRIES, SPECTRA, "files", "the format that files were read as"},
     {"input_columns", "", PS_ENTRIES, SPECTRA, "files", "what their columns were taken for"},
-    {"box", "", PS_ENTRIES, SPECTRA | RULES, "files in a box",
+    {"box", "", PS_ENTRIES, SPECTRA | SETS, "files in a box",
      "the box of the first set, as --box has it, where it is not [0,1)^d"},
     {"box_changes", "", PS_ENTRIES, TORUS, "files in boxes that differ",
      "edges of the boxes of the sets, from the shortest to the longest of each axis"},
-    {"lift", "", PS_ENTRIES, SPHERE | RULES, "files, --lift",
+    {"lift", "", PS_ENTRIES, SPHERE | SETS, "files, --lift",
      "where points of the plane were lifted to, sphere or hemisphere"},
-    {"morph", "", PS_ENTRIES, SPHERE | RULES, "files, --lift hemisphere",
+    {"morph", "", PS_ENTRIES, SPHERE | SETS, "files, --lift hemisphere",
      "the lobe whose density the lifted points have"},
-    {"points", "", PS_ENTRIES, SPECTRA | RULES | OF(sample), "",
+    {"points", "", PS_ENTRIES, SPECTRA | SETS | OF(sample), "",
      "N; of sets with different N their mean"},
-    {"points_smallest", "", PS_ENTRIES, SPECTRA | RULES, "sets with different N",
+    {"points_smallest", "", PS_ENTRIES, SPECTRA | SETS, "sets with different N",
      "N of the smallest set"},
-    {"points_largest", "", PS_ENTRIES, SPECTRA | RULES, "sets with different N",
+    {"points_largest", "", PS_ENTRIES, SPECTRA | SETS, "sets with different N",
      "N of the largest set"},
-    {"realizations", "", PS_ENTRIES, SPECTRA | RULES | OF(sample), "",
+    {"realizations", "", PS_ENTRIES, SPECTRA | SETS | OF(sample), "",
      "M, how many sets were averaged"},
     {"standard_error", "", PS_ENTRIES, SPECTRA, "one realization",
      "that there is none, or of what it is with --per-ring"},
@@ -86,9 +87,10 @@ const ps_field_row ps_fields_points[] = {
      "most frequencies of the half lattice that were computed of a ring"},
     {"computed", "", PS_ENTRIES, OF(power) | OF(check), "--per-ring",
      "how many frequencies were computed, of how many"},
-    {"sampler", "", PS_COLUMN, (SPECTRA & ~OF(check)) | RULES, "several samplers, --set",
+    {"sampler", "", PS_COLUMN, (SPECTRA & ~OF(check)) | SETS, "several samplers, --set",
      "the sampler, or the name of the set of files"},
-    {"integrand", "", PS_COLUMN, OF(variance), "several integrands", "the integrand"},
+    {"integrand", "", PS_COLUMN, OF(variance) | OF(interpolation), "several integrands",
+     "the integrand"},
     {"points", "", PS_COLUMN, (SPECTRA & ~OF(check)) | RULES, "several numbers of points",
      "N as it was asked for; of variance, where it is always there, the mean where sets differ"},
     {.name = NULL}};

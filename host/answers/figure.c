@@ -27,11 +27,13 @@ ps_cell ps_entry_of(const ps_table *table, const char *first, size_t number, con
  * first columns. */
 static bool is_lead(const ps_table *table, size_t column) {
     const char *const name = ps_table_column_name(table, column);
-    return strcmp(name, "sampler") == 0 || strcmp(name, "points") == 0;
+    return strcmp(name, "sampler") == 0 || strcmp(name, "points") == 0 ||
+           strcmp(name, "smoothness") == 0;
 }
 
 static bool are_alike(ps_cell a, ps_cell b) {
-    return a.kind == PS_CELL_TEXT ? strcmp(a.text, b.text) == 0 : a.integer == b.integer;
+    return a.kind == PS_CELL_TEXT ? strcmp(a.text, b.text) == 0
+                                  : ps_cell_number(a) == ps_cell_number(b);
 }
 
 static bool is_of_same(const ps_table *table, size_t a, size_t b) {
@@ -93,9 +95,12 @@ static pspec_status write_label(const picture *self, const place *own, const cha
     for (size_t i = 0; i < ps_table_num_columns(table) && is_lead(table, i); i++) {
         const ps_cell cell = ps_table_cell(table, own->row, i);
         const char *const comma = label.length > 0 ? ", " : "";
+        const bool is_space = strcmp(ps_table_column_name(table, i), "smoothness") == 0;
         if (cell.kind == PS_CELL_TEXT) {
             ps_text_append(&label, "%s%s", comma, cell.text);
-        } else if (!self->is_of_counts) {
+        } else if (is_space && own->part->request->num_smoothness > 1) {
+            ps_text_append(&label, "%ss = %g", comma, cell.number);
+        } else if (!is_space && !self->is_of_counts) {
             ps_text_append(&label, "%sN = %lld", comma, (long long)cell.integer);
         }
     }

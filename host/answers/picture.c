@@ -154,7 +154,7 @@ static void write_title(ps_text *title, const ps_request *request, const ps_tabl
         if (harmonics.kind == PS_CELL_TEXT) {
             ps_text_append(title, ", %s harmonics", harmonics.text);
         }
-        ps_text_append(title, ", smoothness %g", request->smoothness);
+        ps_text_append(title, ", smoothness %g", request->smoothness[0]);
     }
     if (ps_table_find_meta(table, "points").kind != PS_CELL_MISSING) {
         append_points(title, table);

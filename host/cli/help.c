@@ -220,7 +220,7 @@ void ps_help_program(FILE *stream) {
           "\nCommands:\n",
           stream);
     for (size_t i = 0; ps_commands[i] != NULL; i++) {
-        fprintf(stream, "  %-12s%s\n", ps_commands[i]->name, ps_commands[i]->purpose);
+        fprintf(stream, "  %-15s%s\n", ps_commands[i]->name, ps_commands[i]->purpose);
     }
     fputs("\n"
           "pointspec COMMAND --help explains a command, its options and samplers.\n"

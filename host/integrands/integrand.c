@@ -213,6 +213,14 @@ double ps_integrand_steps(const ps_integrand *integrand) {
     return integrand->kind->steps != NULL ? integrand->kind->steps(integrand) : 0;
 }
 
+bool ps_integrand_image_size(const ps_integrand *integrand, size_t *width, size_t *height) {
+    if (integrand->kind->image_size == NULL) {
+        return false;
+    }
+    integrand->kind->image_size(integrand, width, height);
+    return true;
+}
+
 const char *ps_integrand_note(const ps_integrand *integrand) {
     return integrand->kind->note != NULL ? integrand->kind->note(integrand) : NULL;
 }

@@ -87,6 +87,8 @@ typedef struct ps_integrand_kind {
     /* Steps for a value that is a sum, of some 5 ns of the host each and less by a kernel. NULL: no
      * sum. */
     double (*steps)(const ps_integrand *);
+    /* The pixels of the image of the sphere that it is; NULL: it is none. */
+    void (*image_size)(const ps_integrand *, size_t *width, size_t *height);
     const char *(*note)(const ps_integrand *); /* what a result should say of it; may be NULL */
     const char *(*file)(const ps_integrand *); /* that was read; NULL: kinds without files */
 } ps_integrand_kind;
@@ -193,6 +195,8 @@ double ps_integrand_radial(const ps_integrand *integrand, double k);
 double ps_integrand_whole_square(const ps_integrand *integrand);
 /* Steps of some 5 ns of the host for a value that is a sum; 0: no sum. */
 double ps_integrand_steps(const ps_integrand *integrand);
+/* Is it an image of the sphere? Then of so many pixels. */
+bool ps_integrand_image_size(const ps_integrand *integrand, size_t *width, size_t *height);
 const char *ps_integrand_note(const ps_integrand *integrand); /* or NULL */
 const char *ps_integrand_file(const ps_integrand *integrand); /* or NULL */
 

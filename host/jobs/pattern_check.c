@@ -182,3 +182,13 @@ pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies
     PS_TRY(ps_pattern_count_add(&count, pattern, error));
     return ps_pattern_count_finish(&count, normalization, sums, error);
 }
+
+void ps_pattern_straighten(double u[3]) {
+    const double square = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    if (fabs(square - 1) > 4 * DBL_EPSILON) {
+        const double length = sqrt(square);
+        for (int i = 0; i < 3; i++) {
+            u[i] /= length;
+        }
+    }
+}

@@ -60,6 +60,9 @@ pspec_status ps_pattern_check_largest(double largest, uint64_t realization,
  * precision and printed coordinates leave. */
 #define PS_UNIT_LENGTH_SLACK 1e-6
 
+/* Vectors whose length is 1 within that slack stand for their directions. */
+void ps_pattern_straighten(double u[3]);
+
 /* All sets have one dimension. */
 pspec_status ps_pattern_check_dimension(unsigned dimension, unsigned wanted, uint64_t realization,
                                         ps_error *error) PS_MUST_CHECK;

@@ -6,7 +6,7 @@
 
 /* What is no option, or one value of an option: the keys of scenes that ask for arrays, and what an
  * answer has several of. */
-enum { ARRAYS = PS_NUM_OPTIONS, COEFFICIENTS, WEIGHTS_OF_COLUMN, SEVERAL };
+enum { ARRAYS = PS_NUM_OPTIONS, COEFFICIENTS, WEIGHTS_OF_COLUMN, SEVERAL, SPACES };
 
 /* The first pair that was given is the one that is named, as it stands here: a, then b. */
 typedef struct option_pair {
@@ -46,6 +46,7 @@ static const option_pair pairs[] = {
     {PS_OPTION_COEFFICIENTS, SEVERAL, "one array has one file", 0},
     {WEIGHTS_OF_COLUMN, PS_OPTION_SAMPLER, "samplers make points only", ~BIT(variance)},
 
+    {SPACES, PS_OPTION_BRDF, "an error is that of one space", 0},
     {PS_OPTION_SHIFTS, PS_OPTION_IN_PLACE, "sets are moved, or they are not", 0},
     {PS_OPTION_WEIGHTS, PS_OPTION_SAMPLER, "all of its points count the same", BIT(variance)},
     {PS_OPTION_HEMISPHERE, PS_OPTION_SAMPLER, "it says where its points are", BIT(variance)},
@@ -86,6 +87,8 @@ static bool is_there(const ps_request *request, int id) {
         return request->weights.kind == PS_WEIGHTS_COLUMN;
     case SEVERAL:
         return ps_request_num_questions(request) > 1;
+    case SPACES:
+        return request->num_smoothness > 1;
     default:
         return request->is_given[id] &&
                (id != PS_OPTION_SAMPLER || ps_request_has_samplers(request));
@@ -103,6 +106,8 @@ static ps_shown_option show(const ps_request *request, int id) {
         snprintf(out.text, sizeof out.text, "%.20s column",
                  ps_option_show(request, PS_OPTION_WEIGHTS).text);
         return out;
+    case SPACES:
+        return (ps_shown_option){"several numbers of smoothness"};
     case SEVERAL:
         return request->num_sources > 1 ? (ps_shown_option){"several samplers or sets"}
                                         : (ps_shown_option){"several numbers of points"};

@@ -22,20 +22,20 @@
 #define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
 
 /* Sets of commands that many options have: kinds of spectra, those of them on the sphere, kinds
- * that look at point sets, all that read them from files, those that have a curve for each of
- * several, and kinds that have a lobe; commands that try engines, and those whose output is a
- * table. */
+ * that look at point sets, those that have engines, all that read sets from files, kinds that have
+ * a lobe, and those that have a curve for each of several; commands that try engines, and those
+ * whose output is a table. */
 #define BIT PS_COMMAND_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
 #define RULES (BIT(quadrature) | BIT(shade))
 #define SETS (SPECTRA | RULES | BIT(check))
-#define READERS (SETS | BIT(variance))
+#define ENGINES (SETS | BIT(variance))
+#define READERS (ENGINES | BIT(interpolation))
 #define LOBES (RULES | BIT(truncation))
-#define SERIES (SPECTRA | RULES | BIT(variance))
-#define ENGINES READERS
-#define PICTURES (SPECTRA | LOBES | BIT(variance))
+#define SERIES (SPECTRA | RULES | BIT(variance) | BIT(interpolation))
+#define PICTURES (SPECTRA | LOBES | BIT(variance) | BIT(interpolation))
 #define SUITES (BIT(bench) | BIT(stress))
-#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(merge) | BIT(devices))
+#define TABLES (READERS | SUITES | BIT(truncation) | BIT(merge) | BIT(devices))
 
 #endif

@@ -5,7 +5,6 @@
 #include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "frequencies/frequencies.h"
-#include "math/sobolev.h"
 
 #include <float.h>
 #include <math.h>
@@ -158,15 +157,6 @@ pspec_status ps_set_fit(const ps_said *said, ps_error *error) {
     return strcmp(said->text, "auto") == 0 ? PSPEC_OK
                                            : ps_parse_number(said->text, said->shown, 0, most,
                                                              &said->request->fit_exponent, error);
-}
-
-pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {
-    ps_error reason = {0};
-    PS_TRY(ps_parse_number(said->text, said->shown, -DBL_MAX, DBL_MAX, &said->request->smoothness,
-                           error));
-    const pspec_status status = ps_sobolev_check(said->request->smoothness, &reason);
-    return status == PSPEC_OK ? PSPEC_OK
-                              : ps_fail(error, status, "%s: %s", said->shown, reason.message);
 }
 
 pspec_status ps_add_text(const ps_said *said, ps_error *error) {

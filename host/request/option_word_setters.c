@@ -1,6 +1,7 @@
 /* Setters of options whose values are words, or numbers between commas and dots. */
 #include "request/option_setters.h"
 
+#include "math/sobolev.h"
 #include "base/text.h"
 #include "samplers/morph_words.h"
 
@@ -237,6 +238,23 @@ static pspec_status parse_numbers(const ps_said *said, double *numbers, size_t m
             PS_TRY(ps_parse_number(own, said->shown, -limit, limit, &numbers[*num], error));
         }
         at += length + is_more;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {
+    ps_request *const request = said->request;
+    ps_error reason = {0};
+    PS_TRY(parse_numbers(said, request->smoothness, PS_MAX_SMOOTHNESS, DBL_MAX,
+                         &request->num_smoothness, error));
+    if (request->num_smoothness > PS_MAX_SMOOTHNESS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %zu numbers are more than %d",
+                       said->shown, request->num_smoothness, PS_MAX_SMOOTHNESS);
+    }
+    for (size_t i = 0; i < request->num_smoothness; i++) {
+        if (ps_sobolev_check(request->smoothness[i], &reason) != PSPEC_OK) {
+            return ps_fail(error, reason.status, "%s: %s", said->shown, reason.message);
+        }
     }
     return PSPEC_OK;
 }

@@ -14,14 +14,14 @@
  * one counts, but for --sampler, --set, --integrand and --bounds. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
-        {NAMED("points", 'n', "N"), OF(ENGINES | BIT(sample), BIT(convert)),
+        {NAMED("points", 'n', "N"), OF(READERS | BIT(sample), BIT(convert)),
          .help =
              "points in each realization (default {check:as saved}{:1024}); several as 64,128,256 "
              "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
              "formats that do not say (rps)",
          .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), .source = PS_OF_SAMPLERS,
-                                OF(ENGINES | BIT(sample), 0),
+                                OF(READERS | BIT(sample), 0),
                                 .help = "realizations of each sampler (default {check:as saved, or "
                                         "128}{:1})",
                                 COUNT(num_realizations), .minimum = 1,
@@ -38,11 +38,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
     [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), .source = PS_OF_SAMPLERS,
-                        /* but for --per-ring */ OF(ENGINES | BIT(sample), 0),
+                        /* but for --per-ring */ OF(READERS | BIT(sample), 0),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
-                           OF(ENGINES | BIT(sample), 0),
+                           OF(READERS | BIT(sample), 0),
                            .help = "what makes the points, see Samplers", .set = ps_add_sampler,
                            .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_SET] = {NAMED("set", 0, "NAME=FILES"), OF(0, SERIES),
@@ -50,10 +50,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            "points of files, with commas or patterns as in bnot=b1.dat,b2*.dat: "
                            "realizations of one average, a curve NAME beside those of samplers",
                        .set = ps_add_set, .maximum = PS_MAX_SAMPLERS},
-    [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"),
-                             OF(BIT(variance) | BIT(shade) | BIT(truncation), 0),
-                             .help = "what is integrated, see Integrands",
-                             TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
+    [PS_OPTION_INTEGRAND] =
+        {NAMED("integrand", 0, "NAME[:key=value,...]"),
+         OF(BIT(variance) | BIT(shade) | BIT(truncation) | BIT(interpolation), 0),
+         .help = "what is {interpolation:interpolated}{:integrated}, see Integrands",
+         TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
         {NAMED("shifts", 0, "S"), OF(BIT(variance) | BIT(shade), 0),
          .help = "{shade:orientations of every set (default 1000, of all sets together; 0: "
@@ -100,9 +101,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
                         .help = "lobe of reflection, see BRDFs", TEXT(brdf),
                         .input = ps_input_of_named},
-    [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES, 0),
-                              .help = "of the integrands, functions of the Sobolev space H^S, "
-                                      "1 < S < 2 (default 1.5)",
+    [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES | BIT(interpolation), 0),
+                              .help = "of the {interpolation:kernel of}{:integrands, functions of} "
+                                      "the Sobolev space H^S, 1 < S < 2 (default 1.5){"
+                                      "interpolation:; several as 1.1,1.5,1.9}{:}",
                               .set = ps_set_smoothness},
     [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"),
                                  OF(BIT(power) | BIT(check) | BIT(variance), 0),
@@ -116,7 +118,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "ceil(4 sqrt N)}{shade:that of the light, at most 256}{:ceil(4 sqrt N)})",
          .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
-                          OF(ENGINES | BIT(sample), BIT(convert) | BIT(run)),
+                          OF(READERS | BIT(sample), BIT(convert) | BIT(run)),
                           .help = "what points and the engine may take, as in 400M or 2G; it "
                                   "chooses among engines and is kept with the results (default: "
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
@@ -172,14 +174,15 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          .help = "N |S|^2 / W^2 with N of each set (default power), |S|^2 / sum w^2, "
                  "or mean(N) mean(|S|^2 / W^2)",
          .set = ps_set_normalize},
-    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), .source = PS_OF_SAMPLERS,
-                              OF(SETS | BIT(sample), 0),
-                              .help = "{power:shift every realization by one random vector, mod 1}"
-                                      "{angular,pairs,quadrature,shade:rotate every realization by "
-                                      "one random rotation}{:shift every realization by one "
-                                      "random vector, mod 1; points of the sphere are rotated}",
-                              FLAG(homogenize)},
-    [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(READERS, BIT(convert)),
+    [PS_OPTION_HOMOGENIZE] =
+        {NAMED("homogenize", 0, NULL), .source = PS_OF_SAMPLERS,
+         OF(SETS | BIT(interpolation) | BIT(sample), 0),
+         .help = "{power:shift every realization by one random vector, mod 1}"
+                 "{angular,pairs,quadrature,shade,interpolation:rotate every realization by "
+                 "one random rotation}{:shift every realization by one "
+                 "random vector, mod 1; points of the sphere are rotated}",
+         FLAG(homogenize)},
+    [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(ENGINES, BIT(convert)),
                            .help = "equal: all 1, weights of the files are dropped; column: the "
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
@@ -239,12 +242,15 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                "those in [0,1)",
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
-                                     OF(SPHERES | RULES | BIT(check) | BIT(variance), BIT(convert)),
+                                     OF(SPHERES | RULES | BIT(check) | BIT(variance) |
+                                            BIT(interpolation),
+                                        BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
-                        OF(SPHERES | RULES | BIT(check) | BIT(variance), BIT(convert)),
+                        OF(SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation),
+                           BIT(convert)),
                         .help = "points (x, y) of the plane become points of the sphere, z = 2x - "
                                 "1 or z = x, phi = 2 pi y, as by lift= of samplers",
                         .set = ps_set_lift},
@@ -274,10 +280,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                       "xyz, with w if there are weights)",
                               WORD(to_columns)},
     [PS_OPTION_TOLERANCE] =
-        {NAMED("tol", 0, "T"), OF(ENGINES, 0),
+        {NAMED("tol", 0, "T"), OF(READERS, 0),
          .help = "largest error, above 0 and at most 1, of {pairs:Q(l) over (sum "
                  "|w|)^2 (default 1e-6)}{quadrature,shade:E^2 over c (sum |w|)^2 (default "
-                 "1e-10)}{:S relative to white noise (default 1e-6)}",
+                 "1e-10)}{interpolation:K alpha over f by conjugate gradients (default 1e-12)}{:S "
+                 "relative to white noise (default 1e-6)}",
          SHARE(accuracy.tolerance)},
     [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
                          .help = "powers down to P are right to 10 %", POSITIVE(accuracy.floor)},
@@ -295,7 +302,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "measure this device's figures for the planner and keep them",
                              FLAG(calibrate)},
     [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
-                          OF(0, ENGINES | SUITES | BIT(sample) | BIT(run) | BIT(devices) |
+                          OF(0, READERS | SUITES | BIT(sample) | BIT(run) | BIT(devices) |
                                     BIT(doctor)),
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
@@ -306,7 +313,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
     [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"),
-                             OF(0, ENGINES | BIT(sample) | BIT(run)),
+                             OF(0, READERS | BIT(sample) | BIT(run)),
                              .help = "what sets of samplers that take long to make may take on the "
                                      "disk; 0: they are made anew (default 4e9)",
                              COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
@@ -351,11 +358,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                .help = "show the points of the first set, up to 16384, beside the "
                                        "spectrum of one sampler or of files (default yes)",
                                WORD(plot_points)},
-    [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, ENGINES),
+    [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, READERS),
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(limits.profile)},
     [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
-                         OF(0, ENGINES | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
+                         OF(0, READERS | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
                                    BIT(run)),
                          .help = "no progress line, no remarks", FLAG(quiet)},
     [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
@@ -366,7 +373,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "and compare the answers",
                           FLAG(scenes)},
     [PS_OPTION_VERBOSE] =
-        {NAMED("verbose", 0, NULL), OF(0, ENGINES | BIT(truncation)),
+        {NAMED("verbose", 0, NULL), OF(0, READERS | BIT(truncation)),
          .help = "{truncation:}{:say on standard error what is being done; }all lines "
                  "of the header, of which a terminal shows four",
          FLAG(verbose)},

@@ -17,6 +17,7 @@
     KIND(truncation)                                                                               \
     KIND(variance)                                                                                 \
     KIND(shade)                                                                                    \
+    KIND(interpolation)                                                                            \
     PLANNED(sample)                                                                                \
     PLANNED(convert)                                                                               \
     KIND(check)                                                                                    \

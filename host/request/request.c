@@ -14,7 +14,8 @@ const ps_request ps_request_default = {
     .accuracy = {.tolerance = 1e-6},
     .limits = {.constraints = {.precision = -1}, .kept_bytes = 4000000000},
     .false_alarm_rate = 1e-3,
-    .smoothness = 1.5,
+    .num_smoothness = 1,
+    .smoothness = {1.5},
     .command_line = ""};
 
 pspec_status ps_request_check_one_count(const ps_request *request, const char *why,

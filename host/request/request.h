@@ -20,7 +20,13 @@
 #include <stdint.h>
 
 /* The doubles of 1 up to the largest N are 34 numbers. */
-enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64, PS_MAX_INTEGRANDS = 16, PS_SET_NAME_BYTES = 64 };
+enum {
+    PS_MAX_SAMPLERS = 16,
+    PS_MAX_COUNTS = 64,
+    PS_MAX_INTEGRANDS = 16,
+    PS_MAX_SMOOTHNESS = 8,
+    PS_SET_NAME_BYTES = 64
+};
 
 typedef enum ps_option_id {
     PS_OPTION_POINTS,            /* -n, --points N,..|N..M */
@@ -163,8 +169,9 @@ typedef struct ps_request {
     /* The answer has its array, the standard errors of that array, its coefficients
      * (answers/kind.h), or state by which it is merged; no option asks for them. */
     bool wants_array, wants_errors, wants_coefficients, wants_state;
-    pspec_normalization normalization; /* never that of pairs */
-    double smoothness;                 /* 1.5 unless given */
+    pspec_normalization normalization;    /* never that of pairs */
+    size_t num_smoothness;                /* 1, more of interpolation */
+    double smoothness[PS_MAX_SMOOTHNESS]; /* 1.5 unless given */
     bool wants_fit;
     double fit_exponent; /* of profiles; nan: the one that is found */
     size_t num_bounds;   /* 0; 1 of all samplers, or one of each, in their order */

@@ -49,6 +49,10 @@ static const char *const questions[] = {
     "shade sampler=white-hemisphere sampler=fibonacci-hemisphere points=4,8 brdf=diffuse "
     "integrand=coefficients:file=light.txt shifts=3",
     "shade files=above.txt brdf=diffuse integrand=map:file=light.pfm shifts=3",
+    "interpolation sampler=white-sphere sampler=fibonacci points=4,8 "
+    "integrand=coefficients:file=light.txt integrand=map:file=light.pfm smoothness=1.1,1.5 "
+    "output=maps.npz engine=default",
+    "interpolation files=above.txt integrand=map:file=light.pfm engine=default",
     "check against=saved.npz sampler=white seed=1",
     "check against=saved.npz files=saved.npz engine=default",
     "check against=sphere.npz sampler=white-sphere",

@@ -74,7 +74,7 @@ make_inputs() {
     printf '0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n' >own.txt
     printf '2 1 1 .5\n0 0 1 0\n' >lm.txt
     "$program" power --engine host_direct --sampler white -n 8 -k 1 --coefficients own.npy -o own.csv
-    for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
+    for ending in csv json npy npz png txt; do echo "an earlier result" >old.$ending; done
     cat >points.yaml <<'EOF'
 scene: 1
 defaults: {engine: host_direct, no-self-check: true}

@@ -39,7 +39,7 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
         {"normalization", PS_TEXT("weights as they are; equal ones are 1/N")},
         {"weights", PS_TEXT(name_weights(question))},
         {"brdf", PS_TEXT(arguments->brdf)},
-        {"smoothness", PS_NUMBER(arguments->smoothness)},
+        {"smoothness", PS_NUMBER(arguments->smoothness[0])},
     };
     PS_TRY(ps_lead_add_origin(table, arguments->command_line, error));
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));

@@ -67,7 +67,7 @@ static pspec_status make_request(ps_sampler_request *request, const ps_request *
 static ps_quadrature_question make_question(const ps_request *arguments, const ps_brdf *brdf) {
     ps_quadrature_question out = {
         .brdf = brdf,
-        .smoothness = arguments->smoothness,
+        .smoothness = arguments->smoothness[0],
         .weights = arguments->weights,
         .keeps_weights = arguments->weights_out != NULL || arguments->wants_array,
         .point_options = ps_point_options_make(arguments),

@@ -29,7 +29,7 @@ static ps_truncation_question question_of(const ps_request *request) {
     const char *const harmonics = request->harmonics;
     return (ps_truncation_question){
         .brdf = request->brdf,
-        .smoothness = request->smoothness,
+        .smoothness = request->smoothness[0],
         .is_hemispherical = harmonics != NULL && strcmp(harmonics, "hemispherical") == 0,
         .max_degree = request->max_degree > 0 ? (size_t)request->max_degree : DEFAULT_DEGREE};
 }
@@ -45,6 +45,7 @@ static pspec_status check_question(const ps_request *arguments, ps_error *error)
                        ps_option_show(arguments, PS_OPTION_MAX_DEGREE).text,
                        (unsigned long long)arguments->max_degree, MOST_DEGREE);
     }
+    PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_truncation, error));
     return ps_light_check(arguments, false, error);
 }
 
@@ -72,7 +73,7 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
 static pspec_status find_points(products *self, const ps_request *request,
                                 const ps_answer_hooks *hooks, ps_error *error) {
     ps_quadrature_question rules = {.brdf = self->job.brdf,
-                                    .smoothness = request->smoothness,
+                                    .smoothness = request->smoothness[0],
                                     .limits = request->limits,
                                     .watch = hooks->watch};
     PS_TRY(ps_limits_open_device(&request->limits, hooks->device, true, &rules.open_device,

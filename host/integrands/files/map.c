@@ -136,6 +136,11 @@ static void values(const ps_integrand *self, const double *points, size_t num, d
     }
 }
 
+static void image_size(const ps_integrand *self, size_t *width, size_t *height) {
+    *width = own_of(self)->map.width;
+    *height = own_of(self)->map.height;
+}
+
 static const char *note(const ps_integrand *self) {
     return own_of(self)->note[0] != '\0' ? own_of(self)->note : NULL;
 }
@@ -160,6 +165,7 @@ const ps_integrand_kind ps_integrand_map = {
     .degrees = degrees,
     .coefficients = coefficients,
     .values = values,
+    .image_size = image_size,
     .note = note,
     .file = file,
 };

@@ -115,5 +115,8 @@ void ps_phases_lobe(ps_phases *phases, const ps_representer *representer);
 void ps_phases_kappa(ps_phases *phases, const char *name, double points, double terms, double sets);
 void ps_phases_distances(ps_phases *phases, const char *name, double smoothness, double distances,
                          double sets);
+/* Adds so many solutions with the kernel matrix of each set, by a factor or without. */
+void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothness, double points,
+                             double solutions, bool is_dense, double sets);
 
 #endif

@@ -52,19 +52,16 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
 }
 
 /* The factor of the kernel matrix and its entries; or conjugate gradients, where one step is a
- * product, and so are the condition, the residual and what the kernel form does. The sum of the
- * weights is imposed by a second system of equations. */
-static void add_weights(const ps_quadrature_question *question, double points, double sets,
-                        ps_phases *phases) {
-    static const char name[] = "weights";
+ * product, and so are the condition, the residual and what the kernel form does. */
+void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothness, double points,
+                             double solutions, bool is_dense, double sets) {
     const double operation_seconds = 1.25e-11; /* of the factor */
     const double entry_seconds = 25e-9;        /* made, summed, and solved with */
     const double product_seconds = 0.8e-9;     /* a pair, in a product by the device */
     const double others = 3;                   /* products */
-    const bool powers = needs_powers(question->smoothness);
-    const double solutions = question->weights.sum_to_one ? 2 : 1;
+    const bool powers = needs_powers(smoothness);
     const double square = points * points;
-    if (ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit)) {
+    if (is_dense) {
         ps_phases_share(phases, name, square,
                         points / 3 * operation_seconds + solutions * entry_seconds, sets);
         ps_phases_say(phases, name, "Cholesky of %.6g x %.6g", points, points);
@@ -75,6 +72,15 @@ static void add_weights(const ps_quadrature_question *question, double points, d
         ps_phases_say(phases, name, "conjugate gradients, %g steps", steps);
         ps_phases_limit(phases, name);
     }
+}
+
+/* The sum of the weights is imposed by a second system of equations. */
+static void add_weights(const ps_quadrature_question *question, double points, double sets,
+                        ps_phases *phases) {
+    const bool is_dense =
+        ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit);
+    ps_phases_kernel_system(phases, "weights", question->smoothness, points,
+                            question->weights.sum_to_one ? 2 : 1, is_dense, sets);
 }
 
 static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_question *question,

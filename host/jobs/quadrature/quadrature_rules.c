@@ -106,17 +106,6 @@ static pspec_status refuse(const ps_rules *rules, size_t j, double z, ps_error *
                    j + 1, (unsigned long long)rules->num_read + 1, z);
 }
 
-/* Files may have vectors whose length is 1 within 1e-6: they stand for their directions. */
-static void straighten(double u[3]) {
-    const double square = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-    if (fabs(square - 1) > 4 * DBL_EPSILON) {
-        const double length = sqrt(square);
-        for (int i = 0; i < 3; i++) {
-            u[i] /= length;
-        }
-    }
-}
-
 /* Leaves those that count, with weights [num_points] where they have any. */
 static pspec_status accept_points(ps_rules *rules, ps_point_set *set, double *weights,
                                   ps_error *error) {
@@ -134,7 +123,7 @@ static pspec_status accept_points(ps_rules *rules, ps_point_set *set, double *we
         for (int i = 0; i < 3; i++) {
             points[3 * kept + (size_t)i] = u[i];
         }
-        straighten(points + 3 * kept);
+        ps_pattern_straighten(points + 3 * kept);
         if (rules->places != NULL) {
             rules->places[kept] = j;
         }

@@ -102,3 +102,16 @@ pspec_status ps_kernel_points_refuse(const ps_kernel_system *system, size_t i, s
                    "matrix is singular in double precision; merge them or take less smoothness",
                    first_of(system, i) + 1, first_of(system, j) + 1, distance, system->smoothness);
 }
+
+/* The first point that is not the first one of its group comes before groups of its number. */
+pspec_status ps_kernel_system_check_distinct(const ps_kernel_system *system, ps_error *error) {
+    size_t j = 0;
+    while (j < system->num_points && system->group[j] == j) {
+        j++;
+    }
+    return j == system->num_points
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "points %zu and %zu are equal; an interpolant has points that differ",
+                         first_of(system, system->group[j]) + 1, j + 1);
+}

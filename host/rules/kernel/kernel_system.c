@@ -78,7 +78,9 @@ static pspec_status prepare_dense(ps_kernel_system *system, ps_error *error) {
 
 /* The points given decide which way, not how many are left of them: so says the plan. */
 static pspec_status build(ps_kernel_system *system, const double *points, ps_error *error) {
+    const size_t most = system->options.most_dense;
     const bool is_dense =
+        (most == 0 || system->num_points <= most) &&
         ps_kernel_system_is_dense(system->num_points, system->options.memory_limit);
     PS_TRY(allocate(system, is_dense, error));
     PS_TRY(ps_kernel_points_merge(system, points, error));

@@ -21,6 +21,7 @@ typedef struct ps_kernel_system ps_kernel_system;
 
 typedef struct ps_kernel_options {
     uint64_t memory_limit; /* bytes, as somebody asked for; 0: none */
+    size_t most_dense;     /* points whose matrix is stored; 0: PS_KERNEL_MOST_DENSE */
     double residual;       /* conjugate gradients end at this |r|/|right side|; 0: 1e-12 */
     size_t most_steps;     /* and fail at so many; 0: 2000 */
     ps_device *device;     /* of conjugate gradients; borrowed. NULL: threads of the host */
@@ -57,6 +58,9 @@ pspec_status ps_kernel_system_create(ps_kernel_system **out, size_t num_points,
                                      const ps_kernel_options *options,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_kernel_system_destroy(ps_kernel_system *system); /* NULL is allowed */
+/* Equal points are PSPEC_ERROR_INPUT, with the first two in the sentence. */
+pspec_status ps_kernel_system_check_distinct(const ps_kernel_system *system,
+                                             ps_error *error) PS_MUST_CHECK;
 
 /* K x = right, both [num_points]; duplicates share what their one point gets in equal parts, and
  * must have equal right sides (the first one counts). *defect (NULL: not wanted) becomes x . (right

@@ -1,0 +1,328 @@
+#include "jobs/interpolation/interpolation_job.h"
+
+#include "base/memory.h"
+#include "math/neumaier.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Pixels times points of one call, which nobody can stop: some tenths of a second of two cores. */
+static const double call_pairs = 1 << 26;
+
+bool ps_interpolation_is_dense(const ps_interpolation_question *question, size_t num_points) {
+    return num_points <= PS_INTERPOLATION_MOST_DENSE &&
+           ps_kernel_system_is_dense(num_points, question->limits.constraints.memory_limit);
+}
+
+/* Values, solution and what is found at the points. */
+static size_t numbers_of_point(const ps_interpolation_question *question) {
+    return question->panorama->num + 2;
+}
+
+static size_t pixels_of(const ps_interpolation_question *question) {
+    return question->panorama->width * question->panorama->height;
+}
+
+static size_t num_rows(const ps_interpolation_question *question) {
+    return question->num_smoothness * question->panorama->num;
+}
+
+uint64_t ps_interpolation_bytes(const ps_interpolation_question *question, size_t num_points) {
+    const uint64_t own = numbers_of_point(question) * (uint64_t)num_points;
+    const uint64_t images = question->keeps_images ? num_rows(question) : 0;
+    return ps_kernel_system_bytes(num_points, ps_interpolation_is_dense(question, num_points)) +
+           (own + (images + question->panorama->num) * pixels_of(question)) * sizeof(double);
+}
+
+/* A set that is the same every time is interpolated at once. */
+uint64_t ps_interpolation_num_sets(const ps_interpolation_question *question) {
+    const ps_sampler_request *const sampler = question->sampler;
+    const bool is_same =
+        sampler != NULL && !sampler->homogenize && ps_sampler_has_constant_power(sampler);
+    return is_same ? 1 : question->num_realizations;
+}
+
+/* ---- create -------------------------------------------------------------------------------- */
+
+static pspec_status open_source(ps_interpolation_job *job, ps_error *error) {
+    const ps_interpolation_question *const question = job->question;
+    ps_source **const source = &job->sets.source;
+    if (question->sampler != NULL) {
+        const ps_sets_options options = ps_limits_sets(&question->limits, false);
+        return ps_source_sampler(source, question->sampler, ps_interpolation_num_sets(question),
+                                 &options, &question->watch, error);
+    }
+    const ps_source_options options = {.points = question->point_options,
+                                       .whole_bytes = UINT64_MAX}; /* a system is of all points */
+    return ps_source_files(source, question->paths, question->num_paths, &options, error);
+}
+
+static pspec_status find_points(ps_interpolation_job *job, ps_error *error) {
+    const ps_sampler_request *const sampler = job->question->sampler;
+    bool has_set = false;
+    if (sampler != NULL) {
+        job->first_points = ps_sampler_most_points(sampler);
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_power_sets_peek(&job->sets, &has_set, error));
+    job->first_points = job->sets.next.num_points;
+    return has_set ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to interpolate at");
+}
+
+static pspec_status check_memory(const ps_interpolation_question *question, size_t num_points,
+                                 ps_error *error) {
+    const uint64_t limit = question->limits.constraints.memory_limit;
+    const uint64_t bytes = ps_interpolation_bytes(question, num_points);
+    return limit == 0 || bytes <= limit
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "interpolation at %zu points takes %llu bytes, more than the memory limit "
+                         "(--memory) of %llu",
+                         num_points, (unsigned long long)bytes, (unsigned long long)limit);
+}
+
+static pspec_status prepare(ps_interpolation_job *job, ps_error *error) {
+    const ps_interpolation_question *const question = job->question;
+    PS_TRY(open_source(job, error));
+    PS_TRY(find_points(job, error));
+    PS_TRY(check_memory(question, job->first_points, error));
+    return ps_interpolation_is_dense(question, job->first_points)
+               ? PSPEC_OK
+               : ps_limits_open_device(&question->limits, question->open_device, true, &job->device,
+                                       &job->owns_device, error);
+}
+
+pspec_status ps_interpolation_job_create(ps_interpolation_job **out,
+                                         const ps_interpolation_question *question,
+                                         ps_error *error) {
+    ps_interpolation_job *job = NULL;
+    *out = NULL;
+    PS_TRY(PS_NEW(&job, 1, "a job", error));
+    job->question = question;
+    const pspec_status status = prepare(job, error);
+    if (status != PSPEC_OK) {
+        ps_interpolation_job_destroy(job);
+        return status;
+    }
+    *out = job;
+    return PSPEC_OK;
+}
+
+void ps_interpolation_job_release(ps_interpolation_job *job) {
+    ps_power_sets_free(&job->sets);
+    free(job->block);
+    free(job->directions);
+    job->block = job->directions = NULL;
+    job->most_points = 0;
+}
+
+void ps_interpolation_job_destroy(ps_interpolation_job *job) {
+    if (job == NULL) {
+        return;
+    }
+    ps_interpolation_job_release(job);
+    if (job->owns_device) {
+        ps_device_close(job->device);
+    }
+    free(job->rows);
+    free(job->images);
+    free(job);
+}
+
+/* ---- one set ------------------------------------------------------------------------------- */
+
+/* For a set of so many points, which files may have more of than the first. */
+static pspec_status make_room(ps_interpolation_job *job, size_t num_points, ps_error *error) {
+    const ps_panorama *const panorama = job->question->panorama;
+    if (num_points <= job->most_points) {
+        return PSPEC_OK;
+    }
+    const double fit = call_pairs / (double)num_points / (double)panorama->width;
+    free(job->block);
+    free(job->directions);
+    job->block = job->directions = NULL;
+    job->most_points = num_points;
+    job->rows_of_block = fit < (double)panorama->height ? (size_t)fit + 1 : panorama->height;
+    PS_TRY(ps_allocate_for(&job->block, num_points,
+                           numbers_of_point(job->question) * sizeof(double), "values", error));
+    job->values = job->block;
+    job->alpha = job->values + panorama->num * num_points;
+    job->found = job->alpha + num_points;
+    PS_TRY(PS_NEW(&job->directions, job->rows_of_block * panorama->width * 4, "pixels", error));
+    job->pixels = job->directions + job->rows_of_block * panorama->width * 3;
+    return PSPEC_OK;
+}
+
+/* Unit vectors, and the functions there. */
+static pspec_status take_values(ps_interpolation_job *job, ps_point_set *set, ps_error *error) {
+    const ps_panorama *const panorama = job->question->panorama;
+    ps_pattern_count count = {.realization = job->num_realizations, .on_sphere = true};
+    PS_TRY(ps_pattern_count_add(&count, &job->sets.patterns[0], error));
+    PS_TRY(check_memory(job->question, set->num_points, error));
+    PS_TRY(make_room(job, set->num_points, error));
+    for (size_t j = 0; j < set->num_points; j++) {
+        ps_pattern_straighten(set->points + 3 * j);
+    }
+    for (size_t f = 0; f < panorama->num; f++) {
+        PS_TRY(ps_panorama_values(panorama, f, set->points, set->num_points,
+                                  job->values + f * set->num_points, error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- a kernel and a function --------------------------------------------------------------- */
+
+typedef struct interpolant {
+    ps_interpolation_job *job;
+    const ps_point_set *set;
+    double smoothness;
+    size_t index; /* of the row of the job */
+    const double *f;
+    ps_interpolation_row *row;
+} interpolant;
+
+static void evaluate(const interpolant *self, size_t num, const double *at, double *values) {
+    ps_kernel_interpolate(self->set->num_points, self->set->points, self->smoothness,
+                          self->job->alpha, num, at, values);
+}
+
+/* What is left of the equations, by sums that solved none of them. */
+static void check_points(const interpolant *self) {
+    double off = 0;
+    double most = 0;
+    const size_t num = self->set->num_points;
+    evaluate(self, num, self->set->points, self->job->found);
+    for (size_t j = 0; j < num; j++) {
+        off = fmax(off, fabs(self->job->found[j] - self->f[j]));
+        most = fmax(most, fabs(self->f[j]));
+    }
+    self->row->residual = fmax(self->row->residual, most > 0 ? off / most : off);
+}
+
+/* Returns the part of the mean square that the row of the panorama has. */
+static double compare_row(const interpolant *self, size_t row, const double *found) {
+    const ps_panorama *const panorama = self->job->question->panorama;
+    const size_t function = self->index % panorama->num;
+    const double *const f =
+        panorama->values + (function * panorama->height + row) * panorama->width;
+    ps_neumaier sum = {0, 0};
+    for (size_t j = 0; j < panorama->width; j++) {
+        const double off = found[j] - f[j];
+        ps_neumaier_add(&sum, off * off);
+        self->row->largest_error = fmax(self->row->largest_error, fabs(off));
+    }
+    return ps_neumaier_value(&sum) * ps_panorama_share(panorama, row);
+}
+
+static pspec_status compare(const interpolant *self, ps_error *error) {
+    ps_interpolation_job *const job = self->job;
+    const ps_panorama *const panorama = job->question->panorama;
+    const size_t width = panorama->width;
+    double *const image = job->images != NULL && job->num_realizations == 0
+                              ? job->images + self->index * width * panorama->height
+                              : NULL;
+    ps_neumaier square = {0, 0};
+    for (size_t first = 0; first < panorama->height; first += job->rows_of_block) {
+        const size_t left = panorama->height - first;
+        const size_t num = left < job->rows_of_block ? left : job->rows_of_block;
+        PS_TRY(ps_watch_tell(&job->question->watch, "interpolation: rows of pixels", first,
+                             panorama->height, NULL, error));
+        ps_panorama_directions(panorama, first, num, job->directions);
+        evaluate(self, num * width, job->directions, job->pixels);
+        for (size_t i = 0; i < num; i++) {
+            ps_neumaier_add(&square, compare_row(self, first + i, job->pixels + i * width));
+        }
+        if (image != NULL) {
+            memcpy(image + first * width, job->pixels, num * width * sizeof *image);
+        }
+    }
+    ps_sums_add(&self->row->squares, ps_neumaier_value(&square));
+    return PSPEC_OK;
+}
+
+static pspec_status interpolate(const interpolant *self, ps_kernel_system *system,
+                                ps_error *error) {
+    ps_interpolation_row *const row = self->row;
+    ps_interpolation_job *const job = self->job;
+    PS_TRY(ps_kernel_system_solve(system, self->f, job->alpha, NULL, error));
+    const ps_kernel_facts facts = ps_kernel_system_facts(system);
+    const double square = ps_kernel_dot(self->set->num_points, self->f, job->alpha);
+    ps_sums_add(&row->norms, fmax(square, 0)); /* of 0, rounding may leave less */
+    row->condition = fmax(row->condition, facts.condition);
+    row->num_steps = facts.num_steps > row->num_steps ? facts.num_steps : row->num_steps;
+    check_points(self);
+    return compare(self, error);
+}
+
+/* All functions by one kernel. */
+static pspec_status use_kernel(ps_interpolation_job *job, const ps_point_set *set, size_t index,
+                               ps_error *error) {
+    const ps_interpolation_question *const question = job->question;
+    const size_t num = question->panorama->num;
+    const ps_kernel_options options = {.memory_limit = question->limits.constraints.memory_limit,
+                                       .most_dense = PS_INTERPOLATION_MOST_DENSE,
+                                       .residual = question->residual,
+                                       .device = job->device,
+                                       .watch = &question->watch};
+    ps_kernel_system *system = NULL;
+    PS_TRY(ps_kernel_system_create(&system, set->num_points, set->points,
+                                   question->smoothness[index], &options, error));
+    pspec_status status = ps_kernel_system_check_distinct(system, error);
+    for (size_t f = 0; status == PSPEC_OK && f < num; f++) {
+        const interpolant one = {.job = job,
+                                 .set = set,
+                                 .smoothness = question->smoothness[index],
+                                 .index = index * num + f,
+                                 .f = job->values + f * set->num_points,
+                                 .row = &job->rows[index * num + f]};
+        status = interpolate(&one, system, error);
+    }
+    ps_kernel_system_destroy(system);
+    return status;
+}
+
+static pspec_status use_set(ps_interpolation_job *job, ps_error *error) {
+    ps_point_set *const set = &job->sets.sets[0];
+    const bool is_first = job->num_realizations == 0;
+    PS_TRY(take_values(job, set, error));
+    for (size_t s = 0; s < job->question->num_smoothness; s++) {
+        PS_TRY(use_kernel(job, set, s, error));
+    }
+    job->num_realizations++;
+    job->num_points += set->num_points;
+    if (is_first || set->num_points < job->smallest_points) {
+        job->smallest_points = set->num_points;
+    }
+    if (set->num_points > job->largest_points) {
+        job->largest_points = set->num_points;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- all of them --------------------------------------------------------------------------- */
+
+pspec_status ps_interpolation_job_run(ps_interpolation_job *job, ps_error *error) {
+    const ps_interpolation_question *const question = job->question;
+    const size_t num_images = question->keeps_images ? num_rows(question) : 0;
+    size_t num = 0;
+    PS_TRY(PS_NEW(&job->rows, num_rows(question), "errors", error));
+    if (num_images > 0) {
+        PS_TRY(ps_allocate_for(&job->images, num_images, pixels_of(question) * sizeof(double),
+                               "images", error));
+    }
+    PS_TRY(ps_power_sets_allocate(&job->sets, 1, error));
+    do {
+        PS_TRY(ps_watch_tell(&question->watch, "realizations", job->num_realizations,
+                             ps_interpolation_num_sets(question), NULL, error));
+        PS_TRY(ps_power_sets_fill(&job->sets, false, 1, &num, error));
+        PS_TRY(num > 0 ? use_set(job, error) : PSPEC_OK);
+    } while (num > 0);
+    return PSPEC_OK;
+}
+
+const ps_interpolation_row *ps_interpolation_job_row(const ps_interpolation_job *job,
+                                                     size_t smoothness, size_t function) {
+    return &job->rows[smoothness * job->question->panorama->num + function];
+}

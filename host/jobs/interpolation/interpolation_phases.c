@@ -1,0 +1,38 @@
+#include "jobs/interpolation/interpolation_job.h"
+#include "jobs/point_phases.h"
+#include "jobs/quadrature/quadrature_job.h"
+
+#include <math.h>
+
+/* Sets that are made; of files as many as their size suggests. */
+static double add_points(const ps_interpolation_job *job, ps_phases *phases) {
+    const ps_interpolation_question *const question = job->question;
+    if (question->sampler != NULL) {
+        const ps_sets_options sets = ps_limits_sets(&question->limits, false);
+        const double num = (double)ps_interpolation_num_sets(question);
+        ps_phases_sample(phases, question->sampler, num, &sets);
+        return num;
+    }
+    const double points =
+        ps_phases_read(phases, question->paths, question->num_paths, &question->point_options, 3);
+    return fmax(1, nearbyint(points / (double)job->first_points));
+}
+
+void ps_interpolation_job_phases(const ps_interpolation_job *job, ps_phases *phases) {
+    static const char kernel[] = "kernel systems";
+    static const char pixels[] = "interpolation";
+    const ps_interpolation_question *const question = job->question;
+    const ps_panorama *const panorama = question->panorama;
+    const double points = (double)job->first_points;
+    const double num = (double)panorama->num;
+    const double sets = add_points(job, phases);
+    const double each = points * ((double)panorama->width * (double)panorama->height + points);
+    for (size_t i = 0; i < question->num_smoothness; i++) {
+        const double s = question->smoothness[i];
+        ps_phases_kernel_system(phases, kernel, s, points, num,
+                                ps_interpolation_is_dense(question, job->first_points), sets);
+        ps_phases_distances(phases, pixels, s, num * each, sets);
+    }
+    ps_phases_say(phases, pixels, "%.4g pixels and points from %.6g points", each / points, points);
+    ps_phases_tabulate(phases, num * (double)question->num_smoothness);
+}
