@@ -35,7 +35,7 @@ typedef struct ps_series {
     const char *label;   /* NULL: none; in a frame, the key does not have it */
     /* From 0; series of a kind look the same, and have the same label, in every panel */
     size_t kind;
-    size_t num;
+    size_t num, columns; /* of a map: pixels of a row */
     const double *x, *y;
     const double *error;      /* standard errors, of spectra and of marks; else NULL */
     const double *anisotropy; /* of spectra, in dB; else NULL */
@@ -66,12 +66,14 @@ typedef enum ps_frame_form {
     PS_FRAME_PLANE,  /* the same: 0 is in the middle, and both axes have the same unit */
     PS_FRAME_SQUARE, /* points: both axes from `first` to `last` */
     PS_FRAME_LINE,   /* the axis of x, points of one coordinate; y is not looked at */
-    PS_FRAME_DISC    /* the unit disc, a side of the sphere */
+    PS_FRAME_DISC,   /* the unit disc, a side of the sphere */
+    PS_FRAME_MAP /* all of the sphere: y of a series, row by row from the north pole on; x is not
+                        looked at; black at `first`, white at `last` */
 } ps_frame_form;
 
 typedef struct ps_frame {
     ps_frame_form form;
-    double first, last;            /* of a square or a line */
+    double first, last;            /* of a square, a line or a map */
     const char *x_label, *y_label; /* names of the axes, at the ends of those of a disc; NULL: those
                                       of the figure */
     bool is_mirrored;              /* x runs to the left */

@@ -31,7 +31,11 @@ static void print_data(ps_text *out, const ps_script_page *page) {
         for (size_t j = 0; j < own->panel.num_series; j++) {
             if (own->panel.series[j].num > 0 || own->panel.frame.form >= PS_FRAME_SQUARE) {
                 ps_text_append(out, "$data%zu_%zu << EOD\n", i, j);
-                print_places(out, own, &own->panel.series[j]);
+                if (own->panel.frame.form == PS_FRAME_MAP) {
+                    ps_script_print_map_data(out, &own->panel);
+                } else {
+                    print_places(out, own, &own->panel.series[j]);
+                }
                 ps_text_append(out, "EOD\n");
             }
         }

@@ -124,7 +124,9 @@ double ps_script_line_width(const ps_script_panel *panel, size_t index);
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-/* The square, line or disc, and "plot" with the points in it. */
+/* The numbers of a map: how bright blocks of its pixels are, from 0 to 255. */
+void ps_script_print_map_data(ps_text *out, const ps_panel *panel);
+/* The square, line, disc or map, and "plot" with the points in it. */
 void ps_script_print_points(ps_text *out, const ps_script_page *page, size_t number);
 /* Diameter of their marks, in pixels, as is that side of the panel. */
 double ps_script_mark_size(const ps_panel *panel, double side);

@@ -101,7 +101,8 @@ pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_resul
     out->request.quiet = true;
     out->request.wants_picture =
         result->wants_pictures ||
-        (result->wants_plot && result->kind->pictures->dealing == PS_OF_SETS);
+        (result->wants_plot && result->kind->pictures->dealing == PS_OF_SETS &&
+         result->kind->pictures->needs == PS_NEEDS_NOTHING);
     out->request.wants_array = result->wants_arrays && !result->wants_coefficients;
     out->request.wants_coefficients = result->wants_coefficients;
     out->request.command_line = ps_text_string(&out->command);

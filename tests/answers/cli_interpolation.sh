@@ -70,15 +70,18 @@ fi
 # pictures, plans and scenes
 runs 0 "${sky[@]}" --sampler fibonacci -n 8,16 --smoothness 1.1,1.5 --plot a.svg
 [[ $(<a.svg) == *RMSE*'s = 1.1: slope'* ]] || complain 'picture'
+runs 0 "${sky[@]}" --sampler fibonacci -n 8 --smoothness 1.1,1.5 --plot b.svg
+[[ $(grep -c '<image' b.svg) == 3 && $(<b.svg) == *map:file=sky.pfm*'N = 8, s = 1.1'*'N = 8, s = 1.5'* ]] || complain 'images'
 "$program" plan interpolation "${sky[@]}" --sampler fibonacci -n 5000 >planned || complain 'plan'
 [[ $(<planned) == *'# phase: kernel systems'*'conjugate gradients'* ]] || complain "plan: $(<planned)"
 cat >scene.yaml <<'END'
 scene: 1
 results:
-  - {result: interpolation, integrand: "map:file=sky.pfm", smoothness: [1.1, 1.5], samplers: [fibonacci, white-sphere], points: [8, 16], realizations: 3}
+  - {result: interpolation, integrand: "map:file=sky.pfm", smoothness: [1.1, 1.5], samplers: [fibonacci, white-sphere], points: [8, 16], realizations: 3, pictures: true}
 END
 "$program" run scene.yaml -o folder --quiet >/dev/null || complain 'scene'
 [[ $(cat folder/*.csv | grep -c "^$(tail -1 both)\$") == 1 ]] || complain "scene: $(cat folder/*.csv)"
+[[ $(grep -c '<image' folder/interpolation-1-image.svg) == 9 && $(<folder/interpolation-1-rmse.svg) == *fibonacci*slope* ]] || complain "scene: $(ls folder)"
 
 # Pisa: the same numbers by NumPy
 if [[ -r $data/env/pisa_1024x512.hdr ]]; then

@@ -1,4 +1,4 @@
-/* Scripts of points: what gnuplot is given, and that it draws it. */
+/* Scripts of points and maps: what gnuplot is given, and that it draws it. */
 #include "plots/plot_script.h"
 #include "test_folder.h"
 
@@ -96,6 +96,30 @@ static void frames_are_square(void **state) {
     }
 }
 
+/* Below black, black, (1/4)^(1/2.2) of white, white, beyond white, in the order of the rows; and
+ * maps of many pixels are shown by means of blocks, of which those at the ends may be smaller. */
+static void maps_are_bright(void **state) {
+    enum { LARGE = 1201 };
+    static const double few[] = {-1, 0, .5, 2, 3, 1};
+    static double many[LARGE]; /* a block of three pixels is 1, the others are 0 */
+    many[3] = 3;
+    const ps_series series = {.num = 6, .columns = 3, .y = few};
+    const ps_panel panel = {"", 1, &series, {.form = PS_FRAME_MAP, .last = 2}};
+    ps_panel panels[] = {panel, panel};
+    const ps_figure figure = {
+        .form = PS_FIGURE_POINTS, .num_panels = 2, .panels = panels, .num_columns = 2};
+    const ps_series wide = {.num = LARGE, .columns = LARGE, .y = many};
+    (void)state;
+    panels[1].series = &wide;
+    panels[1].frame.last = 1;
+    char *const script = write_script(&figure, "svg");
+    assert_non_null(strstr(script, "$data0_0 << EOD\n 0 0 136\n 255 255 186\nEOD\n"));
+    assert_non_null(strstr(script, "set xrange [-0.5:2.5]\nset yrange [1.5:-0.5]\n"));
+    assert_non_null(strstr(script, "$data1_0 << EOD\n 0 255 0 0"));
+    assert_non_null(strstr(script, "set xrange [-0.5:400.5]\nset yrange [0.5:-0.5]\n"));
+    free(script);
+}
+
 static size_t count(const char *text, const char *part) {
     size_t num = 0;
     while ((text = strstr(text, part)) != NULL) {
@@ -138,6 +162,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_for_frames_and_points),
         cmocka_unit_test(frames_are_square),
+        cmocka_unit_test(maps_are_bright),
         cmocka_unit_test_setup_teardown(draws_every_kind, test_folder_create, test_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

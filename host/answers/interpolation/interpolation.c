@@ -58,14 +58,11 @@ static pspec_status check_sampler(const ps_sampler_request *sampler, const char 
                          text);
 }
 
-/* Images are those of the largest number of points, for who can keep them. */
-static bool keeps_images(const ps_request *request, size_t index) {
-    uint64_t most = 0;
-    for (size_t i = 0; i < request->num_counts; i++) {
-        most = request->counts[i] > most ? request->counts[i] : most;
-    }
+/* NPZ has all arrays; of several numbers of points the picture is another. */
+static bool wants_images(const ps_request *request) {
     const bool is_npz = request->wants_state;
-    return (request->wants_array || is_npz) && ps_request_points(request, index) == most;
+    const bool is_drawn = request->plot != NULL && request->num_counts == 1;
+    return request->wants_array || request->wants_picture || is_npz || is_drawn;
 }
 
 static pspec_status fill_question(ps_interpolation_list *self, size_t index,
@@ -79,7 +76,8 @@ static pspec_status fill_question(ps_interpolation_list *self, size_t index,
                                        .num_paths = self->files[index].num,
                                        .point_options = ps_point_options_make(request),
                                        .residual = has_tolerance ? request->accuracy.tolerance : 0,
-                                       .keeps_images = keeps_images(request, index),
+                                       .keeps_images = wants_images(request) &&
+                                                       ps_interpolation_is_shown(request, index),
                                        .limits = request->limits};
     out->point_options.domain = PS_DOMAIN_SPHERE;
     out->point_options.ignore_weights = true;
@@ -194,11 +192,17 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
 /* ---- what tables mean ------------------------------------------------------------------------ */
 
 static const char *const summary[] = {"points", "realizations", "engine", NULL};
-static const ps_picture_kind pictures[] = {{.suffix = "-rmse",
+static const ps_picture_kind pictures[] = {{.suffix = "-image",
+                                            .make = ps_interpolation_figure,
+                                            .dealing = PS_OF_SETS,
+                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
+                                            .needs = PS_NEEDS_PICTURES},
+                                           {.suffix = "-rmse",
                                             .what = "error of interpolation",
                                             .make = ps_lines_figure,
                                             .dealing = PS_OF_COUNTS,
                                             .by = PS_BY_SCENE | PS_BY_COMMAND,
+                                            .needs = PS_NEEDS_COUNTS,
                                             .panels = "integrand",
                                             .x = "points",
                                             .lines = {{.y = "rmse", .error = "rmse_error"}},
@@ -228,10 +232,10 @@ static const ps_field_row own_fields[] = {
     {"condition", "", PS_COLUMN, 0, "",
      "condition number of the kernel matrix, estimated; of conjugate gradients no less than this"},
     {"iterations", "", PS_COLUMN, 0, "", "of conjugate gradients, at most; 0 by a factor"},
-    {"image", "", PS_ARRAY, 0, "NPZ, arrays",
+    {"image", "", PS_ARRAY, 0, "NPZ, pictures, arrays",
      "interpolants of the first realization at all pixels, in the order of the rows of the largest "
      "number of points: images x height x width"},
-    {"light", "", PS_ARRAY, 0, "NPZ, arrays",
+    {"light", "", PS_ARRAY, 0, "NPZ, pictures, arrays",
      "the functions at the same pixels: integrands x height x width"},
     {.name = NULL}};
 
@@ -260,6 +264,7 @@ const ps_kind ps_kind_interpolation = {
     .takes = PS_COMMAND_BIT(interpolation),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
+    .has_images = true,
     .has_arrays = true,
     .check_arguments = check_arguments,
     .check_question = check_question,

@@ -18,6 +18,12 @@ typedef struct ps_interpolation_list {
     ps_interpolation_job **jobs; /* [num] */
 } ps_interpolation_list;
 
+/* Are images of the question kept where somebody wants some? Those of the most points. */
+bool ps_interpolation_is_shown(const ps_request *request, size_t question);
+
+/* The functions, then their images. */
+ps_make_figure ps_interpolation_figure;
+
 /* A row for every question, smoothness and function. */
 pspec_status ps_interpolation_table(ps_table **out, const ps_interpolation_list *list,
                                     const ps_request *request, ps_error *error) PS_MUST_CHECK;

@@ -138,6 +138,14 @@ static pspec_status add_rows(ps_table *table, const ps_interpolation_list *list,
 
 /* ---- images -------------------------------------------------------------------------------- */
 
+bool ps_interpolation_is_shown(const ps_request *request, size_t question) {
+    uint64_t most = 0;
+    for (size_t i = 0; i < request->num_counts; i++) {
+        most = request->counts[i] > most ? request->counts[i] : most;
+    }
+    return ps_request_points(request, question) == most;
+}
+
 static pspec_status make_images(ps_npy_array *out, const ps_panorama *panorama, size_t num,
                                 ps_error *error) {
     const size_t shape[] = {num, panorama->height, panorama->width};

@@ -211,6 +211,7 @@ static pspec_status list_runs(ps_pictures *out, const ps_scene_result *asked,
                               const ps_picture_kind *kind, size_t num_pictures, ps_error *error) {
     const size_t none = asked->num_entries;
     const size_t num = ps_scene_num_questions(asked);
+    const char *const stem = kind->suffix != NULL ? kind->suffix : "";
     for (size_t i = 0; i < num_pictures; i++) {
         ps_picture one = {.kind = kind,
                           .group = none,
@@ -226,9 +227,11 @@ static pspec_status list_runs(ps_pictures *out, const ps_scene_result *asked,
         }
         one.ends[0] = one.num_curves;
         if (kind->dealing == PS_OF_EACH) {
-            snprintf(one.suffix, PS_SUFFIX_BYTES, "%s-%zu", kind->suffix, i + 1);
+            snprintf(one.suffix, PS_SUFFIX_BYTES, "%s-%zu", stem, i + 1);
         } else if (i > 0) {
-            snprintf(one.suffix, PS_SUFFIX_BYTES, "-page-%zu", i + 1);
+            snprintf(one.suffix, PS_SUFFIX_BYTES, "%s-page-%zu", stem, i + 1);
+        } else {
+            snprintf(one.suffix, PS_SUFFIX_BYTES, "%s", stem);
         }
         PS_TRY(add(out, &one, error));
     }

@@ -83,9 +83,11 @@ static void write_title(const artist *self, const ps_picture *what, ps_text *out
     if (what->kind->dealing == PS_OF_EACH) {
         ps_run_label(self->result, first, &description);
     } else if (what->kind->dealing == PS_OF_SETS && what->num_curves == 1) {
+        const ps_npy_array *const sets = ps_table_find_array(table_of(self, first), "coordinates");
         label_set(asked, first, &description);
-        ps_text_append(&description, ", N = %zu",
-                       ps_table_find_array(table_of(self, first), "coordinates")->shape[1]);
+        if (sets != NULL) {
+            ps_text_append(&description, ", N = %zu", sets->shape[1]);
+        }
     } else if (what->kind->what != NULL) {
         ps_text_append(&description, "%s", what->kind->what);
     }
@@ -262,8 +264,9 @@ static bool is_there(const artist *self, const ps_picture *what) {
     size_t column = 0;
     ps_plot_image image;
     return (!kind->is_spectrum || ps_table_find_column(table, kind->x, &column)) &&
-           (kind->needs != PS_NEEDS_PICTURES || ps_spectra_find_image(&image, table)) &&
-           (kind->make != ps_lines_figure || kind->is_of_entries ||
+           (kind->needs != PS_NEEDS_PICTURES || ps_spectra_find_image(&image, table) ||
+            ps_table_find_array(table, "image") != NULL) &&
+           (kind->make != ps_lines_figure || kind->dealing == PS_OF_COUNTS ||
             ps_table_num_rows(table) >= FEWEST_ROWS);
 }
 
