@@ -176,7 +176,16 @@ void ps_integrand_factors(const ps_integrand *integrand, const int32_t *vectors,
 
 pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degree, double *powers,
                                   ps_error *error) {
-    return integrand->kind->degrees(integrand, max_degree, powers, error);
+    return integrand->kind->zonal != NULL
+               ? ps_integrand_zonal_degrees(integrand, max_degree, powers, error)
+               : integrand->kind->degrees(integrand, max_degree, powers, error);
+}
+
+pspec_status ps_integrand_harmonics(const ps_integrand *integrand, size_t max_degree,
+                                       double *out, ps_error *error) {
+    return integrand->kind->zonal != NULL
+               ? ps_integrand_zonal_coefficients(integrand, max_degree, out, error)
+               : integrand->kind->coefficients(integrand, max_degree, out, error);
 }
 
 void ps_integrand_values(const ps_integrand *integrand, const double *points, size_t num,

@@ -61,10 +61,15 @@ typedef struct ps_integrand_kind {
      * a failure. Both NULL: it has powers. */
     pspec_status (*points)(const ps_integrand *, ps_integrand_points *out, ps_error *);
     void (*factors)(const ps_integrand *, const int32_t *vectors, size_t num, double *factors);
-    /* sum_m |F_lm|^2 for l = 0 .. max_degree. NULL: not on the sphere. */
+    /* F_l0 for l = 0 .. max_degree about the axis of an F that is a function of the height above
+     * it, of its even extension on the hemisphere: degrees and coefficients follow. NULL: there is
+     * no axis. */
+    pspec_status (*zonal)(const ps_integrand *, size_t max_degree, double *f, ps_error *);
+    bool has_axis; /* the first three numbers are the axis; else it is z */
+    /* sum_m |F_lm|^2 for l = 0 .. max_degree. NULL: it has zonal, or is not on the sphere. */
     pspec_status (*degrees)(const ps_integrand *, size_t max_degree, double *powers, ps_error *);
-    /* F_lm of 0 <= m <= l <= max_degree: re, im at index m (2 max_degree + 1 - m)/2 + l. NULL:
-     * not on the sphere, or known by its squares alone. */
+    /* F_lm of 0 <= m <= l <= max_degree: re, im at index m (2 max_degree + 1 - m)/2 + l. NULL: it
+     * has zonal, or is not on the sphere. */
     pspec_status (*coefficients)(const ps_integrand *, size_t max_degree, double *out, ps_error *);
     /* F at num points, [num][dimension] coordinates in [0,1) or unit vectors. */
     void (*values)(const ps_integrand *, const double *points, size_t num, double *values);
@@ -173,6 +178,10 @@ void ps_integrand_factors(const ps_integrand *integrand, const int32_t *vectors,
 /* powers[max_degree + 1]; odd degrees of the hemisphere are 0. */
 pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degree, double *powers,
                                   ps_error *error) PS_MUST_CHECK;
+/* F_lm on the sphere of 0 <= m <= l <= max_degree: re, im at index m (2 max_degree + 1 - m)/2 + l.
+ */
+pspec_status ps_integrand_harmonics(const ps_integrand *integrand, size_t max_degree,
+                                       double *out, ps_error *error) PS_MUST_CHECK;
 /* values[num] */
 void ps_integrand_values(const ps_integrand *integrand, const double *points, size_t num,
                          double *values);

@@ -50,9 +50,13 @@ pspec_status ps_integrand_axis(const ps_integrand *integrand, const char *text, 
 bool ps_integrand_is_on_hemisphere(const ps_integrand *integrand);
 
 /* From F_l0 of a zonal F, which is 0 below the horizon where it is of the hemisphere, to what the
- * member degrees has: squares, and of the hemisphere those of the even extension, 2 F_l0 at even l.
- */
-void ps_integrand_zonal_powers(const ps_integrand *integrand, size_t max_degree, double *f);
+ * member zonal has: of the hemisphere those of the even extension, 2 F_l0 at even l. */
+void ps_integrand_extend(const ps_integrand *integrand, size_t max_degree, double *f);
+/* The members degrees and coefficients of kinds that have zonal. */
+pspec_status ps_integrand_zonal_degrees(const ps_integrand *integrand, size_t max_degree,
+                                        double *powers, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_integrand_zonal_coefficients(const ps_integrand *integrand, size_t max_degree,
+                                             double *out, ps_error *error) PS_MUST_CHECK;
 
 /* sin and cos of half the angle g >= 0 whose cosine is x. */
 typedef struct ps_half_angle {

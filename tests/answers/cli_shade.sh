@@ -31,6 +31,14 @@ predicted=$(tail -1 out | cut -d, -f3)
 runs 0 --brdf diffuse "${light[@]}" points.npy
 [[ $(tail -1 out | cut -d, -f3) == "$predicted" ]] || complain "files: $(tail -1 out)"
 
+# every integrand of the sphere is light: what is measured about tilted axes is what spectra say
+for integrand in cap:angle=2,axis=1x2x2 harmonic:degree=3,axis=1x-1x0.3 lobe:n=30,axis=1x0x0 square:axis=3x4x12; do
+    runs 0 --brdf diffuse --integrand $integrand --sampler fibonacci-hemisphere -n 16
+    awk -F, -v name=$integrand 'END { if (!(sqrt($5 ^ 2) < 4 && $1 > 0 && $3 > 0)) { print name ": " $0; exit 1 } }' out || complain "light: $(tail -1 out)"
+done
+runs 0 --brdf diffuse --integrand constant --sampler fibonacci-hemisphere -n 16
+awk -F, 'END { exit !($1 < 1e-14 && $3 == 0 && $5 == "") }' out || complain "constant light: $(tail -1 out)"
+
 runs 0 --brdf diffuse --integrand coefficients:file=light.txt --shifts 0 --sampler fibonacci-hemisphere -n 16
 [[ $(tail -1 out) == ,,"$predicted",0, ]] || complain "predicted alone: $(tail -1 out)"
 
@@ -68,7 +76,7 @@ says 'one --integrand is the light'
 # what is refused
 refuses 'one --integrand is the light' --brdf diffuse --sampler fibonacci-hemisphere
 refuses 'one --integrand is the light' --brdf diffuse --integrand cap --integrand square --sampler fibonacci-hemisphere
-refuses 'coefficients F_lm are not known' --brdf diffuse --integrand cap --sampler fibonacci-hemisphere
+refuses 'integrand disk: there is none on the sphere' --brdf diffuse --integrand disk --sampler fibonacci-hemisphere
 refuses '--brdf NAME is needed' "${light[@]}" --sampler fibonacci-hemisphere
 refuses 'makes points of the torus' --brdf diffuse "${light[@]}" --sampler white
 refuses 'below the horizon' --brdf diffuse "${light[@]}" --sampler white-sphere

@@ -2,6 +2,7 @@
  * values, its closed forms against its coefficients. */
 #include "harness_integrands.h"
 
+#include "integrands/files/series.h"
 #include "math/gauss_legendre.h"
 #include "math/pi.h"
 
@@ -154,6 +155,28 @@ static double integrate(const heights_rule *by, size_t degree, bool is_squared) 
     return sum;
 }
 
+/* The function that the coefficients up to LAST make, at directions off the axis. */
+static void check_harmonics(const example *one, const ps_integrand *self, const heights_rule *by) {
+    static const double directions[][3] = {{0.6, 0, 0.8}, {-2. / 3, 1. / 3, -2. / 3}};
+    double f[(LAST + 1) * (LAST + 2)];
+    double frame[3][3];
+    ps_sphere_series *series = NULL;
+    assert_ok(ps_integrand_harmonics(self, LAST, f, error));
+    assert_ok(ps_sphere_series_make(&series, LAST, f, error));
+    make_frame(one->axis, frame);
+    for (size_t i = 0; i < 2; i++) {
+        const double *const u = directions[i];
+        const double z = u[0] * frame[0][0] + u[1] * frame[0][1] + u[2] * frame[0][2];
+        double sum = 0;
+        for (size_t l = 0; l <= LAST; l++) {
+            sum += (2 * (double)l + 1) / PS_FOUR_PI * integrate(by, l, false) * legendre(l, z);
+        }
+        test_near(one->text, "the harmonics", ps_sphere_series_value(series, u), sum,
+                  1e-12 * sqrt(integrate(by, 0, true)) + 1e-15);
+    }
+    ps_sphere_series_destroy(series);
+}
+
 static void check_quadrature(const example *one) {
     ps_integrand *self = make(one);
     heights_rule *by = make_rule(one, self);
@@ -172,6 +195,9 @@ static void check_quadrature(const example *one) {
         const double projection =
             factor * integrate(by, l, false) * sqrt((2 * (double)l + 1) / PS_FOUR_PI);
         test_near(one->text, "a degree", f[l], projection * projection, rounding);
+    }
+    if (!one->on_hemisphere) {
+        check_harmonics(one, self, by);
     }
     if (ps_integrand_has_pairs(self)) {
         const double pole[3] = {1, 0, 0};

@@ -129,10 +129,10 @@ double ps_lobe_energy(const ps_integrand *self) {
     return ps_integrand_is_on_hemisphere(self) ? 2 * squares - 1 / PS_PI : squares - 1 / PS_FOUR_PI;
 }
 
-pspec_status ps_lobe_degrees(const ps_integrand *self, size_t max_degree, double *out,
-                             ps_error *error) {
+pspec_status ps_lobe_zonal(const ps_integrand *self, size_t max_degree, double *out,
+                           ps_error *error) {
     PS_TRY(ps_brdf_spherical(self->own, max_degree, out, error));
-    ps_integrand_zonal_powers(self, max_degree, out);
+    ps_integrand_extend(self, max_degree, out);
     return PSPEC_OK;
 }
 

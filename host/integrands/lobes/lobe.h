@@ -57,15 +57,15 @@ double ps_zonal_at_pole(size_t l);
  * shading integrals (docs/mathematics/integrands_sphere.md#shading-lobes). */
 #define PS_LOBE_ROW                                                                                \
     .domains = PS_INTEGRAND_ROUND, .create = ps_lobe_create, .destroy = ps_lobe_destroy,           \
-    .integral = ps_lobe_integral, .energy = ps_lobe_energy, .degrees = ps_lobe_degrees,            \
+    .integral = ps_lobe_integral, .energy = ps_lobe_energy, .zonal = ps_lobe_zonal,                \
     .note = ps_lobe_note
 pspec_status ps_lobe_create(ps_integrand *self, const char *const *values,
                             ps_error *error) PS_MUST_CHECK;
 void ps_lobe_destroy(ps_integrand *self);
 double ps_lobe_integral(const ps_integrand *self);
 double ps_lobe_energy(const ps_integrand *self);
-pspec_status ps_lobe_degrees(const ps_integrand *self, size_t max_degree, double *out,
-                             ps_error *error) PS_MUST_CHECK;
+pspec_status ps_lobe_zonal(const ps_integrand *self, size_t max_degree, double *out,
+                           ps_error *error) PS_MUST_CHECK;
 const char *ps_lobe_note(const ps_integrand *self);
 
 #endif

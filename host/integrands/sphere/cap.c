@@ -50,9 +50,10 @@ static double energy(const ps_integrand *self) {
 
 /* F_l0 = sqrt(pi/(2l+1)) (P_{l-1} - P_{l+1}) of cos t, by differences D_l = P_l - P_{l-1}, with 1 -
  * cos t = chord^2/2. What a cap leaves has the opposite sign at l >= 1. */
-static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
-                            ps_error *error) {
+static pspec_status zonal(const ps_integrand *self, size_t max_degree, double *out,
+                          ps_error *error) {
     const double t = self->numbers[CAP_CHORD2] / 2;
+    const double sign = is_complement(self) ? -1 : 1;
     double value = 1 - t;
     double step = -t;
     (void)error;
@@ -60,11 +61,11 @@ static pspec_status degrees(const ps_integrand *self, size_t max_degree, double 
     for (size_t l = 1; l <= max_degree; l++) {
         const double degree = (double)l;
         const double next = (degree * step - (2 * degree + 1) * (t * value)) / (degree + 1);
-        out[l] = -sqrt(PS_PI / (2 * degree + 1)) * (step + next);
+        out[l] = sign * -sqrt(PS_PI / (2 * degree + 1)) * (step + next);
         value += next;
         step = next;
     }
-    ps_integrand_zonal_powers(self, max_degree, out);
+    ps_integrand_extend(self, max_degree, out);
     return PSPEC_OK;
 }
 
@@ -106,7 +107,8 @@ const ps_integrand_kind ps_integrand_cap = {
     .create = create,
     .integral = integral,
     .energy = energy,
-    .degrees = degrees,
+    .zonal = zonal,
+    .has_axis = true,
     .values = values,
     .correlation = correlation,
 };

@@ -35,8 +35,8 @@ static double energy(const ps_integrand *self) {
     return 1;
 }
 
-static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
-                            ps_error *error) {
+static pspec_status zonal(const ps_integrand *self, size_t max_degree, double *out,
+                          ps_error *error) {
     const size_t degree = (size_t)self->numbers[HARMONIC_DEGREE];
     (void)error;
     memset(out, 0, (max_degree + 1) * sizeof *out);
@@ -68,7 +68,8 @@ const ps_integrand_kind ps_integrand_harmonic = {
     .create = create,
     .integral = integral,
     .energy = energy,
-    .degrees = degrees,
+    .zonal = zonal,
+    .has_axis = true,
     .values = values,
     .correlation = correlation,
     .reach = reach,

@@ -34,14 +34,14 @@ static double energy(const ps_integrand *self) {
     return PS_PI / n * -expm1(-2 * n) * ps_integrand_lobe_spread(n);
 }
 
-static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
-                            ps_error *error) {
+static pspec_status zonal(const ps_integrand *self, size_t max_degree, double *out,
+                          ps_error *error) {
     const double whole = integral(self);
     PS_TRY(ps_brdf_spherical(self->own, max_degree, out, error));
     for (size_t l = 0; l <= max_degree; l++) {
         out[l] *= whole;
     }
-    ps_integrand_zonal_powers(self, max_degree, out);
+    ps_integrand_extend(self, max_degree, out);
     return PSPEC_OK;
 }
 
@@ -75,7 +75,8 @@ const ps_integrand_kind ps_integrand_lobe = {
     .destroy = destroy,
     .integral = integral,
     .energy = energy,
-    .degrees = degrees,
+    .zonal = zonal,
+    .has_axis = true,
     .values = values,
     .correlation = correlation,
     .reach = reach,

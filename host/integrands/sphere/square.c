@@ -21,13 +21,13 @@ static double energy(const ps_integrand *self) {
     return ENERGY;
 }
 
-static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
-                            ps_error *error) {
+static pspec_status zonal(const ps_integrand *self, size_t max_degree, double *out,
+                          ps_error *error) {
     (void)self, (void)error;
     memset(out, 0, (max_degree + 1) * sizeof *out);
-    out[0] = PS_FOUR_PI / 9;
+    out[0] = sqrt(PS_FOUR_PI) / 3;
     if (max_degree >= 2) {
-        out[2] = ENERGY;
+        out[2] = sqrt(ENERGY);
     }
     return PSPEC_OK;
 }
@@ -54,7 +54,8 @@ const ps_integrand_kind ps_integrand_square = {
     .create = create,
     .integral = integral,
     .energy = energy,
-    .degrees = degrees,
+    .zonal = zonal,
+    .has_axis = true,
     .values = values,
     .correlation = correlation,
     .reach = reach,

@@ -1,5 +1,9 @@
 /* What integrands about an axis of the sphere share. */
+#include "base/memory.h"
 #include "integrands/integrand_kind.h"
+#include "math/gsl/special.h"
+
+#include <stdlib.h>
 
 #define LARGEST_COMPONENT 1e6 /* of an axis, whose length does not matter */
 
@@ -31,12 +35,51 @@ pspec_status ps_integrand_axis(const ps_integrand *integrand, const char *text, 
     return PSPEC_OK;
 }
 
-void ps_integrand_zonal_powers(const ps_integrand *integrand, size_t max_degree, double *f) {
-    const bool is_extended = ps_integrand_is_on_hemisphere(integrand);
-    for (size_t l = 0; l <= max_degree; l++) {
-        const double factor = !is_extended ? 1 : l % 2 == 0 ? 4 : 0;
-        f[l] *= factor * f[l];
+void ps_integrand_extend(const ps_integrand *integrand, size_t max_degree, double *f) {
+    for (size_t l = 0; ps_integrand_is_on_hemisphere(integrand) && l <= max_degree; l++) {
+        f[l] *= l % 2 == 0 ? 2 : 0;
     }
+}
+
+pspec_status ps_integrand_zonal_degrees(const ps_integrand *integrand, size_t max_degree,
+                                        double *powers, ps_error *error) {
+    PS_TRY(integrand->kind->zonal(integrand, max_degree, powers, error));
+    for (size_t l = 0; l <= max_degree; l++) {
+        powers[l] *= powers[l];
+    }
+    return PSPEC_OK;
+}
+
+/* F_lm = sqrt(4 pi/(2l+1)) F_l0 conj(Y_lm(axis)); q: the functions of Legendre at the axis. */
+static void turn(const double *axis, size_t max_degree, const double *f, const double *q,
+                 double *out) {
+    const double azimuth = atan2(-axis[1], -axis[0]); /* Condon and Shortley's (-1)^m is in it */
+    for (size_t m = 0; m <= max_degree; m++) {
+        const double re = cos((double)m * azimuth);
+        const double im = -sin((double)m * azimuth);
+        for (size_t l = m; l <= max_degree; l++, out += 2) {
+            const double factor =
+                sqrt(PS_FOUR_PI / (2 * (double)l + 1)) * f[l] * q[ps_legendre_place(l, m)];
+            out[0] = factor * re;
+            out[1] = factor * im;
+        }
+    }
+}
+
+pspec_status ps_integrand_zonal_coefficients(const ps_integrand *integrand, size_t max_degree,
+                                             double *out, ps_error *error) {
+    static const double z[] = {0, 0, 1};
+    const double *const axis = integrand->kind->has_axis ? integrand->numbers : z;
+    double *f = NULL;
+    PS_TRY(PS_NEW(&f, max_degree + 1 + ps_legendre_room(max_degree), "harmonics", error));
+    const pspec_status status = integrand->kind->zonal(integrand, max_degree, f, error);
+    if (status == PSPEC_OK) {
+        double *const q = f + max_degree + 1;
+        ps_legendre_functions(max_degree, fmin(fmax(axis[2], -1), 1), q);
+        turn(axis, max_degree, f, q, out);
+    }
+    free(f);
+    return status;
 }
 
 ps_half_angle ps_integrand_half_angle(double x) {

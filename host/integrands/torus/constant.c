@@ -33,12 +33,11 @@ static pspec_status powers(const ps_integrand *self, const int32_t *vectors, siz
 }
 
 /* F_00 = 2 sqrt(pi) F, also of the even extension of the hemisphere. */
-static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
-                            ps_error *error) {
-    const double value = self->numbers[CONSTANT_VALUE];
+static pspec_status zonal(const ps_integrand *self, size_t max_degree, double *out,
+                          ps_error *error) {
     (void)error;
     memset(out, 0, (max_degree + 1) * sizeof *out);
-    out[0] = PS_FOUR_PI * value * value;
+    out[0] = sqrt(PS_FOUR_PI) * self->numbers[CONSTANT_VALUE];
     return PSPEC_OK;
 }
 
@@ -75,7 +74,7 @@ const ps_integrand_kind ps_integrand_constant = {
     .integral = integral,
     .energy = energy,
     .powers = powers,
-    .degrees = degrees,
+    .zonal = zonal,
     .values = values,
     .correlation = correlation,
     .is_isotropic = is_isotropic,

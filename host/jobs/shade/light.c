@@ -16,17 +16,6 @@ static size_t choose_degree(const ps_integrand *integrand) {
     return reach < MOST_DEGREE ? (size_t)reach : MOST_DEGREE;
 }
 
-static pspec_status parse(ps_light *self, const char *integrand, ps_error *error) {
-    const ps_integrand_place sphere = {PS_SAMPLES_SPHERE, 3};
-    PS_TRY(ps_integrand_parse(&self->integrand, integrand, sphere, error));
-    return self->integrand->kind->coefficients != NULL
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "integrand %s: its coefficients F_lm are not known, which the light of "
-                         "shading integrals has: map and coefficients have them",
-                         self->integrand->kind->name);
-}
-
 /* Powers of the coefficients, which become those of the shading. */
 static void convolve(ps_light *self, const double *b, double *f) {
     const size_t last = self->max_degree;
@@ -55,7 +44,7 @@ static double bound_rest(const ps_light *self, const ps_brdf *brdf, const double
 static pspec_status fill(ps_light *self, const ps_brdf *brdf, double *b, double *f,
                          ps_error *error) {
     PS_TRY(ps_brdf_spherical(brdf, self->max_degree, b, error));
-    PS_TRY(self->integrand->kind->coefficients(self->integrand, self->max_degree, f, error));
+    PS_TRY(ps_integrand_harmonics(self->integrand, self->max_degree, f, error));
     convolve(self, b, f);
     self->shading_bound = bound_rest(self, brdf, b);
     return ps_sphere_series_make(&self->shading, self->max_degree, f, error);
@@ -67,7 +56,8 @@ pspec_status ps_light_make(ps_light *out, const char *integrand, const ps_brdf *
     double *f = NULL;
     pspec_status status = PSPEC_OK;
     *out = (ps_light){0};
-    PS_TRY(parse(out, integrand, error));
+    const ps_integrand_place sphere = {PS_SAMPLES_SPHERE, 3};
+    PS_TRY(ps_integrand_parse(&out->integrand, integrand, sphere, error));
     out->max_degree = choose_degree(out->integrand);
     const size_t num = out->max_degree + 1;
     PS_TRY(PS_NEW(&out->powers, num, "powers of light", error));
