@@ -1,4 +1,5 @@
-/* What the sampler tests share: a request from text, and a realization in fresh memory. */
+/* What the sampler tests share: a request from text, what is refused, and a realization in fresh
+ * memory. */
 #ifndef TEST_SAMPLERS_H
 #define TEST_SAMPLERS_H
 
@@ -10,6 +11,7 @@
 #include <cmocka.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "samplers/sampler.h"
 
@@ -32,6 +34,16 @@ static inline ps_sampler_request make_request(const char *text, size_t num_point
         fail_msg("%s: %s", text, error.message);
     }
     return request;
+}
+
+static inline void assert_refused(const char *text, size_t num_points, unsigned dimension,
+                                  const char *why) {
+    ps_sampler_request request = parse_request(text, num_points, dimension);
+    ps_error error = {0};
+    assert_int_equal(ps_sampler_resolve(&request, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    if (strstr(error.message, why) == NULL) {
+        fail_msg("%s: \"%s\" lacks \"%s\"", text, error.message, why);
+    }
 }
 
 static inline double *allocate_points(const ps_sampler_request *request) {

@@ -1,5 +1,5 @@
 /* Of a background at random the spectra of capacity-constrained sets would have a floor. Rows:
- * parameters reach the algorithms, seconds are those that were measured. */
+ * parameters reach the algorithms, what cannot be made is refused. */
 #include "test_samplers.h"
 #include "ccvt_cases.h"
 
@@ -74,15 +74,6 @@ static void parameters_reach_the_algorithms(void **state) {
     }
 }
 
-static void assert_refused(const char *text, size_t num, unsigned dimension, const char *why) {
-    const ps_sampler_request request = parse_request(text, num, dimension);
-    ps_error error = {0};
-    assert_int_equal(ps_sampler_check(&request, &error), PSPEC_ERROR_INVALID_ARGUMENT);
-    if (strstr(error.message, why) == NULL) {
-        fail_msg("%s: %s", text, error.message);
-    }
-}
-
 static void what_cannot_be_made_is_refused(void **state) {
     (void)state;
     assert_refused("ccvt", 15, 2, "15 points asked for, it makes 16 and more");
@@ -95,43 +86,11 @@ static void what_cannot_be_made_is_refused(void **state) {
     assert_refused("ccvt", (size_t)1 << 24, 2, "with that M there are at most 65536 points");
 }
 
-/* Against what bench_cells measured, to a factor of 2: a core of an EPYC. */
-static void seconds_are_those_that_were_measured(void **state) {
-    (void)state;
-    static const struct {
-        const char *text;
-        size_t num;
-        double seconds;
-    } measured[] = {{"ccvt-sphere", 256, 0.028},
-                    {"ccvt-sphere", 1024, 0.18},
-                    {"ccvt-sphere", 4096, 1.3},
-                    {"ccvt-sphere", 16384, 11},
-                    {"ccvt-sphere:M=16", 1024, 0.049},
-                    {"ccvt-sphere:M=256", 1024, 0.92},
-                    {"ccvt", 256, 0.072},
-                    {"ccvt", 1024, 0.43},
-                    {"ccvt", 4096, 2.4},
-                    {"ccvt:M=16", 1024, 0.026},
-                    {"ccvt:M=64", 1024, 0.082},
-                    {"ccvt:M=1024", 1024, 4}};
-    for (unsigned i = 0; i < sizeof measured / sizeof measured[0]; i++) {
-        const ps_sampler_request request =
-            make_request(measured[i].text, measured[i].num,
-                         strncmp(measured[i].text, "ccvt-sphere", 11) == 0 ? 3 : 2);
-        const double ratio = ps_sampler_seconds(&request) / measured[i].seconds;
-        if (!(ratio >= 0.5 && ratio <= 2)) {
-            fail_msg("%s, N = %zu: %g times what was measured", measured[i].text, measured[i].num,
-                     ratio);
-        }
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_background_leaves_a_floor),
         cmocka_unit_test(parameters_reach_the_algorithms),
         cmocka_unit_test(what_cannot_be_made_is_refused),
-        cmocka_unit_test(seconds_are_those_that_were_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

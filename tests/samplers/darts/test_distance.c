@@ -29,16 +29,6 @@ static double *generate_some(const ps_sampler_request *request, uint64_t realiza
     return points;
 }
 
-static void assert_refused(const char *text, size_t num_points, unsigned dimension,
-                           const char *expected) {
-    ps_sampler_request request = parse_request(text, num_points, dimension);
-    ps_error error = {0};
-    assert_int_not_equal(ps_sampler_resolve(&request, &error), PSPEC_OK);
-    if (strstr(error.message, expected) == NULL) {
-        fail_msg("%s: \"%s\" lacks \"%s\"", text, error.message, expected);
-    }
-}
-
 static void names_of_other_tools_are_known(void **state) {
     (void)state;
     assert_string_equal(parse_request("darts", 1, 2).sampler->name, "poisson-disk");

@@ -159,25 +159,16 @@ static void the_bits_of_sets_are_these(void **state) {
 
 /* ---- what cannot be made ---- */
 
-static void refuse(const char *text, size_t num, unsigned dimension, const char *why) {
-    const ps_sampler_request request = parse_request(text, num, dimension);
-    ps_error error = {0};
-    assert_int_equal(ps_sampler_check(&request, &error), PSPEC_ERROR_INVALID_ARGUMENT);
-    if (strstr(error.message, why) == NULL) {
-        fail_msg("%s: %s", text, error.message);
-    }
-}
-
 static void what_cannot_be_made_is_refused(void **state) {
     (void)state;
     double x[2];
     ps_error error = {0};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
-    refuse("step", 63, 2, "64 and more");
-    refuse("step", 65537, 2, "65536");
-    refuse("step", 64, 3, "dimension 3");
-    refuse("step:rounds=0", 64, 2, "rounds");
-    refuse("step:rounds=many", 64, 2, "rounds");
+    assert_refused("step", 63, 2, "64 and more");
+    assert_refused("step", 65537, 2, "65536");
+    assert_refused("step", 64, 3, "dimension 3");
+    assert_refused("step:rounds=0", 64, 2, "rounds");
+    assert_refused("step:rounds=many", 64, 2, "rounds");
     assert_int_equal(ps_step_make(63, whole, &random, device, NULL, x, NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(error.message, "from 64"));
@@ -228,20 +219,6 @@ static void a_device_that_is_not_there_is_told(void **state) {
     assert_int_equal(ps_sampler_generate(&request, 7, x, NULL, NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     ps_lender_destroy(none);
-}
-
-/* Against seconds of one core of an EPYC whose device was open, to a factor of 2. */
-static void seconds_are_those_that_were_measured(void **state) {
-    (void)state;
-    static const size_t nums[] = {256, 1024, 2048, 4096};
-    static const double measured[] = {0.065, 0.49, 2.4, 12};
-    for (unsigned i = 0; i < sizeof nums / sizeof nums[0]; i++) {
-        const ps_sampler_request request = make_request("step", nums[i], 2);
-        const double ratio = ps_sampler_seconds(&request) / measured[i];
-        if (!(ratio >= 0.5 && ratio <= 2)) {
-            fail_msg("N = %zu: %g times what was measured", nums[i], ratio);
-        }
-    }
 }
 
 /* The first round has the points that it began with. */
@@ -305,7 +282,6 @@ int main(void) {
         cmocka_unit_test(curves_are_those_of_counts),
         cmocka_unit_test(smoothing_may_be_of_both_curves),
         cmocka_unit_test(a_device_without_double_precision_is_refused),
-        cmocka_unit_test(seconds_are_those_that_were_measured),
     };
     const int failures = cmocka_run_group_tests_name("curves", tests, NULL, NULL);
     return failures > 0 ? failures : test_sets();

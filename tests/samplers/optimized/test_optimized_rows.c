@@ -1,5 +1,5 @@
 /* Rows of optimised samplers: parameters reach the algorithms, what cannot be made is refused
- * before any work, seconds follow the parameters. */
+ * before any work. */
 #include "test_samplers.h"
 
 #include <string.h>
@@ -8,15 +8,6 @@
 #include "samplers/optimized/fpo.h"
 
 enum { NUM = 128 };
-
-static void assert_refused(const char *text, size_t num, unsigned dimension, const char *why) {
-    const ps_sampler_request request = parse_request(text, num, dimension);
-    ps_error error = {0};
-    assert_int_equal(ps_sampler_check(&request, &error), PSPEC_ERROR_INVALID_ARGUMENT);
-    if (strstr(error.message, why) == NULL) {
-        fail_msg("%s: %s", text, error.message);
-    }
-}
 
 static void what_cannot_be_made_is_refused(void **state) {
     (void)state;
@@ -51,44 +42,10 @@ static void parameters_reach_the_algorithms(void **state) {
     free(points);
 }
 
-static double seconds_of(const char *text, size_t num) {
-    const ps_sampler_request request = make_request(text, num, 2);
-    return ps_sampler_seconds(&request);
-}
-
-/* Against what bench_cells measured, to a factor of 2: a core of an EPYC. */
-static void seconds_are_those_that_were_measured(void **state) {
-    (void)state;
-    static const struct {
-        const char *text;
-        size_t num;
-        double seconds;
-    } measured[] = {{"bnot", 1024, 0.031},
-                    {"bnot", 4096, 0.15},
-                    {"bnot", 16384, 0.8},
-                    {"bnot:eps=0.2", 1024, 0.1},
-                    {"bnot:eps=0.05", 1024, 0.34},
-                    {"bnot:eps=10", 1024, 0.011},
-                    {"fpo", 1024, 0.27},
-                    {"fpo", 4096, 2.1},
-                    {"fpo", 16384, 25},
-                    {"fpo:distance=0.9", 1024, 0.06},
-                    {"fpo:distance=0.9", 4096, 0.29},
-                    {"fpo:distance=0.5", 1024, 0.01}};
-    for (unsigned i = 0; i < sizeof measured / sizeof measured[0]; i++) {
-        const double ratio = seconds_of(measured[i].text, measured[i].num) / measured[i].seconds;
-        if (!(ratio >= 0.5 && ratio <= 2)) {
-            fail_msg("%s, N = %zu: %g times what was measured", measured[i].text, measured[i].num,
-                     ratio);
-        }
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_cannot_be_made_is_refused),
         cmocka_unit_test(parameters_reach_the_algorithms),
-        cmocka_unit_test(seconds_are_those_that_were_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
