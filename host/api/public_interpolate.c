@@ -104,8 +104,8 @@ static pspec_status fill(ps_table *table, interpolant *self, const double *value
         {"condition", PS_NUMBER(ps_kernel_system_facts(self->system).condition)}};
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     PS_TRY(PS_NEW(&found, num_at, "an interpolant", error));
-    ps_kernel_interpolate(self->num_points, self->points, self->smoothness, self->alpha, num_at, at,
-                          found);
+    ps_kernel_interpolate(self->num_points, self->points, self->smoothness, 1, self->alpha, num_at,
+                          at, found);
     const pspec_status status = add_rows(table, self, num_at, at, found, with_bounds, error);
     free(found);
     return status;

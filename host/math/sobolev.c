@@ -102,13 +102,12 @@ void ps_sobolev_chunk_distances(double smoothness, const double u[3], const ps_s
     }
 }
 
-double ps_sobolev_chunk_sum(double smoothness, const double u[3], const ps_sobolev_chunk *chunk) {
-    double values[PS_SOBOLEV_CHUNK];
+static double sum_lanes(const double weights[PS_SOBOLEV_CHUNK],
+                        const double values[PS_SOBOLEV_CHUNK]) {
     double sums[LANES] = {0};
-    ps_sobolev_chunk_distances(smoothness, u, chunk, values);
     for (size_t j = 0; j < PS_SOBOLEV_CHUNK; j += LANES) {
         for (size_t lane = 0; lane < LANES; lane++) {
-            sums[lane] += chunk->weights[j + lane] * values[j + lane];
+            sums[lane] += weights[j + lane] * values[j + lane];
         }
     }
     for (size_t step = LANES / 2; step > 0; step /= 2) {
@@ -119,15 +118,39 @@ double ps_sobolev_chunk_sum(double smoothness, const double u[3], const ps_sobol
     return sums[0];
 }
 
-double ps_sobolev_distance_sum(double smoothness, const double u[3], size_t num,
-                               const double *points, const double *weights) {
-    ps_neumaier sum = {0, 0};
+double ps_sobolev_chunk_sum(double smoothness, const double u[3], const ps_sobolev_chunk *chunk) {
+    double values[PS_SOBOLEV_CHUNK];
+    ps_sobolev_chunk_distances(smoothness, u, chunk, values);
+    return sum_lanes(chunk->weights, values);
+}
+
+void ps_sobolev_distance_sums(double smoothness, const double u[3], size_t num,
+                              const double *points, size_t num_sums, const double *weights,
+                              double *sums) {
+    ps_neumaier own[PS_SOBOLEV_MOST_SUMS] = {{0, 0}};
     for (size_t begin = 0; begin < num; begin += PS_SOBOLEV_CHUNK) {
         const size_t left = num - begin;
+        const size_t size = left < PS_SOBOLEV_CHUNK ? left : PS_SOBOLEV_CHUNK;
         ps_sobolev_chunk chunk;
-        ps_sobolev_chunk_fill(&chunk, left < PS_SOBOLEV_CHUNK ? left : PS_SOBOLEV_CHUNK,
-                              points + 3 * begin, weights != NULL ? weights + begin : NULL);
-        ps_neumaier_add(&sum, ps_sobolev_chunk_sum(smoothness, u, &chunk));
+        double values[PS_SOBOLEV_CHUNK];
+        ps_sobolev_chunk_fill(&chunk, size, points + 3 * begin,
+                              weights != NULL ? weights + begin : NULL);
+        ps_sobolev_chunk_distances(smoothness, u, &chunk, values);
+        for (size_t k = 0; k < num_sums; k++) {
+            if (k > 0) {
+                memcpy(chunk.weights, weights + k * num + begin, size * sizeof *weights);
+            }
+            ps_neumaier_add(&own[k], sum_lanes(chunk.weights, values));
+        }
     }
-    return ps_neumaier_value(&sum);
+    for (size_t k = 0; k < num_sums; k++) {
+        sums[k] = ps_neumaier_value(&own[k]);
+    }
+}
+
+double ps_sobolev_distance_sum(double smoothness, const double u[3], size_t num,
+                               const double *points, const double *weights) {
+    double sum = 0;
+    ps_sobolev_distance_sums(smoothness, u, num, points, 1, weights, &sum);
+    return sum;
 }

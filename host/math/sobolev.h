@@ -57,5 +57,11 @@ double ps_sobolev_chunk_sum(double smoothness, const double u[3], const ps_sobol
 /* The same over any number of points: chunk by chunk, compensated. */
 double ps_sobolev_distance_sum(double smoothness, const double u[3], size_t num,
                                const double *points, const double *weights);
+/* The same bits for each of num_sums <= PS_SOBOLEV_MOST_SUMS rows of weights [num_sums][num], in
+ * little more time than one takes. */
+enum { PS_SOBOLEV_MOST_SUMS = 16 };
+void ps_sobolev_distance_sums(double smoothness, const double u[3], size_t num,
+                              const double *points, size_t num_sums, const double *weights,
+                              double *sums);
 
 #endif

@@ -73,6 +73,38 @@ static void distances(void **state) {
     }
 }
 
+/* Rows of weights that share their distances have the bits of one row at a time, wherever the last
+ * chunk ends. */
+static void sums_side_by_side(void **state) {
+    enum { NUM = 2 * PS_SOBOLEV_CHUNK + 7, ROWS = 3 };
+    const double u[3] = {0, 0.6, 0.8};
+    double points[3 * NUM];
+    double weights[ROWS * NUM];
+    (void)state;
+    for (size_t j = 0; j < NUM; j++) {
+        const double t = (double)j;
+        points[3 * j] = cos(t) * cos(3 * t);
+        points[3 * j + 1] = cos(t) * sin(3 * t);
+        points[3 * j + 2] = sin(t);
+    }
+    for (size_t k = 0; k < ROWS * NUM; k++) {
+        weights[k] = sin(7 * (double)k);
+    }
+    for (double s = 1.1; s < 2; s += 0.4) {
+        double sums[ROWS];
+        ps_sobolev_distance_sums(s, u, NUM, points, ROWS, weights, sums);
+        for (size_t row = 0; row < ROWS; row++) {
+            const double *const own = weights + row * NUM;
+            double expected = 0;
+            for (size_t j = 0; j < NUM; j++) {
+                expected += own[j] * ps_sobolev_distance(s, u, points + 3 * j);
+            }
+            assert_true(fabs(sums[row] - expected) <= 1e-12);
+            assert_true(sums[row] == ps_sobolev_distance_sum(s, u, NUM, points, own));
+        }
+    }
+}
+
 /* Powers side by side against long double, over all sizes of distances; 0 stays 0. */
 static void powers(void **state) {
     enum { ROUNDS = 500 };
@@ -171,6 +203,6 @@ int main(void) {
         cmocka_unit_test(eigenvalues), cmocka_unit_test(closed_forms),
         cmocka_unit_test(distances),   cmocka_unit_test(powers),
         cmocka_unit_test(refusals),    cmocka_unit_test(gauss_legendre),
-        cmocka_unit_test(conversion)};
+        cmocka_unit_test(conversion),  cmocka_unit_test(sums_side_by_side)};
     return cmocka_run_group_tests_name("sobolev", tests, NULL, NULL);
 }

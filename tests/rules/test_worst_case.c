@@ -338,7 +338,7 @@ static void interpolation(void **state) {
             assert_true(fabs(alpha[i] - item(cJSON_GetObjectItem(one, "alpha"), i)) <= limit);
         }
         assert_true(fabs(norm - test_field(one, "norm2")) <= limit * fabs(norm));
-        ps_kernel_interpolate(num, points, s, alpha, num_tests, tests, values);
+        ps_kernel_interpolate(num, points, s, 1, alpha, num_tests, tests, values);
         for (size_t i = 0; i < num_tests; i++) {
             assert_true(fabs(values[i] - item(cJSON_GetObjectItem(one, "f_at_test"), i)) <= 1e-12);
         }

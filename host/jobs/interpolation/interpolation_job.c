@@ -2,22 +2,25 @@
 
 #include "base/memory.h"
 #include "math/neumaier.h"
+#include "math/sobolev.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Pixels times points of one call, which nobody can stop: some tenths of a second of two cores. */
+/* Pixels times points of one call, which nobody can stop: some tenths of a second of two cores; and
+ * pixels, whose directions and values take little memory then. */
 static const double call_pairs = 1 << 26;
+static const double call_pixels = 1 << 14;
 
 bool ps_interpolation_is_dense(const ps_interpolation_question *question, size_t num_points) {
     return num_points <= PS_INTERPOLATION_MOST_DENSE &&
            ps_kernel_system_is_dense(num_points, question->limits.constraints.memory_limit);
 }
 
-/* Values, solution and what is found at the points. */
+/* Values, solutions and what is found at the points. */
 static size_t numbers_of_point(const ps_interpolation_question *question) {
-    return question->panorama->num + 2;
+    return 3 * question->panorama->num;
 }
 
 static size_t pixels_of(const ps_interpolation_question *question) {
@@ -139,7 +142,7 @@ static pspec_status make_room(ps_interpolation_job *job, size_t num_points, ps_e
     if (num_points <= job->most_points) {
         return PSPEC_OK;
     }
-    const double fit = call_pairs / (double)num_points / (double)panorama->width;
+    const double fit = fmin(call_pixels, call_pairs / (double)num_points) / (double)panorama->width;
     free(job->block);
     free(job->directions);
     job->block = job->directions = NULL;
@@ -149,8 +152,9 @@ static pspec_status make_room(ps_interpolation_job *job, size_t num_points, ps_e
                            numbers_of_point(job->question) * sizeof(double), "values", error));
     job->values = job->block;
     job->alpha = job->values + panorama->num * num_points;
-    job->found = job->alpha + num_points;
-    PS_TRY(PS_NEW(&job->directions, job->rows_of_block * panorama->width * 4, "pixels", error));
+    job->found = job->alpha + panorama->num * num_points;
+    PS_TRY(PS_NEW(&job->directions, job->rows_of_block * panorama->width * (3 + panorama->num),
+                  "pixels", error));
     job->pixels = job->directions + job->rows_of_block * panorama->width * 3;
     return PSPEC_OK;
 }
@@ -172,115 +176,135 @@ static pspec_status take_values(ps_interpolation_job *job, ps_point_set *set, ps
     return PSPEC_OK;
 }
 
-/* ---- a kernel and a function --------------------------------------------------------------- */
+/* ---- a kernel ------------------------------------------------------------------------------ */
 
+/* All functions by one kernel. */
 typedef struct interpolant {
     ps_interpolation_job *job;
     const ps_point_set *set;
-    double smoothness;
-    size_t index; /* of the row of the job */
-    const double *f;
-    ps_interpolation_row *row;
+    size_t index; /* of the kernel */
+    ps_error *error;
 } interpolant;
 
+static size_t num_functions(const interpolant *self) {
+    return self->job->question->panorama->num;
+}
+
+static ps_interpolation_row *row_of(const interpolant *self, size_t function) {
+    return &self->job->rows[self->index * num_functions(self) + function];
+}
+
 static void evaluate(const interpolant *self, size_t num, const double *at, double *values) {
-    ps_kernel_interpolate(self->set->num_points, self->set->points, self->smoothness,
+    ps_kernel_interpolate(self->set->num_points, self->set->points,
+                          self->job->question->smoothness[self->index], num_functions(self),
                           self->job->alpha, num, at, values);
 }
 
 /* What is left of the equations, by sums that solved none of them. */
 static void check_points(const interpolant *self) {
-    double off = 0;
-    double most = 0;
     const size_t num = self->set->num_points;
     evaluate(self, num, self->set->points, self->job->found);
-    for (size_t j = 0; j < num; j++) {
-        off = fmax(off, fabs(self->job->found[j] - self->f[j]));
-        most = fmax(most, fabs(self->f[j]));
+    for (size_t i = 0; i < num_functions(self); i++) {
+        const double *const f = self->job->values + i * num;
+        const double *const found = self->job->found + i * num;
+        double off = 0;
+        double most = 0;
+        for (size_t j = 0; j < num; j++) {
+            off = fmax(off, fabs(found[j] - f[j]));
+            most = fmax(most, fabs(f[j]));
+        }
+        ps_interpolation_row *const row = row_of(self, i);
+        row->residual = fmax(row->residual, most > 0 ? off / most : off);
     }
-    self->row->residual = fmax(self->row->residual, most > 0 ? off / most : off);
 }
 
-/* Returns the part of the mean square that the row of the panorama has. */
-static double compare_row(const interpolant *self, size_t row, const double *found) {
+/* Returns the part of the mean square that a line of pixels has. */
+static double compare_line(const interpolant *self, size_t function, size_t line,
+                           const double *found) {
     const ps_panorama *const panorama = self->job->question->panorama;
-    const size_t function = self->index % panorama->num;
     const double *const f =
-        panorama->values + (function * panorama->height + row) * panorama->width;
+        panorama->values + (function * panorama->height + line) * panorama->width;
+    ps_interpolation_row *const row = row_of(self, function);
     ps_neumaier sum = {0, 0};
     for (size_t j = 0; j < panorama->width; j++) {
         const double off = found[j] - f[j];
         ps_neumaier_add(&sum, off * off);
-        self->row->largest_error = fmax(self->row->largest_error, fabs(off));
+        row->largest_error = fmax(row->largest_error, fabs(off));
     }
-    return ps_neumaier_value(&sum) * ps_panorama_share(panorama, row);
+    return ps_neumaier_value(&sum) * ps_panorama_share(panorama, line);
 }
 
-static pspec_status compare(const interpolant *self, ps_error *error) {
-    ps_interpolation_job *const job = self->job;
+/* Adds the squares of num lines, whose values are there; keeps the image of the first set. */
+static void compare_lines(const interpolant *self, size_t first, size_t num, ps_neumaier *squares) {
+    const ps_interpolation_job *const job = self->job;
     const ps_panorama *const panorama = job->question->panorama;
     const size_t width = panorama->width;
-    double *const image = job->images != NULL && job->num_realizations == 0
-                              ? job->images + self->index * width * panorama->height
-                              : NULL;
-    ps_neumaier square = {0, 0};
+    for (size_t i = 0; i < num_functions(self); i++) {
+        const double *const found = job->pixels + i * num * width;
+        for (size_t line = 0; line < num; line++) {
+            ps_neumaier_add(&squares[i], compare_line(self, i, first + line, found + line * width));
+        }
+        if (job->images != NULL && job->num_realizations == 0) {
+            const size_t image = self->index * num_functions(self) + i;
+            memcpy(job->images + (image * panorama->height + first) * width, found,
+                   num * width * sizeof *found);
+        }
+    }
+}
+
+static pspec_status compare(const interpolant *self) {
+    ps_interpolation_job *const job = self->job;
+    const ps_panorama *const panorama = job->question->panorama;
+    ps_neumaier squares[PS_SOBOLEV_MOST_SUMS] = {{0, 0}};
     for (size_t first = 0; first < panorama->height; first += job->rows_of_block) {
         const size_t left = panorama->height - first;
         const size_t num = left < job->rows_of_block ? left : job->rows_of_block;
         PS_TRY(ps_watch_tell(&job->question->watch, "interpolation: rows of pixels", first,
-                             panorama->height, NULL, error));
+                             panorama->height, NULL, self->error));
         ps_panorama_directions(panorama, first, num, job->directions);
-        evaluate(self, num * width, job->directions, job->pixels);
-        for (size_t i = 0; i < num; i++) {
-            ps_neumaier_add(&square, compare_row(self, first + i, job->pixels + i * width));
-        }
-        if (image != NULL) {
-            memcpy(image + first * width, job->pixels, num * width * sizeof *image);
-        }
+        evaluate(self, num * panorama->width, job->directions, job->pixels);
+        compare_lines(self, first, num, squares);
     }
-    ps_sums_add(&self->row->squares, ps_neumaier_value(&square));
+    for (size_t i = 0; i < num_functions(self); i++) {
+        ps_sums_add(&row_of(self, i)->squares, ps_neumaier_value(&squares[i]));
+    }
     return PSPEC_OK;
 }
 
-static pspec_status interpolate(const interpolant *self, ps_kernel_system *system,
-                                ps_error *error) {
-    ps_interpolation_row *const row = self->row;
-    ps_interpolation_job *const job = self->job;
-    PS_TRY(ps_kernel_system_solve(system, self->f, job->alpha, NULL, error));
-    const ps_kernel_facts facts = ps_kernel_system_facts(system);
-    const double square = ps_kernel_dot(self->set->num_points, self->f, job->alpha);
-    ps_sums_add(&row->norms, fmax(square, 0)); /* of 0, rounding may leave less */
-    row->condition = fmax(row->condition, facts.condition);
-    row->num_steps = facts.num_steps > row->num_steps ? facts.num_steps : row->num_steps;
-    check_points(self);
-    return compare(self, error);
+static pspec_status solve(const interpolant *self, ps_kernel_system *system) {
+    const size_t num = self->set->num_points;
+    for (size_t i = 0; i < num_functions(self); i++) {
+        const double *const f = self->job->values + i * num;
+        double *const alpha = self->job->alpha + i * num;
+        ps_interpolation_row *const row = row_of(self, i);
+        PS_TRY(ps_kernel_system_solve(system, f, alpha, NULL, self->error));
+        const ps_kernel_facts facts = ps_kernel_system_facts(system);
+        const double square = ps_kernel_dot(num, f, alpha);
+        ps_sums_add(&row->norms, fmax(square, 0)); /* of 0, rounding may leave less */
+        row->condition = fmax(row->condition, facts.condition);
+        row->num_steps = facts.num_steps > row->num_steps ? facts.num_steps : row->num_steps;
+    }
+    return PSPEC_OK;
 }
 
-/* All functions by one kernel. */
-static pspec_status use_kernel(ps_interpolation_job *job, const ps_point_set *set, size_t index,
-                               ps_error *error) {
-    const ps_interpolation_question *const question = job->question;
-    const size_t num = question->panorama->num;
+static pspec_status interpolate(const interpolant *self) {
+    const ps_interpolation_question *const question = self->job->question;
     const ps_kernel_options options = {.memory_limit = question->limits.constraints.memory_limit,
                                        .most_dense = PS_INTERPOLATION_MOST_DENSE,
                                        .residual = question->residual,
-                                       .device = job->device,
+                                       .device = self->job->device,
                                        .watch = &question->watch};
     ps_kernel_system *system = NULL;
-    PS_TRY(ps_kernel_system_create(&system, set->num_points, set->points,
-                                   question->smoothness[index], &options, error));
-    pspec_status status = ps_kernel_system_check_distinct(system, error);
-    for (size_t f = 0; status == PSPEC_OK && f < num; f++) {
-        const interpolant one = {.job = job,
-                                 .set = set,
-                                 .smoothness = question->smoothness[index],
-                                 .index = index * num + f,
-                                 .f = job->values + f * set->num_points,
-                                 .row = &job->rows[index * num + f]};
-        status = interpolate(&one, system, error);
+    PS_TRY(ps_kernel_system_create(&system, self->set->num_points, self->set->points,
+                                   question->smoothness[self->index], &options, self->error));
+    pspec_status status = ps_kernel_system_check_distinct(system, self->error);
+    if (status == PSPEC_OK) {
+        status = solve(self, system);
     }
     ps_kernel_system_destroy(system);
-    return status;
+    PS_TRY(status);
+    check_points(self);
+    return compare(self);
 }
 
 static pspec_status use_set(ps_interpolation_job *job, ps_error *error) {
@@ -288,7 +312,8 @@ static pspec_status use_set(ps_interpolation_job *job, ps_error *error) {
     const bool is_first = job->num_realizations == 0;
     PS_TRY(take_values(job, set, error));
     for (size_t s = 0; s < job->question->num_smoothness; s++) {
-        PS_TRY(use_kernel(job, set, s, error));
+        const interpolant one = {job, set, s, error};
+        PS_TRY(interpolate(&one));
     }
     job->num_realizations++;
     job->num_points += set->num_points;

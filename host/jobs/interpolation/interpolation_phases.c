@@ -26,12 +26,14 @@ void ps_interpolation_job_phases(const ps_interpolation_job *job, ps_phases *pha
     const double points = (double)job->first_points;
     const double num = (double)panorama->num;
     const double sets = add_points(job, phases);
+    /* of a function beside others, which share distances: 1000 points, s = 1.1 and 1.5, EPYC */
+    const double beside = 0.12;
     const double each = points * ((double)panorama->width * (double)panorama->height + points);
     for (size_t i = 0; i < question->num_smoothness; i++) {
         const double s = question->smoothness[i];
         ps_phases_kernel_system(phases, kernel, s, points, num,
                                 ps_interpolation_is_dense(question, job->first_points), sets);
-        ps_phases_distances(phases, pixels, s, num * each, sets);
+        ps_phases_distances(phases, pixels, s, each * (1 + beside * (num - 1)), sets);
     }
     ps_phases_say(phases, pixels, "%.4g pixels and points from %.6g points", each / points, points);
     ps_phases_tabulate(phases, num * (double)question->num_smoothness);

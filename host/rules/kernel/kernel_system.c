@@ -174,9 +174,10 @@ out:
 }
 
 typedef struct interpolation {
-    size_t num_points;
+    size_t num_points, num_functions;
     const double *points, *x, *at;
-    double smoothness, sum;
+    double smoothness;
+    double all[PS_SOBOLEV_MOST_SUMS]; /* c sum_i x_i */
     double *values;
     size_t num;
 } interpolation;
@@ -185,21 +186,29 @@ static void interpolate_share(void *payload, unsigned index, unsigned count) {
     const interpolation *const work = payload;
     const size_t end = ps_share_begin(work->num, index + 1, count);
     for (size_t i = ps_share_begin(work->num, index, count); i < end; i++) {
-        work->values[i] = ps_sobolev_constant(work->smoothness) * work->sum -
-                          ps_sobolev_distance_sum(work->smoothness, work->at + 3 * i,
-                                                  work->num_points, work->points, work->x);
+        double sums[PS_SOBOLEV_MOST_SUMS];
+        ps_sobolev_distance_sums(work->smoothness, work->at + 3 * i, work->num_points, work->points,
+                                 work->num_functions, work->x, sums);
+        for (size_t f = 0; f < work->num_functions; f++) {
+            work->values[f * work->num + i] = work->all[f] - sums[f];
+        }
     }
 }
 
 void ps_kernel_interpolate(size_t num_points, const double *points, double smoothness,
-                           const double *x, size_t num, const double *at, double *values) {
+                           size_t num_functions, const double *x, size_t num, const double *at,
+                           double *values) {
     interpolation work = {.num_points = num_points,
+                          .num_functions = num_functions,
                           .points = points,
                           .x = x,
                           .at = at,
                           .smoothness = smoothness,
-                          .sum = ps_kernel_dot(num_points, x, NULL),
                           .values = values,
                           .num = num};
+    for (size_t f = 0; f < num_functions; f++) {
+        work.all[f] =
+            ps_sobolev_constant(smoothness) * ps_kernel_dot(num_points, x + f * num_points, NULL);
+    }
     ps_workers_share(num * num_points, interpolate_share, &work);
 }

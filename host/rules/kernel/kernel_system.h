@@ -70,9 +70,12 @@ pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *righ
 
 ps_kernel_facts ps_kernel_system_facts(const ps_kernel_system *system);
 
-/* sum_i x_i K(u, u_i) at unit vectors [num][3]: docs/mathematics/quadrature.md#interpolation. */
+/* values [num_functions][num] of sum_i x_i K(u, u_i) at unit vectors at [num][3], for each row of x
+ * [num_functions][num_points]: docs/mathematics/quadrature.md#interpolation. At most
+ * PS_SOBOLEV_MOST_SUMS functions, which share their distances. */
 void ps_kernel_interpolate(size_t num_points, const double *points, double smoothness,
-                           const double *x, size_t num, const double *at, double *values);
+                           size_t num_functions, const double *x, size_t num, const double *at,
+                           double *values);
 
 /* sum a_i b_i, compensated; b NULL: of a. */
 double ps_kernel_dot(size_t num, const double *a, const double *b);
