@@ -6,7 +6,7 @@
 #define SPHERE (OF(angular) | OF(pairs) | OF(check) | OF(variance))
 #define SPECTRA (TORUS | SPHERE)
 #define RULES (OF(quadrature) | OF(shade))
-#define SETS (RULES | OF(interpolation))
+#define SETS (RULES | OF(interpolation) | OF(occlusion))
 
 const char *const ps_field_groups[] = {[PS_FIELD_ENTRY] = "entry",
                                        [PS_FIELD_COLUMN] = "column",
@@ -91,7 +91,8 @@ const ps_field_row ps_fields_points[] = {
      "the sampler, or the name of the set of files"},
     {"integrand", "", PS_COLUMN, OF(variance) | OF(interpolation), "several integrands",
      "the integrand"},
-    {"points", "", PS_COLUMN, (SPECTRA & ~OF(check)) | RULES, "several numbers of points",
+    {"points", "", PS_COLUMN, (SPECTRA & ~OF(check)) | RULES | OF(occlusion),
+     "several numbers of points",
      "N as it was asked for; of variance, where it is always there, the mean where sets differ"},
     {.name = NULL}};
 

@@ -4,6 +4,7 @@
 #include "answers/output_check.h"
 #include "answers/picture.h"
 #include "base/text.h"
+#include "images/image.h"
 #include "points/lists/weight_list.h"
 #include "request/options.h"
 
@@ -65,11 +66,15 @@ static const struct array_file {
 } array_files[] = {{offsetof(ps_request, full), "", "full"},
                    {offsetof(ps_request, full), ".standard_error", "full_standard_error"},
                    {offsetof(ps_request, coefficients), "", "coefficients"},
-                   {offsetof(ps_request, weights_out), "", "weights"}};
+                   {offsetof(ps_request, weights_out), "", "weights"},
+                   {offsetof(ps_request, image_out), "", "image"}};
 enum { NUM_ARRAY_FILES = sizeof array_files / sizeof array_files[0] };
 
-/* Weights may be lines of text, too. */
+/* Weights may be lines of text, too, and an image may be PFM. */
 static pspec_status write_array(const char *path, const ps_npy_array *array, ps_error *error) {
+    if (strcmp(ps_output_ending(path), ".pfm") == 0) {
+        return ps_image_write_pfm(path, array->shape[1], array->shape[0], array->data, error);
+    }
     return array->rank == 1 && !array->is_complex ? ps_write_weights(path, array, error)
                                                   : ps_npy_write_array(path, array, error);
 }

@@ -106,11 +106,12 @@ static pspec_status add_file(pspec_question *self, const char *path, ps_error *e
 
 /* Arrays that options write to a file, if they name one. */
 static bool ask_for_array(ps_request *request, ps_option_id id) {
-    request->wants_array =
-        request->wants_array || id == PS_OPTION_FULL || id == PS_OPTION_WEIGHTS_OUT;
+    const bool is_array =
+        id == PS_OPTION_FULL || id == PS_OPTION_WEIGHTS_OUT || id == PS_OPTION_IMAGE_OUT;
+    request->wants_array = request->wants_array || is_array;
     request->wants_errors = request->wants_errors || id == PS_OPTION_FULL;
     request->wants_coefficients = request->wants_coefficients || id == PS_OPTION_COEFFICIENTS;
-    return id == PS_OPTION_FULL || id == PS_OPTION_WEIGHTS_OUT || id == PS_OPTION_COEFFICIENTS;
+    return is_array || id == PS_OPTION_COEFFICIENTS;
 }
 
 static pspec_status find_option(ps_option_id *out, const pspec_question *self, const char *name,

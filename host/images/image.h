@@ -26,6 +26,9 @@ pspec_status ps_image_read(ps_image *out, const char *path, ps_error *error) PS_
 pspec_status ps_image_invent(ps_image *out, size_t width, size_t height,
                              ps_error *error) PS_MUST_CHECK;
 void ps_image_free(ps_image *image);
+/* Writes [height][width] numbers, the top row first, as a PFM image of one channel. */
+pspec_status ps_image_write_pfm(const char *path, size_t width, size_t height, const double *pixels,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* Luminance of linear red, green and blue (ITU-R BT.709), or the value of a single channel. */
 double ps_image_luminance(const ps_image *image, size_t pixel);

@@ -1,5 +1,6 @@
 /* Portable float map: two letters, width, height, a scale whose sign is the order of bytes, and the
  * rows of float32 from the lowest up. */
+#include "files/output_file.h"
 #include "files/text_lines.h"
 #include "images/image_format.h"
 
@@ -40,9 +41,13 @@ static void swap_bytes(float *pixels, size_t num) {
     }
 }
 
+static bool is_little_endian(void) {
+    const uint16_t one = 1;
+    return *(const unsigned char *)&one == 1;
+}
+
 pspec_status ps_image_read_pfm(ps_image *out, ps_input *input, ps_error *error) {
     char letters[PS_IMAGE_LINE_BYTES];
-    const uint16_t one = 1;
     double width = 0;
     double height = 0;
     double scale = 0;
@@ -60,8 +65,23 @@ pspec_status ps_image_read_pfm(ps_image *out, ps_input *input, ps_error *error) 
         PS_TRY(ps_image_read_bytes(input, pixels, row * sizeof *pixels, error));
     }
     ps_image_turn(out);
-    if ((scale < 0) != (*(const unsigned char *)&one == 1)) {
+    if ((scale < 0) != is_little_endian()) {
         swap_bytes(out->pixels, out->height * row);
     }
     return PSPEC_OK;
+}
+
+pspec_status ps_image_write_pfm(const char *path, size_t width, size_t height, const double *pixels,
+                                ps_error *error) {
+    ps_output_file *file = NULL;
+    PS_TRY(ps_output_open(&file, path, error));
+    fprintf(ps_output_stream(file), "Pf\n%zu %zu\n%s\n", width, height,
+            is_little_endian() ? "-1.0" : "1.0");
+    for (size_t y = height; y-- > 0;) {
+        for (size_t x = 0; x < width; x++) {
+            const float value = (float)pixels[y * width + x];
+            ps_output_write(file, &value, sizeof value, 1);
+        }
+    }
+    return ps_output_commit(&file, error);
 }

@@ -35,7 +35,7 @@ typedef struct ps_series {
     const char *label;   /* NULL: none; in a frame, the key does not have it */
     /* From 0; series of a kind look the same, and have the same label, in every panel */
     size_t kind;
-    size_t num, columns; /* of a map: pixels of a row */
+    size_t num, columns; /* of an image: pixels of a row */
     const double *x, *y;
     const double *error;      /* standard errors, of spectra and of marks; else NULL */
     const double *anisotropy; /* of spectra, in dB; else NULL */
@@ -67,13 +67,16 @@ typedef enum ps_frame_form {
     PS_FRAME_SQUARE, /* points: both axes from `first` to `last` */
     PS_FRAME_LINE,   /* the axis of x, points of one coordinate; y is not looked at */
     PS_FRAME_DISC,   /* the unit disc, a side of the sphere */
-    PS_FRAME_MAP /* all of the sphere: y of a series, row by row from the north pole on; x is not
-                        looked at; black at `first`, white at `last` */
+    /* An image: y of its only series, `columns` of a row from the top on; x is not looked at.
+     * Colours go from `first` to `last`, and are signed where `first` is below 0. */
+    PS_FRAME_PIXELS,
+    /* The same of light, from black to white as bright as screens show it, without a scale. */
+    PS_FRAME_LIGHT
 } ps_frame_form;
 
 typedef struct ps_frame {
     ps_frame_form form;
-    double first, last;            /* of a square, a line or a map */
+    double first, last;            /* of a square or a line, and of the colours of an image */
     const char *x_label, *y_label; /* names of the axes, at the ends of those of a disc; NULL: those
                                       of the figure */
     bool is_mirrored;              /* x runs to the left */

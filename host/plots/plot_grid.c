@@ -284,17 +284,17 @@ static bool are_all(const ps_figure *figure, ps_frame_form form) {
     return i == figure->num_panels;
 }
 
-/* Discs and maps have no numbers and labels below them. */
+/* Discs and light have no numbers and labels below them. */
 static grid find_points(const ps_figure *figure) {
     /* of a panel where there are so many columns: the page stays within 1800 pixels */
     static const double sides[PS_MOST_POINT_COLUMNS] = {860, 600, 480, 370};
     const double side = sides[figure->num_columns - 1];
-    const bool are_maps = are_all(figure, PS_FRAME_MAP);
+    const bool are_light = are_all(figure, PS_FRAME_LIGHT); /* of every direction: 2:1 */
     const double height = are_all(figure, PS_FRAME_LINE) ? PS_SCRIPT_LINE_HEIGHT
-                          : are_maps                     ? side / 2
+                          : are_light                    ? side / 2
                                                          : side;
     grid out = {figure->num_columns, figure->num_panels, 44, side, height, 72, 28, 34, 48};
-    out.below = are_maps || are_all(figure, PS_FRAME_DISC) ? 4 : out.below;
+    out.below = are_light || are_all(figure, PS_FRAME_DISC) ? 4 : out.below;
     out.width += out.left + out.right;
     out.height += out.above + out.below;
     return out;

@@ -1,4 +1,4 @@
-/* The gnuplot script of the averaged periodogram on the whole square. */
+/* The gnuplot script of images: the averaged periodogram on the whole square, and pixels. */
 #include "base/memory.h"
 #include "plots/plot_script.h"
 
@@ -179,4 +179,91 @@ void ps_script_print_image(ps_text *out, const ps_script_panel *panel) {
     ps_text_append(out,
                    "plot $image matrix using (%.9g+$1*%.9g):(%.9g+$2*%.9g):3 with image notitle",
                    first, own->pixel, first, own->pixel);
+}
+
+/* ---- pixels as they are ---------------------------------------------------------------------- */
+
+enum { MOST_SHOWN = 600, WHITE = 255 }; /* more would not be seen in panels of that width */
+
+static size_t most_sides(const ps_series *series) {
+    const size_t rows = series->num / series->columns;
+    return rows > series->columns ? rows : series->columns;
+}
+
+/* Pixels along a side of a block that is shown as one. */
+static size_t block_of(const ps_series *series) {
+    return (most_sides(series) + MOST_SHOWN - 1) / MOST_SHOWN;
+}
+
+static double mean_of_block(const ps_series *series, size_t row, size_t column) {
+    const size_t block = block_of(series);
+    const size_t rows = series->num / series->columns;
+    double sum = 0;
+    double num = 0;
+    for (size_t i = row; i < row + block && i < rows; i++) {
+        for (size_t j = column; j < column + block && j < series->columns; j++, num++) {
+            sum += series->y[i * series->columns + j];
+        }
+    }
+    return sum / num;
+}
+
+/* As bright as screens show it. */
+static double brightness(const ps_frame *frame, double mean) {
+    const double gamma = 2.2;
+    const double share = (mean - frame->first) / (frame->last - frame->first);
+    return round(WHITE * pow(fmin(1, fmax(0, share)), 1 / gamma));
+}
+
+void ps_script_print_pixel_data(ps_text *out, const ps_panel *panel) {
+    const ps_series *const series = &panel->series[0];
+    const size_t block = block_of(series);
+    for (size_t i = 0; i < series->num / series->columns; i += block) {
+        for (size_t j = 0; j < series->columns; j += block) {
+            const double mean = mean_of_block(series, i, j);
+            ps_text_append(out, " %.6g",
+                           panel->frame.form == PS_FRAME_LIGHT ? brightness(&panel->frame, mean)
+                                                               : mean);
+        }
+        ps_text_append(out, "\n");
+    }
+}
+
+/* Grey, or, where they are signed, of two colours; with a scale below. */
+static void print_scale(ps_text *out, const ps_frame *frame, const ps_script_box *where) {
+    const double gap = 12; /* pixels, from the image to the colours, and their height */
+    const bool is_signed = frame->first < 0;
+    ps_text_append(out, "set palette defined (0 '%s', 1 '%s', 2 '%s')\nset cbrange [%.6g:%.6g]\n",
+                   is_signed ? below[1] : "#000000", is_signed ? neutral : "#808080",
+                   is_signed ? above[1] : "#ffffff", frame->first, frame->last);
+    ps_text_append(out,
+                   "set colorbox horizontal user origin screen %.5f, screen %.5f size screen "
+                   "%.5f, screen %.5f\nset cbtics offset 0,0.5\n",
+                   where->left / where->page_width,
+                   1 - (where->bottom + 2 * gap) / where->page_height,
+                   (where->right - where->left) / where->page_width, gap / where->page_height);
+}
+
+/* Pixels are squares, in the middle of the panel. */
+void ps_script_print_pixels(ps_text *out, const ps_script_panel *panel, size_t number) {
+    const ps_frame *const frame = &panel->panel.frame;
+    const ps_script_box *const where = &panel->where;
+    const ps_series *const series = &panel->panel.series[0];
+    const size_t block = block_of(series);
+    const double columns = ceil((double)series->columns / (double)block);
+    const double rows = ceil((double)(series->num / series->columns) / (double)block);
+    const double width = where->right - where->left;
+    const double height = where->bottom - where->top;
+    const double unit = fmax(columns / width, rows / height); /* pixels of the image in one */
+    ps_text_append(out, "unset border\nunset xtics\nunset ytics\n");
+    if (frame->form == PS_FRAME_LIGHT) {
+        ps_text_append(out, "unset colorbox\nset palette gray\nset cbrange [0:%d]\n", WHITE);
+    } else {
+        print_scale(out, frame, where);
+    }
+    const double x = (columns - 1) / 2;
+    const double y = (rows - 1) / 2;
+    ps_text_append(out, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", x - unit * width / 2,
+                   x + unit * width / 2, y + unit * height / 2, y - unit * height / 2);
+    ps_text_append(out, "plot $data%zu_0 matrix using 1:2:3 with image notitle", number);
 }

@@ -1,5 +1,4 @@
-/* The gnuplot script of points: squares, lines and discs, whose axes have the same unit; and of
- * maps. */
+/* The gnuplot script of points: squares, lines and discs, whose axes have the same unit. */
 #include "math/pi.h"
 #include "plots/plot_script.h"
 
@@ -134,61 +133,9 @@ static void print_disc(ps_text *out, const ps_script_box *where, const ps_frame 
     print_name(out, 3, frame->y_label, "first", 0, beside, "");
 }
 
-/* ---- maps ------------------------------------------------------------------------------------ */
-
-enum { MAP_COLUMNS = 600, WHITE = 255 }; /* more would not be seen in panels of that width */
-
-static size_t block_of(const ps_panel *panel) {
-    return (panel->series[0].columns + MAP_COLUMNS - 1) / MAP_COLUMNS;
-}
-
-/* The mean over a block, as bright as screens show it. */
-static double tone(const ps_panel *panel, size_t row, size_t column) {
-    const ps_frame *const frame = &panel->frame;
-    const size_t block = block_of(panel);
-    const size_t columns = panel->series[0].columns;
-    const size_t rows = panel->series[0].num / columns;
-    const double gamma = 2.2;
-    double sum = 0;
-    double num = 0;
-    for (size_t i = row; i < row + block && i < rows; i++) {
-        for (size_t j = column; j < column + block && j < columns; j++, num++) {
-            sum += panel->series[0].y[i * columns + j];
-        }
-    }
-    const double share = (sum / num - frame->first) / (frame->last - frame->first);
-    return WHITE * pow(fmin(1, fmax(0, share)), 1 / gamma);
-}
-
-void ps_script_print_map_data(ps_text *out, const ps_panel *panel) {
-    const size_t block = block_of(panel);
-    const size_t columns = panel->series[0].columns;
-    for (size_t i = 0; i < panel->series[0].num / columns; i += block) {
-        for (size_t j = 0; j < columns; j += block) {
-            ps_text_append(out, " %.0f", tone(panel, i, j));
-        }
-        ps_text_append(out, "\n");
-    }
-}
-
-static void print_map(ps_text *out, const ps_panel *panel, size_t number) {
-    const size_t block = block_of(panel);
-    const size_t rows = panel->series[0].num / panel->series[0].columns;
-    ps_text_append(out,
-                   "unset tics\nunset colorbox\nset palette gray\nset cbrange [0:%d]\n"
-                   "set xrange [-0.5:%zu.5]\nset yrange [%zu.5:-0.5]\n"
-                   "plot $data%zu_0 matrix using 1:2:3 with image notitle",
-                   WHITE, (panel->series[0].columns + block - 1) / block - 1,
-                   (rows + block - 1) / block - 1, number);
-}
-
 void ps_script_print_points(ps_text *out, const ps_script_page *page, size_t number) {
     const ps_script_panel *const own = &page->panels[number];
     const ps_frame *const frame = &own->panel.frame;
-    if (frame->form == PS_FRAME_MAP) {
-        print_map(out, &own->panel, number);
-        return;
-    }
     if (frame->form == PS_FRAME_DISC) {
         print_disc(out, &own->where, frame);
     } else {

@@ -31,8 +31,8 @@ static void print_data(ps_text *out, const ps_script_page *page) {
         for (size_t j = 0; j < own->panel.num_series; j++) {
             if (own->panel.series[j].num > 0 || own->panel.frame.form >= PS_FRAME_SQUARE) {
                 ps_text_append(out, "$data%zu_%zu << EOD\n", i, j);
-                if (own->panel.frame.form == PS_FRAME_MAP) {
-                    ps_script_print_map_data(out, &own->panel);
+                if (own->panel.frame.form >= PS_FRAME_PIXELS) {
+                    ps_script_print_pixel_data(out, &own->panel);
                 } else {
                     print_places(out, own, &own->panel.series[j]);
                 }
@@ -135,6 +135,8 @@ static void print_panel(ps_text *out, const ps_script_page *page, size_t number,
     ps_script_print_key(out, &own->key);
     if (own->raster.size > 0) {
         ps_script_print_image(out, own);
+    } else if (own->panel.frame.form >= PS_FRAME_PIXELS) {
+        ps_script_print_pixels(out, own, number);
     } else if (own->panel.frame.form >= PS_FRAME_SQUARE) {
         ps_script_print_points(out, page, number);
     } else {

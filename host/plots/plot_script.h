@@ -124,9 +124,7 @@ double ps_script_line_width(const ps_script_panel *panel, size_t index);
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-/* The numbers of a map: how bright blocks of its pixels are, from 0 to 255. */
-void ps_script_print_map_data(ps_text *out, const ps_panel *panel);
-/* The square, line, disc or map, and "plot" with the points in it. */
+/* The square, line or disc, and "plot" with the points in it. */
 void ps_script_print_points(ps_text *out, const ps_script_page *page, size_t number);
 /* Diameter of their marks, in pixels, as is that side of the panel. */
 double ps_script_mark_size(const ps_panel *panel, double side);
@@ -139,6 +137,11 @@ pspec_status ps_script_make_raster(ps_script_raster *out, ps_pool *memory,
                                    const ps_plot_image *image, ps_error *error) PS_MUST_CHECK;
 /* The image, and the colours beside it. */
 void ps_script_print_image(ps_text *out, const ps_script_panel *panel);
+/* The numbers of an image: means of blocks of pixels; of light how bright they are, from 0 to 255.
+ */
+void ps_script_print_pixel_data(ps_text *out, const ps_panel *panel);
+/* The image, and but for light the colours below it. */
+void ps_script_print_pixels(ps_text *out, const ps_script_panel *panel, size_t number);
 
 /* ---- what axes cover ------------------------------------------------------------------------- */
 

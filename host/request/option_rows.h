@@ -31,10 +31,10 @@
 #define RULES (BIT(quadrature) | BIT(shade))
 #define SETS (SPECTRA | RULES | BIT(check))
 #define ENGINES (SETS | BIT(variance))
-#define READERS (ENGINES | BIT(interpolation))
+#define READERS (ENGINES | BIT(interpolation) | BIT(occlusion))
 #define LOBES (RULES | BIT(truncation))
-#define SERIES (SPECTRA | RULES | BIT(variance) | BIT(interpolation))
-#define PICTURES (SPECTRA | LOBES | BIT(variance) | BIT(interpolation))
+#define SERIES (SPECTRA | RULES | BIT(variance) | BIT(interpolation) | BIT(occlusion))
+#define PICTURES (SPECTRA | LOBES | BIT(variance) | BIT(interpolation) | BIT(occlusion))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (READERS | SUITES | BIT(truncation) | BIT(merge) | BIT(devices))
 

@@ -9,6 +9,8 @@
 /* A set has so many trials at most: their moves are in memory. */
 #define MOST_SHIFTS UINT64_C(1000000)
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
+/* Of a pixel: a quarter of these points is in memory. */
+#define MOST_REFERENCE UINT64_C(4000000)
 
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
  * one counts, but for --sampler, --set, --integrand and --bounds. */
@@ -106,6 +108,26 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                       "the Sobolev space H^S, 1 < S < 2 (default 1.5){"
                                       "interpolation:; several as 1.1,1.5,1.9}{:}",
                               .set = ps_set_smoothness},
+    [PS_OPTION_MESH] = {NAMED("mesh", 0, "FILE"), OF(BIT(occlusion), 0),
+                        .help = "the scene: Wavefront OBJ, or a text of quadrilaterals", TEXT(mesh),
+                        .input = ps_input_all, .is_of_all = true},
+    [PS_OPTION_CAMERA] = {NAMED("camera", 0, "X,Y,Z,X,Y,Z[,ANGLE[,X,Y,Z]]"), OF(BIT(occlusion), 0),
+                          .help = "where the camera is, what it looks at, its field of view from "
+                                  "left to right in degrees (40), and which way is up (0,1,0); "
+                                  "default: that of the file, else one that sees all of the mesh",
+                          .set = ps_set_camera},
+    [PS_OPTION_IMAGE] = {NAMED("image", 0, "WxH"), OF(BIT(occlusion), 0),
+                         .help = "width and height of the picture in pixels (default 256x256)",
+                         .set = ps_set_image},
+    [PS_OPTION_RADIUS] = {NAMED("radius", 0, "R"), OF(BIT(occlusion), 0),
+                          .help = "what is farther away hides nothing", POSITIVE(radius)},
+    [PS_OPTION_REFERENCE] = {NAMED("reference", 0, "R"), OF(BIT(occlusion), 0),
+                             .help =
+                                 "rays of a pixel of the reference, 4 n^2 or more (default 4096)",
+                             COUNT(num_reference), .minimum = 4, .maximum = MOST_REFERENCE},
+    [PS_OPTION_IMAGE_OUT] = {NAMED("image-out", 0, "FILE"), OF(0, BIT(occlusion)),
+                             .help = "write the image of the first realization too: .npy or .pfm",
+                             FILE_OUT(image_out)},
     [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"),
                                  OF(BIT(power) | BIT(check) | BIT(variance), 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
@@ -125,9 +147,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .set = ps_set_size,
                           .offset = offsetof(ps_request, limits.constraints.memory_limit)},
     [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL),
-                              OF(SPHERES | BIT(check) | BIT(variance), 0),
-                              .help = "points of the hemisphere, that is of the projective plane: "
-                                      "even degrees, odd ones vanish",
+                              OF(SPHERES | BIT(check) | BIT(variance) | BIT(occlusion), 0),
+                              .help = "points of the hemisphere{occlusion:}{:, that is of the "
+                                      "projective plane: even degrees, odd ones vanish}",
                               FLAG(hemisphere)},
     [PS_OPTION_COEFFICIENTS] = {NAMED("coefficients", 0, "FILE.npy"),
                                 OF(0, BIT(power) | BIT(angular)),
@@ -243,13 +265,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
                                      OF(SPHERES | RULES | BIT(check) | BIT(variance) |
-                                            BIT(interpolation),
+                                            BIT(interpolation) | BIT(occlusion),
                                         BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
-                        OF(SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation),
+                        OF(SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation) |
+                               BIT(occlusion),
                            BIT(convert)),
                         .help = "points (x, y) of the plane become points of the sphere, z = 2x - "
                                 "1 or z = x, phi = 2 pi y, as by lift= of samplers",
@@ -325,7 +348,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     .help = "answer the questions of a record by the engines, and "
                                             "in the precisions, that it names",
                                     FLAG(recorded_engines)},
-    [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(ENGINES, BIT(run)),
+    [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(READERS, BIT(run)),
                            .help = "do also what the question does not need",
                            FLAG(accuracy.no_skip)},
     [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL),

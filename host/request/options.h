@@ -18,6 +18,7 @@
     KIND(variance)                                                                                 \
     KIND(shade)                                                                                    \
     KIND(interpolation)                                                                            \
+    KIND(occlusion)                                                                                \
     PLANNED(sample)                                                                                \
     PLANNED(convert)                                                                               \
     KIND(check)                                                                                    \

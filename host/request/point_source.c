@@ -14,8 +14,9 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
         return PSPEC_OK;
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        const bool is_of_both = id == PS_OPTION_SEED && (arguments->frequencies.per_ring > 0 ||
-                                                         arguments->num_integrands > 0);
+        const bool is_of_both =
+            id == PS_OPTION_SEED && (arguments->frequencies.per_ring > 0 ||
+                                     arguments->num_integrands > 0 || arguments->mesh != NULL);
         if (!arguments->is_given[id] || ps_options[id].source != other || is_of_both) {
             continue;
         }

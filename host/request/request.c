@@ -16,6 +16,8 @@ const ps_request ps_request_default = {
     .false_alarm_rate = 1e-3,
     .num_smoothness = 1,
     .smoothness = {1.5},
+    .image = {256, 256},
+    .num_reference = 4096,
     .command_line = ""};
 
 pspec_status ps_request_check_one_count(const ps_request *request, const char *why,

@@ -24,6 +24,7 @@ enum {
     PS_MAX_SAMPLERS = 16,
     PS_MAX_COUNTS = 64,
     PS_MAX_INTEGRANDS = 16,
+    PS_MOST_CAMERA = 10,
     PS_MAX_SMOOTHNESS = 8,
     PS_SET_NAME_BYTES = 64
 };
@@ -49,6 +50,12 @@ typedef enum ps_option_id {
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
     PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
     PS_OPTION_SMOOTHNESS,        /* --smoothness S */
+    PS_OPTION_MESH,              /* --mesh FILE */
+    PS_OPTION_CAMERA,            /* --camera X,Y,Z,X,Y,Z[,ANGLE[,X,Y,Z]] */
+    PS_OPTION_IMAGE,             /* --image WxH */
+    PS_OPTION_RADIUS,            /* --radius R */
+    PS_OPTION_REFERENCE,         /* --reference R */
+    PS_OPTION_IMAGE_OUT,         /* --image-out FILE */
     PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
     PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
     PS_OPTION_HEMISPHERE,        /* --hemisphere */
@@ -162,6 +169,12 @@ typedef struct ps_request {
     ps_point_options reading;
     ps_point_range points; /* of each set; {0} unless given */
     ps_plot_axes plot_axes;
+    const char *mesh, *image_out;  /* NULL unless given */
+    unsigned num_camera;           /* 0 unless given, else 6, 7 or 10 */
+    double camera[PS_MOST_CAMERA]; /* position, what it looks at, angle in degrees, up */
+    size_t image[2];               /* width and height in pixels; 256 x 256 unless given */
+    double radius;                 /* 0 unless given */
+    uint64_t num_reference;        /* 4096 unless given */
     bool recorded_engines, homogenize, homogeneous, hemisphere, drop_below_horizon, merge,
         calibrate, quick, scenes, quiet, verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */

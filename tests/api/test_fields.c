@@ -53,6 +53,9 @@ static const char *const questions[] = {
     "integrand=coefficients:file=light.txt integrand=map:file=light.pfm smoothness=1.1,1.5 "
     "output=maps.npz engine=default",
     "interpolation files=above.txt integrand=map:file=light.pfm engine=default",
+    "occlusion mesh=corner.obj image=4x3 reference=4 sampler=white-sphere points=4,8 "
+    "image-out=image.npy engine=default",
+    "occlusion mesh=corner.obj image=4x3 reference=4 files=above.txt radius=2 engine=default",
     "check against=saved.npz sampler=white seed=1",
     "check against=saved.npz files=saved.npz engine=default",
     "check against=sphere.npz sampler=white-sphere",
@@ -266,6 +269,7 @@ static void fields_are_declared(void **state) {
     write_file("light.txt", "0,0,1,0\n1,0,1,0\n");
     write_file("above.txt", "0 0 1\n0.6 0 0.8\n#\n0 0 1\n");
     write_file("light.pfm", "Pf 1 1 -1\nABC<");
+    write_file("corner.obj", "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
     write_file("points.txt", "0.1 0.2\n0.3 0.9\n0.8 0.4\n");
     write_file("unequal.txt", "0.1 0.2\n0.3 0.9\n0.8 0.4\n#\n0.5 0.1\n");
     write_file("a.xyz", "2\nLattice=\"2 0 0 0 1 0 0 0 1\"\nAr 0 .1 .5\nKr .1 .9 .1\n");

@@ -73,6 +73,7 @@ make_inputs() {
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
     printf '0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n' >own.txt
     printf '2 1 1 .5\n0 0 1 0\n' >lm.txt
+    printf 'v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 5 4\n' >corner.obj
     "$program" power --engine host_direct --sampler white -n 8 -k 1 --coefficients own.npy -o own.csv
     for ending in csv json npy npz png txt; do echo "an earlier result" >old.$ending; done
     cat >points.yaml <<'EOF'

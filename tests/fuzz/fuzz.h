@@ -64,6 +64,7 @@ void fuzz_points(const char *argument, fuzz_bytes input);
 void fuzz_frequencies(const char *argument, fuzz_bytes input);
 void fuzz_weights(const char *argument, fuzz_bytes input);
 void fuzz_image(const char *argument, fuzz_bytes input);
+void fuzz_mesh(const char *argument, fuzz_bytes input);
 void fuzz_saved(const char *argument, fuzz_bytes input);
 void fuzz_table(const char *argument, fuzz_bytes input);
 void fuzz_scene(const char *argument, fuzz_bytes input);

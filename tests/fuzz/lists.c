@@ -1,7 +1,9 @@
-/* Frequency vectors, weights and images. The first byte: does the rest come through a pipe? */
+/* Frequency vectors, weights, images and meshes. The first byte: does the rest come through a pipe?
+ */
 #include "fuzz.h"
 
 #include "images/image.h"
+#include "meshes/mesh.h"
 #include "points/lists/frequency_list.h"
 #include "points/lists/weight_list.h"
 
@@ -81,5 +83,41 @@ void fuzz_image(const char *argument, fuzz_bytes input) {
         }
     }
     ps_image_free(&image);
+    fuzz_file_close(&file);
+}
+
+static void check_mesh(const ps_mesh *mesh) {
+    const double *const numbers = &mesh->triangles[0][0][0];
+    double middle[3];
+    double axes[3][3];
+    const ps_camera fit = ps_camera_fit(mesh);
+    if (mesh->num_triangles > PS_MESH_MOST_TRIANGLES || !(ps_mesh_extent(mesh, middle) > 0)) {
+        fuzz_fail("%zu triangles, and no extent", mesh->num_triangles);
+    }
+    for (size_t i = 0; i < 9 * mesh->num_triangles; i++) {
+        if (!isfinite(numbers[i])) {
+            fuzz_fail("a corner at %g", numbers[i]);
+        }
+    }
+    if (!ps_camera_axes(&fit, axes) ||
+        (mesh->has_camera && !(ps_camera_axes(&mesh->camera, axes) && mesh->camera.width > 0))) {
+        fuzz_fail("a camera without axes");
+    }
+}
+
+void fuzz_mesh(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    fuzz_file file = make_input(input);
+    ps_mesh mesh;
+    ps_error error = {0};
+    const pspec_status status = ps_mesh_read(&mesh, file.path, &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if (status == PSPEC_OK && mesh.num_triangles == 0) {
+        fuzz_fail("a mesh without triangles");
+    }
+    if (status == PSPEC_OK) {
+        check_mesh(&mesh);
+    }
+    ps_mesh_free(&mesh);
     fuzz_file_close(&file);
 }

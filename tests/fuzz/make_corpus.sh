@@ -96,6 +96,8 @@ printf '%b' "$light-Y 32767 +X 8000\nabcd" | seed image promise '\1'
 { printf 'PF\n1 2\n-1.0\n'; f32 0.5 nan 1e30 -1 0 2; } | seed image floats '\0'
 { printf 'Pf 2 1 1e0\n'; f32 0.5 0.25; } | seed image grey '\1'
 printf '\x76\x2f\x31\x01' | seed image exr '\0'
+printf 'v 0 0 0\nv 1 0 0 1\nv 1 1 \\\n0\nv 0 1 0\nf 1//2 2/1 -2/1/1 4\n' | seed mesh obj '\0'
+printf 'camera position 0 0 -8 direction 0 0 1 up 0 1 0 focal .035 width .025\nquad a b 0 0 0 1 0 0 1 1 0 0 1 0\n' | seed mesh quad '\1'
 
 printf '2 3\n0.1 0.2 0.3\n0.4 0.5 0.6\n' | seed gbn space "$torus"
 printf '2 3\n0 0 1 1\n0 0\n' | seed gbn vectors "$sphere"

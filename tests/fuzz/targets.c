@@ -26,6 +26,7 @@ const fuzz_target fuzz_targets[] = {
     {"saved", fuzz_saved, NULL, "binary.dict"},
     {"table", fuzz_table, NULL, "binary.dict"},
     {"image", fuzz_image, NULL, "binary.dict"},
+    {"mesh", fuzz_mesh, NULL, "text.dict"},
     {"figures", fuzz_figures, NULL, "binary.dict"},
     {"scene", fuzz_scene, NULL, "scene.dict"},
     {"decimal", fuzz_decimal, NULL, "text.dict"},

@@ -67,6 +67,28 @@ static void asks_for_frames_and_points(void **state) {
     free(script);
 }
 
+/* Pixels are squares in the middle of the frame, row by row from the top; signed ones have white in
+ * the middle of their colours. */
+static void asks_for_pixels(void **state) {
+    static const char *const parts[] = {"$data0_0 << EOD\n 0.25 0.5 0.75\nEOD\n",
+                                        "set cbrange [-2:2]\n", ", 1 '#f4f2ee', 2 ",
+                                        "set xrange [-0.5:2.5]\nset yrange [1.5:-1.5]\n",
+                                        "plot $data0_0 matrix using 1:2:3 with image notitle\n"};
+    example data;
+    (void)state;
+    make_example(&data, PS_FRAME_PIXELS);
+    data.series[0].columns = 3;
+    data.panels[0].frame.first = -2;
+    data.panels[0].frame.last = 2;
+    char *const script = write_script(&data.figure, "svg");
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        if (strstr(script, parts[i]) == NULL) {
+            fail_msg("no \"%s\" in %s", parts[i], script);
+        }
+    }
+    free(script);
+}
+
 /* Frames of the same side in both directions, whatever the page. */
 static void frames_are_square(void **state) {
     example data;
@@ -104,7 +126,7 @@ static void maps_are_bright(void **state) {
     static double many[LARGE]; /* a block of three pixels is 1, the others are 0 */
     many[3] = 3;
     const ps_series series = {.num = 6, .columns = 3, .y = few};
-    const ps_panel panel = {"", 1, &series, {.form = PS_FRAME_MAP, .last = 2}};
+    const ps_panel panel = {"", 1, &series, {.form = PS_FRAME_LIGHT, .last = 2}};
     ps_panel panels[] = {panel, panel};
     const ps_figure figure = {
         .form = PS_FIGURE_POINTS, .num_panels = 2, .panels = panels, .num_columns = 2};
@@ -114,9 +136,9 @@ static void maps_are_bright(void **state) {
     panels[1].frame.last = 1;
     char *const script = write_script(&figure, "svg");
     assert_non_null(strstr(script, "$data0_0 << EOD\n 0 0 136\n 255 255 186\nEOD\n"));
-    assert_non_null(strstr(script, "set xrange [-0.5:2.5]\nset yrange [1.5:-0.5]\n"));
+    assert_non_null(strstr(script, "set xrange [-1:3]\nset yrange [1.5:-0.5]\n"));
     assert_non_null(strstr(script, "$data1_0 << EOD\n 0 255 0 0"));
-    assert_non_null(strstr(script, "set xrange [-0.5:400.5]\nset yrange [0.5:-0.5]\n"));
+    assert_non_null(strstr(script, "set xrange [-0.5:400.5]\nset yrange [100.25:-100.25]\n"));
     free(script);
 }
 
@@ -161,6 +183,7 @@ static void draws_every_kind(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_for_frames_and_points),
+        cmocka_unit_test(asks_for_pixels),
         cmocka_unit_test(frames_are_square),
         cmocka_unit_test(maps_are_bright),
         cmocka_unit_test_setup_teardown(draws_every_kind, test_folder_create, test_folder_remove),

@@ -34,7 +34,7 @@ static pspec_status add(gallery *self, const ps_chart_part *part, const char *ar
     const size_t pixels = light->shape[1] * light->shape[2];
     ps_panel *const panel = &self->panels[self->num++];
     ps_series *series = NULL;
-    *panel = (ps_panel){.num_series = 1, .frame = {.form = PS_FRAME_MAP}};
+    *panel = (ps_panel){.num_series = 1, .frame = {.form = PS_FRAME_LIGHT}};
     PS_TRY(ps_text_keep(&panel->title, self->memory, title, self->error));
     PS_TRY(PS_POOL_NEW(self->memory, &series, 1, "a picture", self->error));
     *series = (ps_series){.num = pixels,

@@ -254,7 +254,8 @@ static pspec_status list_counts(ps_pictures *out, const ps_scene_result *asked,
 
 static bool is_wanted(const ps_scene_result *asked, const ps_picture_kind *kind) {
     return (kind->by & PS_BY_SCENE) != 0 &&
-           (kind->needs != PS_NEEDS_COUNTS || find_points(asked) < asked->num_entries) &&
+           (kind->needs != PS_NEEDS_COUNTS || asked->is_joined ||
+            find_points(asked) < asked->num_entries) &&
            (kind->needs != PS_NEEDS_SCATTER ||
             ps_scene_find_entry(asked, PS_OPTION_SCATTER) != NULL) &&
            (kind->needs != PS_NEEDS_PICTURES || asked->wants_pictures) &&

@@ -264,8 +264,8 @@ static bool is_there(const artist *self, const ps_picture *what) {
     size_t column = 0;
     ps_plot_image image;
     return (!kind->is_spectrum || ps_table_find_column(table, kind->x, &column)) &&
-           (kind->needs != PS_NEEDS_PICTURES || ps_spectra_find_image(&image, table) ||
-            ps_table_find_array(table, "image") != NULL) &&
+           (!kind->is_spectrum || kind->needs != PS_NEEDS_PICTURES ||
+            ps_spectra_find_image(&image, table)) &&
            (kind->make != ps_lines_figure || kind->dealing == PS_OF_COUNTS ||
             ps_table_num_rows(table) >= FEWEST_ROWS);
 }

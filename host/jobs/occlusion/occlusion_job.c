@@ -1,0 +1,194 @@
+#include "jobs/occlusion/occlusion_job.h"
+
+#include "base/memory.h"
+#include "jobs/occlusion/rays.h"
+#include "math/neumaier.h"
+#include "math/random/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct work {
+    const ps_occlusion_question *question;
+    ps_occlusion_result *result;
+    ps_source *source;
+    ps_point_set set;
+    ps_rays *rays;
+    size_t most_points; /* that rays have room for */
+    uint64_t seed;
+    uint32_t *counts; /* [num_pixels] */
+    ps_sums squares;  /* of realizations: means over pixels */
+    ps_sums pixels;   /* squares of the last realization */
+    ps_neumaier seen, points;
+} work;
+
+/* ---- sets ----------------------------------------------------------------------------------- */
+
+static bool is_folded(const ps_occlusion_question *question) {
+    return question->is_folded ||
+           (question->sampler != NULL && ps_sampler_is_on_hemisphere(question->sampler));
+}
+
+/* Samplers, sets of a request and numbers of points have turns of their own, so that answers beside
+ * each other are independent. */
+static pspec_status choose_seed(work *self, ps_error *error) {
+    const ps_occlusion_question *const question = self->question;
+    const ps_sampler_request *const sampler = question->sampler;
+    ps_text text = {0};
+    ps_text_append(&text, "occlusion\n");
+    if (sampler != NULL) {
+        ps_sampler_identify(sampler, &text);
+        ps_text_append(&text, "lift %d\n", (int)sampler->lift);
+    } else {
+        ps_text_append(&text, "set %s\n", question->name != NULL ? question->name : "");
+    }
+    const pspec_status status = ps_text_check(&text, error);
+    self->seed = ps_random_seed_of(sampler != NULL ? sampler->seed : question->seed,
+                                   PS_STREAM_TRIALS, ps_text_string(&text));
+    ps_text_free(&text);
+    return status;
+}
+
+static pspec_status open_source(work *self, ps_error *error) {
+    const ps_occlusion_question *const question = self->question;
+    const ps_source_options options = {.points = question->point_options};
+    return question->sampler != NULL
+               ? ps_source_sampler(&self->source, question->sampler, question->num_realizations,
+                                   &question->sets, question->watch, error)
+               : ps_source_files(&self->source, question->paths, question->num_paths, &options,
+                                 error);
+}
+
+static pspec_status next_set(work *self, bool *has_set, ps_error *error) {
+    ps_source_part part;
+    PS_TRY(ps_source_next(self->source, &self->set, &part, has_set, error));
+    if (*has_set && !part.is_whole) {
+        PS_TRY(ps_source_more(self->source, &self->set, SIZE_MAX, &part.is_whole, error));
+    }
+    const pspec_pattern pattern = {self->set.dimension, self->set.num_points, self->set.points,
+                                   NULL};
+    ps_pattern_count count = {.realization = self->result->num_realizations, .on_sphere = true};
+    return *has_set && self->question->sampler == NULL
+               ? ps_pattern_count_add(&count, &pattern, error)
+               : PSPEC_OK;
+}
+
+static pspec_status make_room(work *self, ps_error *error) {
+    const ps_occlusion_question *const question = self->question;
+    if (self->rays != NULL && self->set.num_points <= self->most_points) {
+        return PSPEC_OK;
+    }
+    ps_rays_destroy(self->rays);
+    self->rays = NULL;
+    self->most_points = self->set.num_points;
+    return ps_rays_create(&self->rays, question->view, self->most_points, question->device, error);
+}
+
+/* ---- one realization ------------------------------------------------------------------------ */
+
+static void compare(work *self) {
+    const ps_reference *const reference = self->question->reference;
+    ps_occlusion_result *const result = self->result;
+    const size_t num_pixels = self->question->view->num_pixels;
+    const double share = (is_folded(self->question) ? 1.0 : 2.0) / (double)self->set.num_points;
+    double mean = 0;
+    double unused = 0;
+    self->pixels = (ps_sums){0};
+    for (size_t i = 0; i < num_pixels; i++) {
+        const double seen = share * self->counts[i];
+        const double off = seen - reference->seen[i];
+        ps_sums_add(&self->pixels, off * off);
+        ps_neumaier_add(&self->seen, seen);
+        if (result->num_realizations == 0) {
+            result->seen[i] = seen;
+        }
+    }
+    ps_sums_finish(&self->pixels, num_pixels, &mean, &unused);
+    ps_sums_add(&self->squares, mean);
+}
+
+static void note_points(work *self) {
+    ps_occlusion_result *const result = self->result;
+    const uint64_t num = self->set.num_points;
+    const bool is_first = result->num_realizations == 0;
+    result->smallest_points =
+        is_first || num < result->smallest_points ? num : result->smallest_points;
+    result->largest_points = num > result->largest_points ? num : result->largest_points;
+    ps_neumaier_add(&self->points, (double)num);
+}
+
+static pspec_status add_set(work *self, ps_error *error) {
+    const ps_occlusion_question *const question = self->question;
+    const ps_ray_set set = {.points = self->set.points,
+                            .num = self->set.num_points,
+                            .is_folded = is_folded(question),
+                            .seed = self->seed,
+                            .number = self->result->num_realizations};
+    PS_TRY(make_room(self, error));
+    PS_TRY(ps_rays_count(self->rays, &set, self->counts, question->watch, error));
+    compare(self);
+    note_points(self);
+    self->result->num_realizations++;
+    return PSPEC_OK;
+}
+
+/* ---- all of them ---------------------------------------------------------------------------- */
+
+static pspec_status add_all(work *self, ps_error *error) {
+    const ps_occlusion_question *const question = self->question;
+    const uint64_t total = question->sampler != NULL ? question->num_realizations : 0;
+    bool has_set = true;
+    while (has_set && (total == 0 || self->result->num_realizations < total)) {
+        PS_TRY(ps_watch_tell(question->watch, "realizations", self->result->num_realizations, total,
+                             NULL, error));
+        PS_TRY(next_set(self, &has_set, error));
+        if (has_set) {
+            PS_TRY(add_set(self, error));
+        }
+    }
+    return self->result->num_realizations > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "the files have no point sets");
+}
+
+static void finish(work *self) {
+    ps_occlusion_result *const result = self->result;
+    const size_t num_pixels = self->question->view->num_pixels;
+    const double num = (double)result->num_realizations;
+    double unused = 0;
+    ps_sums_finish(&self->squares, result->num_realizations, &result->squared.mean,
+                   &result->squared.standard_error);
+    if (result->num_realizations < 2) {
+        ps_sums_finish(&self->pixels, num_pixels, &unused, &result->squared.standard_error);
+    }
+    result->squared.mean -= self->question->reference->variance;
+    result->squared.standard_error =
+        hypot(result->squared.standard_error, self->question->reference->variance_error);
+    result->mean = ps_neumaier_value(&self->seen) / (num * (double)num_pixels);
+    result->mean_points = ps_neumaier_value(&self->points) / num;
+}
+
+pspec_status ps_occlusion_run(ps_occlusion_result *out, const ps_occlusion_question *question,
+                              ps_error *error) {
+    const size_t num_pixels = question->view->num_pixels;
+    work self = {.question = question, .result = out};
+    pspec_status status = PSPEC_OK;
+    *out = (ps_occlusion_result){0};
+    PS_TRY_OUT(status, PS_NEW(&out->seen, num_pixels, "pixels", error));
+    PS_TRY_OUT(status, PS_NEW(&self.counts, num_pixels, "counts of rays", error));
+    PS_TRY_OUT(status, choose_seed(&self, error));
+    PS_TRY_OUT(status, open_source(&self, error));
+    PS_TRY_OUT(status, add_all(&self, error));
+    finish(&self);
+out:
+    ps_source_destroy(self.source);
+    ps_point_set_free(&self.set);
+    ps_rays_destroy(self.rays);
+    free(self.counts);
+    return status;
+}
+
+void ps_occlusion_result_free(ps_occlusion_result *result) {
+    free(result->seen);
+    *result = (ps_occlusion_result){0};
+}
