@@ -342,12 +342,12 @@ static pspec_status fill_panel(picture *self, size_t panel) {
     if (num_own < num && first != NULL) {
         PS_TRY(add_line(self, first, num_own));
     }
-    self->panels[panel] = (ps_panel){.title = chart->panels != NULL ? chart->panels[panel] : NULL,
+    /* Scenes name the panels that they make, of which there may be fewer. */
+    self->panels[panel] = (ps_panel){.title = chart->what->panels != NULL ? first->panel_name
+                                              : chart->panels != NULL     ? chart->panels[panel]
+                                                                          : NULL,
                                      .num_series = self->num_series - begin,
                                      .series = self->series + begin};
-    if (chart->what->panels != NULL) {
-        self->panels[panel].title = first->panel_name;
-    }
     return PSPEC_OK;
 }
 
