@@ -36,7 +36,8 @@ typedef struct spent {
 
 /* ---- predicting ---------------------------------------------------------------------------- */
 
-static ps_variance_question make_question(const asked *what, uint64_t num_sets) {
+static ps_variance_question make_question(const asked *what, uint64_t num_sets,
+                                          ps_made_integrands *made) {
     const double tolerance = 1e-3; /* enough for TARGET */
     return (ps_variance_question){.spectrum = {.sampler = &what->sampler,
                                                .num_realizations = num_sets,
@@ -47,11 +48,13 @@ static ps_variance_question make_question(const asked *what, uint64_t num_sets) 
                                                .open_device = what->device},
                                   .texts = &what->integrand,
                                   .num_integrands = 1,
+                                  .made = made,
                                   .is_moved = true};
 }
 
 static spent predict(const asked *what, uint64_t num_sets) {
-    const ps_variance_question question = make_question(what, num_sets);
+    ps_made_integrands made = {0};
+    const ps_variance_question question = make_question(what, num_sets, &made);
     ps_variance_job *job = NULL;
     const double begin = bench_seconds();
     BENCH_TRY(ps_variance_job_create(&job, &question, error));
@@ -62,6 +65,7 @@ static spent predict(const asked *what, uint64_t num_sets) {
                        .seconds = bench_seconds() - begin,
                        .num_sets = num_sets};
     ps_variance_job_destroy(job);
+    ps_made_integrands_free(&made);
     return out;
 }
 

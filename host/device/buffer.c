@@ -24,9 +24,9 @@ pspec_status ps_queue_create(const ps_device *device, cl_command_queue *out, ps_
     return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clCreateCommandQueue", error);
 }
 
-/* The memory of a buffer. */
-static pspec_status create_memory(ps_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
-                                  const char *what, ps_error *error) {
+/* The memory of a buffer; host: memory of the host that it is, by the flags. */
+static pspec_status create_memory(ps_device *device, cl_mem *out, cl_mem_flags flags, void *host,
+                                  size_t bytes, const char *what, ps_error *error) {
     cl_int code = CL_SUCCESS;
     *out = NULL;
     if (bytes > device->limits.max_allocation_bytes) {
@@ -36,7 +36,7 @@ static pspec_status create_memory(ps_device *device, cl_mem *out, cl_mem_flags f
                        (unsigned long long)device->limits.max_allocation_bytes);
     }
     cl_mem memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE | flags,
-                                   bytes > 0 ? bytes : 1, NULL, &code);
+                                   bytes > 0 ? bytes : 1, host, &code);
     if (code != CL_SUCCESS) {
         return ps_device_fail(code, "clCreateBuffer", error);
     }
@@ -50,7 +50,7 @@ pspec_status ps_pinned_create(ps_device *device, ps_pinned *out, size_t bytes, c
                               ps_error *error) {
     cl_int code = CL_SUCCESS;
     *out = (ps_pinned){0};
-    PS_TRY(create_memory(device, &out->memory, CL_MEM_ALLOC_HOST_PTR, bytes, what, error));
+    PS_TRY(create_memory(device, &out->memory, CL_MEM_ALLOC_HOST_PTR, NULL, bytes, what, error));
     out->data = clEnqueueMapBuffer(device->queue, out->memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE,
                                    0, bytes > 0 ? bytes : 1, 0, NULL, NULL, &code);
     if (code != CL_SUCCESS) {
@@ -240,10 +240,10 @@ void ps_mapping_abandon(ps_device *device, ps_mapping *mapping) {
 
 /* ---- buffers ------------------------------------------------------------------------------ */
 
-pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
-                              ps_error *error) {
+static pspec_status create_buffer(ps_device *device, ps_buffer *out, cl_mem_flags flags, void *host,
+                                  size_t bytes, const char *what, ps_error *error) {
     *out = (ps_buffer){0};
-    PS_TRY(create_memory(device, &out->memory, 0, bytes, what, error));
+    PS_TRY(create_memory(device, &out->memory, flags, host, bytes, what, error));
     out->bytes = bytes;
     out->device = device;
     device->buffer_bytes += bytes;
@@ -251,6 +251,11 @@ pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, c
         device->most_buffer_bytes = device->buffer_bytes;
     }
     return PSPEC_OK;
+}
+
+pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
+                              ps_error *error) {
+    return create_buffer(device, out, 0, NULL, bytes, what, error);
 }
 
 void ps_buffer_release(ps_buffer *buffer) {
@@ -285,6 +290,15 @@ pspec_status ps_buffer_upload(ps_device *device, ps_buffer *out, const void *dat
                               const char *what, ps_error *error) {
     PS_TRY(ps_buffer_create(device, out, bytes, what, error));
     return ps_buffer_write(device, out, 0, data, bytes, error);
+}
+
+/* OpenCL takes what is not const, and no kernel writes into it. */
+pspec_status ps_buffer_share(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
+                             const char *what, ps_error *error) {
+    return device->limits.has_unified_memory
+               ? create_buffer(device, out, CL_MEM_USE_HOST_PTR, (void *)(uintptr_t)data, bytes,
+                               what, error)
+               : ps_buffer_upload(device, out, data, bytes, what, error);
 }
 
 pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,

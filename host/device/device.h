@@ -149,6 +149,10 @@ void ps_buffers_release(ps_buffer *const *buffers, size_t num);
 /* A buffer with these bytes. */
 pspec_status ps_buffer_upload(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
                               const char *what, ps_error *error) PS_MUST_CHECK;
+/* The same of data that are only read, and stay where they are until the buffer is released: where
+ * host and device share memory they are the buffer, and nothing is copied. */
+pspec_status ps_buffer_share(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
+                             const char *what, ps_error *error) PS_MUST_CHECK;
 /* The host memory may be used again at once. Where the device has memory of its own, data are
  * copied to pinned memory first, and nobody waits for the device. */
 pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,

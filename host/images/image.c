@@ -27,8 +27,9 @@ static bool begins(const char *words, const unsigned char *bytes, size_t num_byt
     return false;
 }
 
-static pspec_status read_pixels(ps_image *out, ps_input *input, ps_error *error) {
+static pspec_status read_pixels(ps_image_reader *reader, ps_error *error) {
     enum { FIRST_BYTES = 4 };
+    ps_input *const input = reader->input;
     const unsigned char *bytes = NULL;
     size_t num_bytes = 0;
     PS_TRY(ps_input_peek(input, FIRST_BYTES, &bytes, &num_bytes, error));
@@ -36,7 +37,7 @@ static pspec_status read_pixels(ps_image *out, ps_input *input, ps_error *error)
         const ps_image_format *const format = &formats[i];
         if (begins(format->begin, bytes, num_bytes)) {
             return format->read != NULL
-                       ? format->read(out, input, error)
+                       ? format->read(reader, error)
                        : ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s is not read; %s", input->name,
                                  format->name, format->instead);
         }
@@ -55,31 +56,26 @@ static pspec_status check_end(ps_input *input, ps_error *error) {
                          "%s: bytes follow the pixels that the header announces", input->name);
 }
 
-pspec_status ps_image_read(ps_image *out, const char *path, ps_error *error) {
+pspec_status ps_image_read(const char *path, const ps_image_taker *taker, ps_error *error) {
     ps_input input = {0};
-    *out = (ps_image){0};
+    ps_image_reader reader = {.input = &input, .taker = taker};
     pspec_status status = ps_input_open(&input, path, error);
     if (status == PSPEC_OK) {
-        status = read_pixels(out, &input, error);
+        status = read_pixels(&reader, error);
     }
     if (status == PSPEC_OK) {
         status = check_end(&input, error);
     }
+    free(reader.row);
     ps_input_close(&input);
     return status;
 }
 
-void ps_image_free(ps_image *image) {
-    free(image->pixels);
-    *image = (ps_image){0};
-}
-
-double ps_image_luminance(const ps_image *image, size_t pixel) {
+double ps_image_luminance(const float *pixel, unsigned num_channels) {
     static const double shares[] = {0.2126, 0.7152, 0.0722};
-    const float *const own = image->pixels + pixel * image->num_channels;
     double sum = 0;
-    for (unsigned i = 0; i < image->num_channels; i++) {
-        sum += (image->num_channels > 1 ? shares[i] : 1) * (double)own[i];
+    for (unsigned i = 0; i < num_channels; i++) {
+        sum += (num_channels > 1 ? shares[i] : 1) * (double)pixel[i];
     }
     return sum;
 }

@@ -151,21 +151,18 @@ static void decode(float *out, const unsigned char *row, size_t width, bool is_l
     }
 }
 
-static pspec_status read_rows(ps_image *out, ps_input *input, turning turned, double exposure,
+static pspec_status read_rows(ps_image_reader *reader, turning turned, double exposure,
                               ps_error *error) {
-    unsigned char *const row = malloc(RGBE * out->width);
+    const size_t width = reader->image.width;
+    unsigned char *const row = malloc(RGBE * width);
     pspec_status status = PSPEC_OK;
     if (row == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for a row of an image");
     }
-    for (size_t y = 0; y < out->height; y++) {
-        float *pixels = NULL;
-        PS_TRY_OUT(status, read_row(input, row, out->width, error));
-        PS_TRY_OUT(status, ps_image_row(out, y, &pixels, error));
-        decode(pixels, row, out->width, turned.is_leftward, exposure);
-    }
-    if (turned.is_upward) {
-        ps_image_turn(out);
+    for (size_t i = 0; i < reader->image.height; i++) {
+        PS_TRY_OUT(status, read_row(reader->input, row, width, error));
+        decode(reader->row, row, width, turned.is_leftward, exposure);
+        PS_TRY_OUT(status, ps_image_give(reader, i, turned.is_upward, error));
     }
 out:
     free(row);
@@ -180,14 +177,14 @@ static double least_bytes(double width, double height) {
     return fmax(RGBE * height, (width * height - small) / per_byte);
 }
 
-pspec_status ps_image_read_hdr(ps_image *out, ps_input *input, ps_error *error) {
+pspec_status ps_image_read_hdr(ps_image_reader *reader, ps_error *error) {
     double exposure = 1;
     double width = 0;
     double height = 0;
     turning turned = {false, false};
-    PS_TRY(read_header(input, &exposure, error));
-    PS_TRY(read_size(input, &width, &height, &turned, error));
-    out->num_channels = EXPONENT;
-    PS_TRY(ps_image_make(out, input, width, height, least_bytes(width, height), error));
-    return read_rows(out, input, turned, exposure, error);
+    PS_TRY(read_header(reader->input, &exposure, error));
+    PS_TRY(read_size(reader->input, &width, &height, &turned, error));
+    reader->image.num_channels = EXPONENT;
+    PS_TRY(ps_image_begin(reader, width, height, least_bytes(width, height), error));
+    return read_rows(reader, turned, exposure, error);
 }

@@ -2,11 +2,12 @@
  * what photographs of such places have: a bright sun in haze, edges at roofs, small dark windows.
  *
  * All numbers are chosen by eye; the mean is near that of photographs with exposure 1. */
-#include "images/image_format.h"
-
+#include "base/memory.h"
+#include "images/image.h"
 #include "math/pi.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 typedef struct colour {
     double red, green, blue;
@@ -75,19 +76,27 @@ static colour light_at(double height, double azimuth) {
     return out;
 }
 
-pspec_status ps_image_invent(ps_image *out, size_t width, size_t height, ps_error *error) {
-    *out = (ps_image){.width = width, .height = height, .num_channels = 3};
-    for (size_t y = 0; y < height; y++) {
-        float *row = NULL;
-        PS_TRY(ps_image_row(out, y, &row, error));
-        for (size_t x = 0; x < width; x++) {
-            const double height_angle = PS_PI * (0.5 - ((double)y + 0.5) / (double)height);
-            const colour own =
-                light_at(height_angle, PS_TWO_PI * ((double)x + 0.5) / (double)width);
-            row[3 * x] = (float)own.red;
-            row[3 * x + 1] = (float)own.green;
-            row[3 * x + 2] = (float)own.blue;
-        }
+static void fill_row(float *row, size_t y, const ps_image *image) {
+    const double height = PS_PI * (0.5 - ((double)y + 0.5) / (double)image->height);
+    for (size_t x = 0; x < image->width; x++) {
+        const double azimuth = PS_TWO_PI * ((double)x + 0.5) / (double)image->width;
+        const colour own = light_at(height, azimuth);
+        row[3 * x] = (float)own.red;
+        row[3 * x + 1] = (float)own.green;
+        row[3 * x + 2] = (float)own.blue;
     }
-    return PSPEC_OK;
+}
+
+pspec_status ps_image_invent(size_t width, size_t height, const ps_image_taker *taker,
+                             ps_error *error) {
+    const ps_image image = {width, height, 3};
+    float *row = NULL;
+    PS_TRY(PS_NEW(&row, 3 * width, "a row of an image", error));
+    pspec_status status = taker->begin(taker->payload, &image, error);
+    for (size_t y = 0; y < height && status == PSPEC_OK; y++) {
+        fill_row(row, y, &image);
+        status = taker->take(taker->payload, &image, y, row, error);
+    }
+    free(row);
+    return status;
 }

@@ -46,27 +46,27 @@ static bool is_little_endian(void) {
     return *(const unsigned char *)&one == 1;
 }
 
-pspec_status ps_image_read_pfm(ps_image *out, ps_input *input, ps_error *error) {
+pspec_status ps_image_read_pfm(ps_image_reader *reader, ps_error *error) {
+    ps_input *const input = reader->input;
     char letters[PS_IMAGE_LINE_BYTES];
     double width = 0;
     double height = 0;
     double scale = 0;
     PS_TRY(read_word(input, letters, error));
-    out->num_channels = letters[1] == 'F' ? 3 : 1;
+    reader->image.num_channels = letters[1] == 'F' ? 3 : 1;
     PS_TRY(read_number(input, "width", &width, error));
     PS_TRY(read_number(input, "height", &height, error));
     PS_TRY(read_number(input, "scale", &scale, error));
-    const double bytes = width * height * out->num_channels * (double)sizeof(float);
-    PS_TRY(ps_image_make(out, input, width, height, bytes, error));
-    const size_t row = out->width * out->num_channels;
-    for (size_t y = 0; y < out->height; y++) {
-        float *pixels = NULL;
-        PS_TRY(ps_image_row(out, y, &pixels, error));
-        PS_TRY(ps_image_read_bytes(input, pixels, row * sizeof *pixels, error));
-    }
-    ps_image_turn(out);
-    if ((scale < 0) != is_little_endian()) {
-        swap_bytes(out->pixels, out->height * row);
+    const double bytes = width * height * reader->image.num_channels * (double)sizeof(float);
+    PS_TRY(ps_image_begin(reader, width, height, bytes, error));
+    const size_t num = reader->image.width * reader->image.num_channels;
+    const bool is_swapped = (scale < 0) != is_little_endian();
+    for (size_t i = 0; i < reader->image.height; i++) {
+        PS_TRY(ps_image_read_bytes(input, reader->row, num * sizeof *reader->row, error));
+        if (is_swapped) {
+            swap_bytes(reader->row, num);
+        }
+        PS_TRY(ps_image_give(reader, i, true, error));
     }
     return PSPEC_OK;
 }

@@ -3,42 +3,8 @@
 #include "base/memory.h"
 #include "math/neumaier.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-static double number_of(const ps_image *image, size_t pixel, ps_map_channel channel) {
-    return channel == PS_MAP_LUMINANCE || image->num_channels == 1
-               ? ps_image_luminance(image, pixel)
-               : (double)image->pixels[pixel * image->num_channels + channel - PS_MAP_RED];
-}
-
-/* All channels count: a luminance may hide a negative one. */
-static bool is_light(const ps_image *image, size_t pixel) {
-    bool is = true;
-    for (unsigned i = 0; i < image->num_channels; i++) {
-        const float own = image->pixels[pixel * image->num_channels + i];
-        is = is && isfinite(own) && own >= 0;
-    }
-    return is;
-}
-
-static pspec_status take_pixels(ps_sphere_map *out, const ps_image *image, ps_map_channel channel,
-                                bool may_clamp, const char *path, ps_error *error) {
-    for (size_t i = 0; i < image->width * image->height; i++) {
-        const bool counts = is_light(image, i);
-        if (!counts && !may_clamp) {
-            const float *const own = image->pixels + i * image->num_channels;
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s: the pixel in row %zu, column %zu, from 0, is %g%s, which is no "
-                           "light; clamp=yes takes such pixels as 0",
-                           path, i / image->width, i % image->width, (double)own[0],
-                           image->num_channels > 1 ? ", .." : "");
-        }
-        out->num_clamped += counts ? 0 : 1;
-        out->rows[out->width + i] = counts ? number_of(image, i, channel) : 0;
-    }
-    return PSPEC_OK;
-}
+#include <string.h>
 
 static void fill_pole(double *pole, const double *row, size_t width) {
     ps_neumaier sum = {0, 0};
@@ -50,28 +16,27 @@ static void fill_pole(double *pole, const double *row, size_t width) {
     }
 }
 
-pspec_status ps_sphere_map_read(ps_sphere_map *out, const char *path, size_t invented_width,
-                                ps_map_channel channel, bool may_clamp, ps_error *error) {
-    ps_image image = {0};
+static pspec_status begin(void *payload, size_t width, size_t height, ps_error *error) {
+    ps_sphere_map *const self = payload;
+    self->width = width;
+    self->height = height;
+    return PS_NEW(&self->rows, (height + 2) * width, "a map", error);
+}
+
+static void take(void *payload, size_t y, const double *row) {
+    const ps_sphere_map *const self = payload;
+    memcpy(self->rows + (1 + y) * self->width, row, self->width * sizeof *row);
+}
+
+pspec_status ps_sphere_map_read(ps_sphere_map *out, const ps_channel_source *source,
+                                ps_error *error) {
+    const ps_channel_taker taker = {out, begin, take};
     *out = (ps_sphere_map){0};
-    pspec_status status =
-        path != NULL ? ps_image_read(&image, path, error)
-                     : ps_image_invent(&image, invented_width, (invented_width + 1) / 2, error);
-    if (status == PSPEC_OK) {
-        out->width = image.width;
-        out->height = image.height;
-        status = PS_NEW(&out->rows, (image.height + 2) * image.width, "a map", error);
-    }
-    if (status == PSPEC_OK) {
-        status = take_pixels(out, &image, channel, may_clamp, path, error);
-    }
-    if (status == PSPEC_OK) {
-        double *const last = out->rows + out->height * out->width;
-        fill_pole(out->rows, out->rows + out->width, out->width);
-        fill_pole(last + out->width, last, out->width);
-    }
-    ps_image_free(&image);
-    return status;
+    PS_TRY(ps_channel_read(source, &taker, &out->num_clamped, error));
+    double *const last = out->rows + out->height * out->width;
+    fill_pole(out->rows, out->rows + out->width, out->width);
+    fill_pole(last + out->width, last, out->width);
+    return PSPEC_OK;
 }
 
 void ps_sphere_map_free(ps_sphere_map *map) {

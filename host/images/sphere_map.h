@@ -8,15 +8,7 @@
 #ifndef PS_IMAGES_SPHERE_MAP_H
 #define PS_IMAGES_SPHERE_MAP_H
 
-#include "images/image.h"
-
-typedef enum ps_map_channel {
-    PS_MAP_LUMINANCE,
-    PS_MAP_RED,
-    PS_MAP_GREEN,
-    PS_MAP_BLUE
-} ps_map_channel;
-#define PS_MAP_CHANNELS "luminance|red|green|blue"
+#include "images/channel.h"
 
 typedef struct ps_sphere_map {
     size_t width, height;
@@ -24,12 +16,8 @@ typedef struct ps_sphere_map {
     size_t num_clamped;
 } ps_sphere_map;
 
-/* Reads the image, or makes one up where the path is NULL, invented_width wide; any channel of one
- * with a single channel being that. What is negative or not finite counts as 0 where may_clamp is
- * true, and is counted; else it is PSPEC_ERROR_INPUT, which names the pixel. ps_sphere_map_free
- * frees it, also after a failure. */
-pspec_status ps_sphere_map_read(ps_sphere_map *out, const char *path, size_t invented_width,
-                                ps_map_channel channel, bool may_clamp,
+/* Reads the image as ps_channel_read; ps_sphere_map_free frees it, also after a failure. */
+pspec_status ps_sphere_map_read(ps_sphere_map *out, const ps_channel_source *source,
                                 ps_error *error) PS_MUST_CHECK;
 void ps_sphere_map_free(ps_sphere_map *map);
 

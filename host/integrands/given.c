@@ -112,12 +112,13 @@ const ps_given_integrand *ps_given_integrands_find(const ps_given_integrands *li
 }
 
 pspec_status ps_integrand_make(ps_integrand **out, const ps_given_integrands *list,
-                               const char *text, ps_integrand_place place, ps_error *error) {
+                               const char *text, ps_integrand_place place, uint64_t most_bytes,
+                               ps_error *error) {
     const ps_given_integrand *const by = ps_given_integrands_find(list, text);
     given *own = NULL;
     *out = NULL;
     if (by == NULL) {
-        return ps_integrand_parse(out, text, place, error);
+        return ps_integrand_parse_within(out, text, place, most_bytes, error);
     }
     if (!isfinite(by->integral)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

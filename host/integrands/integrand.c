@@ -89,6 +89,12 @@ pspec_status ps_integrand_find(const ps_integrand_kind **kind, const char *text,
 
 pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,
                                 ps_error *error) {
+    return ps_integrand_parse_within(out, text, place, 0, error);
+}
+
+pspec_status ps_integrand_parse_within(ps_integrand **out, const char *text,
+                                       ps_integrand_place place, uint64_t most_bytes,
+                                       ps_error *error) {
     char name[PS_GRAMMAR_WORD];
     const ps_integrand_kind *kind = NULL;
     ps_integrand *self = NULL;
@@ -99,6 +105,7 @@ pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integra
     PS_TRY(PS_NEW(&self, 1, "an integrand", error));
     self->kind = kind;
     self->place = place;
+    self->most_bytes = most_bytes;
     const pspec_status status = read_values(self, rest, error);
     if (status != PSPEC_OK) {
         ps_integrand_destroy(self);
@@ -181,8 +188,8 @@ pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degr
                : integrand->kind->degrees(integrand, max_degree, powers, error);
 }
 
-pspec_status ps_integrand_harmonics(const ps_integrand *integrand, size_t max_degree,
-                                       double *out, ps_error *error) {
+pspec_status ps_integrand_harmonics(const ps_integrand *integrand, size_t max_degree, double *out,
+                                    ps_error *error) {
     return integrand->kind->zonal != NULL
                ? ps_integrand_zonal_coefficients(integrand, max_degree, out, error)
                : integrand->kind->coefficients(integrand, max_degree, out, error);

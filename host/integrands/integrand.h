@@ -105,6 +105,7 @@ typedef struct ps_integrand_kind {
 struct ps_integrand {
     const ps_integrand_kind *kind;
     ps_integrand_place place;
+    uint64_t most_bytes; /* that the pixels of an image may take; 0: what is free */
     /* What its values are made of: kernels/integrands/NAME.h says which is which. */
     double numbers[PS_INTEGRAND_NUMBERS];
     void *own; /* of the kind */
@@ -113,8 +114,16 @@ struct ps_integrand {
     const char *kernel;  /* instead of that of the kind; NULL: none */
     const double *table; /* [num_table], a part of own, which NAME_has_table takes; NULL: none */
     size_t num_table;
+    /* [num_bytes], the same of a table that is bytes to hosts and devices alike; NULL: none */
+    const unsigned char *bytes;
+    size_t num_bytes;
     bool needs_doubles; /* there is no kernel in single precision */
 };
+
+/* Bytes of its table on the host. */
+static inline size_t ps_integrand_table_bytes(const ps_integrand *integrand) {
+    return integrand->num_table * sizeof *integrand->table + integrand->num_bytes;
+}
 
 /* An integrand of a caller of the library, by its values: it is measured, and not predicted. */
 typedef struct ps_given_integrand {
@@ -132,6 +141,13 @@ typedef struct ps_given_integrands {
     size_t num;
 } ps_given_integrands;
 
+/* Integrands of several questions, which have each of them once, however large its file is. {0}:
+ * none yet. */
+typedef struct ps_made_integrands {
+    struct ps_made_integrand *all;
+    size_t num, capacity;
+} ps_made_integrands;
+
 /* NULL: a text is that of an integrand of the table. */
 const ps_given_integrand *ps_given_integrands_find(const ps_given_integrands *list,
                                                    const char *text);
@@ -146,10 +162,21 @@ pspec_status ps_integrand_find(const ps_integrand_kind **kind, const char *text,
  * not in such a place, and radii and the like that make none, are errors with a sentence. */
 pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,
                                 ps_error *error) PS_MUST_CHECK;
+/* The same with a limit of memory, of images that may have many pixels; 0: what is free. */
+pspec_status ps_integrand_parse_within(ps_integrand **out, const char *text,
+                                       ps_integrand_place place, uint64_t most_bytes,
+                                       ps_error *error) PS_MUST_CHECK;
 /* The same of one that is given, else of the text. The list must outlive *out. */
 pspec_status ps_integrand_make(ps_integrand **out, const ps_given_integrands *list,
-                               const char *text, ps_integrand_place place,
+                               const char *text, ps_integrand_place place, uint64_t most_bytes,
                                ps_error *error) PS_MUST_CHECK;
+/* The same of the one that was made of this text in this place before, if there is one. *out
+ * belongs to made, and goes with it; the text must outlive it. */
+pspec_status ps_integrand_take(ps_integrand **out, ps_made_integrands *made,
+                               const ps_given_integrands *list, const char *text,
+                               ps_integrand_place place, uint64_t most_bytes,
+                               ps_error *error) PS_MUST_CHECK;
+void ps_made_integrands_free(ps_made_integrands *made);
 void ps_integrand_destroy(ps_integrand *integrand); /* NULL is allowed */
 
 /* The name of its kernel, as the member of the kind; NULL: there is none in that precision. */
@@ -180,8 +207,8 @@ pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degr
                                   ps_error *error) PS_MUST_CHECK;
 /* F_lm on the sphere of 0 <= m <= l <= max_degree: re, im at index m (2 max_degree + 1 - m)/2 + l.
  */
-pspec_status ps_integrand_harmonics(const ps_integrand *integrand, size_t max_degree,
-                                       double *out, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_integrand_harmonics(const ps_integrand *integrand, size_t max_degree, double *out,
+                                    ps_error *error) PS_MUST_CHECK;
 /* values[num] */
 void ps_integrand_values(const ps_integrand *integrand, const double *points, size_t num,
                          double *values);

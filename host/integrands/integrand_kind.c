@@ -76,3 +76,11 @@ double ps_integrand_norm(const int32_t *k, unsigned dimension) {
     }
     return sqrt(norm2);
 }
+
+double ps_integrand_sinc(int32_t k, size_t side) {
+    const double n = (double)side;
+    const double rest = fmod(k, n); /* exact */
+    const double t = PS_PI * k / n;
+    const double sine = sin(PS_PI * rest / n) * (fmod((k - rest) / n, 2) != 0 ? -1 : 1);
+    return k == 0 ? 1 : sine / t;
+}

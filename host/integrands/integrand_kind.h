@@ -38,6 +38,8 @@ void ps_integrand_images(const double *x, unsigned dimension,
 
 /* |k| */
 double ps_integrand_norm(const int32_t *k, unsigned dimension);
+/* sin(pi k/n)/(pi k/n) of n pixels along a side, 0 at multiples of n. */
+double ps_integrand_sinc(int32_t k, size_t side);
 
 /* Where the zonal integrands are, and their parameter: an axis, "0x0x1", of any length but 0. On
  * the hemisphere it is z. */

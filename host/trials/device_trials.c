@@ -21,7 +21,8 @@ struct ps_device_trials {
     size_t axis_numbers, most_pieces, most_moves; /* of a batch */
     ps_kernel *kernel;
     ps_buffer points, weights, pieces, moves, sums;
-    ps_buffer table; /* of the integrand; empty where it has none */
+    ps_buffer table; /* of the integrand, where it has_table */
+    bool has_table;
     values_piece *host_pieces;
     double *host_moves, *host_sums;
     int *host_exponents;  /* of the weights of each set */
@@ -62,11 +63,15 @@ static bool find_sizes(ps_device_trials *self, size_t *num_sums) {
 /* The table of the integrand, which stays there. */
 static pspec_status create_table(ps_device_trials *self, ps_error *error) {
     const ps_integrand *const integrand = self->integrand;
-    if (integrand->num_table == 0) {
-        return PSPEC_OK;
+    self->has_table = integrand->num_table > 0 || integrand->num_bytes > 0;
+    if (integrand->num_bytes > 0) {
+        return ps_buffer_share(self->device, &self->table, integrand->bytes, integrand->num_bytes,
+                               "an integrand", error);
     }
-    return ps_reals_upload(self->device, &self->table, self->options.precision, integrand->table,
-                           integrand->num_table, "an integrand", error);
+    return self->has_table
+               ? ps_reals_upload(self->device, &self->table, self->options.precision,
+                                 integrand->table, integrand->num_table, "an integrand", error)
+               : PSPEC_OK;
 }
 
 static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
@@ -92,7 +97,9 @@ static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
     return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
-double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options) {
+double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
+                              const ps_device *device) {
+    const bool copies = !ps_device_get_limits(device)->has_unified_memory;
     const double real_bytes = (double)ps_real_bytes(options->precision);
     const double batch = (double)options->batch;
     const double points = batch * (double)options->most_points;
@@ -100,7 +107,7 @@ double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_opt
     const double trials = (double)options->num_trials;
     const double moves = batch * trials * (double)ps_trials_move_numbers(integrand);
     const double pair_bytes = real_bytes + (double)sizeof(double);
-    return (double)integrand->num_table * real_bytes +
+    return (double)integrand->num_table * real_bytes + (copies ? (double)integrand->num_bytes : 0) +
            points * (integrand->place.dimension + 1) * real_bytes +
            2 * pieces * (double)sizeof(values_piece) + (moves + 2 * pieces * trials) * pair_bytes;
 }
@@ -305,7 +312,7 @@ static pspec_status launch(ps_device_trials *self, size_t num_pieces, ps_error *
                                           VALUE_FLOPS * values, values * sizeof(float));
     const values_sizes sizes = {self->axis_numbers, num_trials};
     /* any buffer does where nothing of it is read */
-    const ps_buffer *const table = self->integrand->num_table > 0 ? &self->table : &self->weights;
+    const ps_buffer *const table = self->has_table ? &self->table : &self->weights;
     values_singles singles;
     values_doubles doubles;
     for (size_t i = 0; i < PS_INTEGRAND_NUMBERS; i++) {

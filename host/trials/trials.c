@@ -17,6 +17,7 @@ struct ps_trials {
 static bool is_for_device(const ps_integrand *integrand, ps_precision precision,
                           const ps_device *device) {
     return device != NULL && ps_integrand_kernel(integrand, precision == PS_DOUBLE) != NULL &&
+           integrand->num_bytes <= ps_device_get_limits(device)->max_allocation_bytes &&
            (precision == PS_SINGLE ||
             (precision == PS_DOUBLE && ps_device_get_limits(device)->has_fp64));
 }
@@ -59,9 +60,10 @@ bool ps_trials_is_on_device(const ps_trials *trials) {
 
 double ps_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
                        const ps_device *device) {
-    return is_for_device(integrand, options->precision, device)
-               ? ps_device_trials_bytes(integrand, options)
-               : 0;
+    return (double)ps_integrand_table_bytes(integrand) +
+           (is_for_device(integrand, options->precision, device)
+                ? ps_device_trials_bytes(integrand, options, device)
+                : 0);
 }
 
 /* ---- run ------------------------------------------------------------------------------------- */

@@ -28,14 +28,15 @@ typedef struct ps_trials_options {
 typedef struct ps_trials ps_trials;
 
 /* Borrows the integrand and the device. On the host where the device is NULL, where it has no
- * doubles and they are asked for, and where the integrand has no kernel. */
+ * doubles and they are asked for, where the integrand has no kernel, and where its bytes are more
+ * than the device gives at a time. */
 pspec_status ps_trials_create(ps_trials **out, const ps_integrand *integrand,
                               const ps_trials_options *options, ps_device *device,
                               ps_error *error) PS_MUST_CHECK;
 void ps_trials_destroy(ps_trials *trials); /* NULL is allowed */
 bool ps_trials_is_on_device(const ps_trials *trials);
-/* Bytes of what such trials take, on the device and the host, but for patterns, moves and
- * estimates. */
+/* Bytes of what such trials take, on the device and the host, with the table of the integrand, but
+ * for patterns, moves and estimates. */
 double ps_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
                        const ps_device *device);
 

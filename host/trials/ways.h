@@ -12,7 +12,8 @@ pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand 
                                      const ps_trials_options *options, ps_device *device,
                                      ps_error *error) PS_MUST_CHECK;
 /* Of buffers and of what stages them. */
-double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options);
+double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
+                              const ps_device *device);
 void ps_device_trials_destroy(ps_device_trials *trials); /* NULL is allowed */
 
 /* sums[num_patterns][num_trials] of w F, of one batch at most; moves as in trials/trials.h. */

@@ -39,6 +39,7 @@
 #include "integrands/pixels.h"
 #include "integrands/sphere_series.h"
 #include "integrands/square.h"
+#include "integrands/torus_map.h"
 #include "integrands/torus_series.h"
 #include "integrands/wave.h"
 #include "integrands/zonal.h"

@@ -72,6 +72,17 @@ if (ulimit -v 1000000) 2>/dev/null; then
         bash -c 'ulimit -v 1000000; "$1" power --sampler white -n 1000000 -k 5000' _ "$program"
 fi
 
+# An image of 256 million pixels, which two questions share, in 1 GB; nothing varies of one that is black.
+printf 'Pf 16000 16000 -1\n' >black.pfm
+if (ulimit -v 1000000) 2>/dev/null && truncate -s $((18 + 4 * 16000 * 16000)) black.pfm; then
+    # shellcheck disable=SC2016
+    says 0 '^8,0,0,0,0,0,0,,0$' bash -c 'ulimit -v 1000000; "$1" variance --engine host_direct --sampler white \
+        -n 4,8 -m 2 -k 4 --integrand map:file=black.pfm' _ "$program"
+    says 1 '^pointspec variance: black.pfm: 16000 x 16000 pixels take 732.4M of memory, above 700M, the limit of --memory$' \
+        "$program" variance --sampler white -n 4 -m 2 -k 4 --memory 700M --integrand map:file=black.pfm
+fi
+rm -f black.pfm
+
 # ---- limits of data and stacks: PoCL aborts with the one, and nothing is safe with the other ----
 # shellcheck disable=SC2016
 if (ulimit -d 100000) 2>/dev/null; then

@@ -107,26 +107,48 @@ static void make_hdr(bytes *file, const char *header, size_t width, size_t heigh
 
 static const char plain[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
 
-static pspec_status read_bytes(ps_image *out, void **state, const bytes *file, ps_error *error) {
+/* All of an image. */
+typedef struct whole_image {
+    ps_image size;
+    float pixels[MOST_BYTES];
+} whole_image;
+
+static pspec_status begin(void *payload, const ps_image *size, ps_error *error) {
+    whole_image *const self = payload;
+    self->size = *size;
+    return size->width * size->height * size->num_channels <= MOST_BYTES
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY, "an image of many pixels begins");
+}
+
+static pspec_status take(void *payload, const ps_image *size, size_t y, const float *row,
+                         ps_error *error) {
+    whole_image *const self = payload;
+    const size_t num = size->width * size->num_channels;
+    (void)error;
+    memcpy(self->pixels + y * num, row, num * sizeof *row);
+    return PSPEC_OK;
+}
+
+static pspec_status read_bytes(whole_image *out, void **state, const bytes *file, ps_error *error) {
     char path[TEST_PATH_BYTES];
     assert_true(test_write_file(test_path(*state, "image", path), file->all, file->num));
-    return ps_image_read(out, path, error);
+    return ps_image_read(path, &(ps_image_taker){out, begin, take}, error);
 }
 
 /* ---- pixels -------------------------------------------------------------------------------- */
 
 static void check_hdr(void **state, size_t width, size_t height, row_kind rows) {
     bytes file;
-    ps_image image;
+    whole_image image;
     make_hdr(&file, plain, width, height, rows);
     assert_ok(read_bytes(&image, state, &file, error));
-    assert_int_equal(image.width, width);
-    assert_int_equal(image.height, height);
-    assert_int_equal(image.num_channels, 3);
+    assert_int_equal(image.size.width, width);
+    assert_int_equal(image.size.height, height);
+    assert_int_equal(image.size.num_channels, 3);
     for (size_t i = 0; i < width * height * 3; i++) {
         assert_true(image.pixels[i] == value_of(i / 3 % width, i / 3 / width, i % 3));
     }
-    ps_image_free(&image);
 }
 
 static void rows_of_all_kinds(void **state) {
@@ -143,21 +165,20 @@ static void rows_of_all_kinds(void **state) {
 static void long_runs_of_the_old_kind(void **state) {
     static const unsigned char row[] = {9, 8, 7, 129, 1, 1, 1, 43, 1, 1, 1, 1};
     bytes file = {.num = 0};
-    ps_image image;
+    whole_image image;
     put_text(&file, "#?RGBE\n\n-Y 1 +X 300\n");
     put(&file, row, sizeof row);
     assert_ok(read_bytes(&image, state, &file, error));
     for (size_t i = 0; i < 900; i++) {
         assert_true(image.pixels[i] == ldexpf((float)row[i % 3], -7));
     }
-    ps_image_free(&image);
 }
 
 /* Rows from below, from the right, and light times exposures. */
 static void headers_are_followed(void **state) {
     enum { WIDTH = 5, HEIGHT = 2 };
     bytes file;
-    ps_image image;
+    whole_image image;
     make_hdr(&file, "#?RADIANCE\n# made\r\nEXPOSURE= 2\nEXPOSURE=.25\nGAMMA=1\n", WIDTH, HEIGHT,
              FLAT);
     char *const size = strstr((char *)file.all, "-Y 2 +X 5");
@@ -169,7 +190,6 @@ static void headers_are_followed(void **state) {
         const size_t y = i / 3 / WIDTH;
         assert_true(image.pixels[i] == 2 * value_of(WIDTH - 1 - x, HEIGHT - 1 - y, i % 3));
     }
-    ps_image_free(&image);
 }
 
 static void floats_of_both_orders(void **state) {
@@ -177,7 +197,7 @@ static void floats_of_both_orders(void **state) {
     for (int big = 0; big < 2; big++) {
         for (unsigned channels = 1; channels <= 3; channels += 2) {
             bytes file = {.num = 0};
-            ps_image image;
+            whole_image image;
             put_text(&file, channels == 3 ? "PF\n1 2\n" : "Pf 3\t2\r\n");
             put_text(&file, big != 0 ? "1.0\n" : "-2e0\n");
             for (size_t i = 0; i < 6; i++) {
@@ -187,11 +207,10 @@ static void floats_of_both_orders(void **state) {
                 put(&file, big != 0 ? turned : number, sizeof number);
             }
             assert_ok(read_bytes(&image, state, &file, error));
-            assert_int_equal(image.num_channels, channels);
+            assert_int_equal(image.size.num_channels, channels);
             for (size_t i = 0; i < 6; i++) { /* the lowest row comes first */
                 assert_true(image.pixels[i] == numbers[(i + 3) % 6]);
             }
-            ps_image_free(&image);
         }
     }
 }
@@ -199,10 +218,9 @@ static void floats_of_both_orders(void **state) {
 /* ---- what is refused ----------------------------------------------------------------------- */
 
 static void refuse(void **state, const bytes *file, const char *piece) {
-    ps_image image;
+    whole_image image;
     ps_error error = {0};
     const pspec_status status = read_bytes(&image, state, file, &error);
-    ps_image_free(&image);
     assert_int_equal(status, PSPEC_ERROR_INPUT);
     if (strstr(error.message, piece) == NULL) {
         fail_msg("\"%s\" has no \"%s\"", error.message, piece);
@@ -266,11 +284,12 @@ static void light_is_neither_negative_nor_nan(void **state) {
     put(&file, numbers, sizeof numbers);
     assert_true(test_write_file(test_path(*state, "map", path), file.all, file.num));
     ps_error failure = {0};
-    assert_int_equal(ps_sphere_map_read(&map, path, 0, PS_MAP_RED, false, &failure),
-                     PSPEC_ERROR_INPUT);
+    ps_channel_source source = {.path = path, .channel = PS_MAP_RED};
+    assert_int_equal(ps_sphere_map_read(&map, &source, &failure), PSPEC_ERROR_INPUT);
     ps_sphere_map_free(&map);
-    assert_non_null(strstr(failure.message, "row 0, column 0, from 0, is inf"));
-    assert_ok(ps_sphere_map_read(&map, path, 0, PS_MAP_RED, true, error));
+    assert_non_null(strstr(failure.message, "row 1, column 1, from 0, is -1"));
+    source.may_clamp = true;
+    assert_ok(ps_sphere_map_read(&map, &source, error));
     assert_int_equal(map.num_clamped, 3);
     assert_true(map.rows[3] == 0 && map.rows[4] == 3 && map.rows[5] == 0.5 && map.rows[6] == 1 &&
                 map.rows[7] == 0 && map.rows[8] == 0);
@@ -287,7 +306,8 @@ static void made_up_light(void **state) {
         ps_sphere_map map;
         ps_map_moments moments;
         size_t brightest = 0;
-        assert_ok(ps_sphere_map_read(&map, NULL, (size_t)256 << i, PS_MAP_LUMINANCE, false, error));
+        const ps_channel_source source = {.width = (size_t)256 << i};
+        assert_ok(ps_sphere_map_read(&map, &source, error));
         assert_ok(ps_sphere_map_moments(&moments, &map, false, error));
         integrals[i] = moments.integral;
         for (size_t k = 0; k < map.width * map.height; k++) {
@@ -302,7 +322,21 @@ static void made_up_light(void **state) {
     assert_true(fabs(integrals[1] / integrals[0] - 1) < 0.01);
 }
 
-/* Through a pipe nobody knows what comes: rows are given room as they are there. */
+static pspec_status begin_any(void *payload, const ps_image *size, ps_error *error) {
+    (void)error;
+    *(ps_image *)payload = *size;
+    return PSPEC_OK;
+}
+
+static pspec_status take_none(void *payload, const ps_image *size, size_t y, const float *row,
+                              ps_error *error) {
+    (void)payload;
+    (void)size;
+    (void)row;
+    return ps_fail(error, PSPEC_ERROR_IO, "row %zu came", y);
+}
+
+/* Through a pipe nobody knows what comes: a row is handed over when it is there. */
 static void pipes_promise_in_vain(void **state) {
     static const char *const headers[] = {"#?RADIANCE\n\n-Y 16384 +X 16384\nabcd",
                                           "PF 16384 16384 -1\nabcd"};
@@ -310,15 +344,16 @@ static void pipes_promise_in_vain(void **state) {
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
         int ends[2];
         char path[64];
-        ps_image image;
+        ps_image image = {0};
         ps_error failure = {0};
         assert_int_equal(pipe(ends), 0);
         assert_true(write(ends[1], headers[i], strlen(headers[i])) > 0);
         close(ends[1]);
         snprintf(path, sizeof path, "/proc/self/fd/%d", ends[0]);
-        assert_int_equal(ps_image_read(&image, path, &failure), PSPEC_ERROR_INPUT);
-        assert_true(image.capacity <= 3 * 16384);
-        ps_image_free(&image);
+        assert_int_equal(
+            ps_image_read(path, &(ps_image_taker){&image, begin_any, take_none}, &failure),
+            PSPEC_ERROR_INPUT);
+        assert_int_equal(image.height, 16384);
         close(ends[0]);
     }
 }
@@ -344,7 +379,8 @@ static void known_maps(void **state) {
              channel++) {
             ps_sphere_map map;
             ps_map_moments moments;
-            assert_ok(ps_sphere_map_read(&map, path, 0, (ps_map_channel)channel, false, error));
+            const ps_channel_source source = {.path = path, .channel = (ps_map_channel)channel};
+            assert_ok(ps_sphere_map_read(&map, &source, error));
             assert_ok(ps_sphere_map_moments(&moments, &map, false, error));
             assert_true(fabs(moments.integral / PS_FOUR_PI / maps[i].means[channel] - 1) < 4e-4);
             ps_sphere_map_free(&map);

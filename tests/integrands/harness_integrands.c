@@ -19,6 +19,24 @@ void test_near(const char *text, const char *what, double value, double exact, d
     }
 }
 
+void test_light_fill(test_light *out, size_t width, size_t height) {
+    uint64_t random = width + 100 * height;
+    *out = (test_light){.width = width, .height = height};
+    for (size_t i = 0; i < width * height; i++) {
+        out->light[i] = (float)test_uniform(&random);
+    }
+}
+
+void test_light_write(const char *path, const test_light *image) {
+    FILE *const stream = fopen(path, "wb");
+    assert_non_null(stream);
+    fprintf(stream, "Pf %zu %zu -1\n", image->width, image->height);
+    for (size_t y = image->height; y-- > 0;) {
+        fwrite(image->light + y * image->width, sizeof(float), image->width, stream);
+    }
+    assert_int_equal(fclose(stream), 0);
+}
+
 static void write_text(const char *path, const char *text) {
     assert_true(test_write_file(path, text, strlen(text)));
 }

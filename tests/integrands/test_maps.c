@@ -9,32 +9,7 @@
 #include <complex.h>
 #include <math.h>
 
-enum { MOST_PIXELS = 64 * 128, LAST = 24 };
-
-/* ---- maps that are made here --------------------------------------------------------------- */
-
-typedef struct light_image {
-    size_t width, height;
-    float light[MOST_PIXELS]; /* the top row first */
-} light_image;
-
-static void write_map(const char *name, const light_image *image) {
-    FILE *const stream = fopen(name, "wb");
-    assert_non_null(stream);
-    fprintf(stream, "Pf %zu %zu -1\n", image->width, image->height);
-    for (size_t y = image->height; y-- > 0;) {
-        fwrite(image->light + y * image->width, sizeof(float), image->width, stream);
-    }
-    assert_int_equal(fclose(stream), 0);
-}
-
-static void fill(light_image *out, size_t width, size_t height) {
-    uint64_t random = width + 100 * height;
-    *out = (light_image){.width = width, .height = height};
-    for (size_t i = 0; i < width * height; i++) {
-        out->light[i] = (float)test_uniform(&random);
-    }
-}
+enum { LAST = 24 };
 
 /* ---- against Gauss sums -------------------------------------------------------------------- */
 
@@ -61,8 +36,7 @@ static void add_point(sums *out, const ps_integrand *self, double theta, double 
 }
 
 /* Between the centres of pixels F is smooth. Of a hemisphere of odd height a row is the horizon. */
-static void integrate(sums *out, const ps_integrand *self, const light_image *image,
-                      bool is_upper) {
+static void integrate(sums *out, const ps_integrand *self, const test_light *image, bool is_upper) {
     double nodes[NODES];
     double weights[NODES];
     const double first = PS_PI / (double)image->width;
@@ -92,11 +66,11 @@ static void integrate(sums *out, const ps_integrand *self, const light_image *im
 }
 
 static void check_sums(size_t width, size_t height, bool is_upper) {
-    static light_image made;
+    static test_light made;
     static sums expected;
     double powers[LAST + 1];
-    fill(&made, width, height);
-    write_map("map.pfm", &made);
+    test_light_fill(&made, width, height);
+    test_light_write("map.pfm", &made);
     ps_integrand *const self =
         test_integrand("map:file=map.pfm", is_upper ? TEST_HEMISPHERE : TEST_SPHERE);
     integrate(&expected, self, &made, is_upper);
@@ -133,12 +107,12 @@ static void sums_of_values(void **state) {
 /* Kinks along circles and meridians: what is beyond L falls as L^-2 or faster. */
 static void all_degrees_are_the_energy(void **state) {
     enum { DEGREES = 400 };
-    static light_image made;
+    static test_light made;
     double powers[DEGREES + 1];
     double sum = 0;
     (void)state;
-    fill(&made, 12, 6);
-    write_map("map.pfm", &made);
+    test_light_fill(&made, 12, 6);
+    test_light_write("map.pfm", &made);
     ps_integrand *const self = test_integrand("map:file=map.pfm", TEST_SPHERE);
     assert_ok(ps_integrand_degrees(self, DEGREES, powers, error));
     for (size_t l = 1; l <= DEGREES; l++) {
@@ -151,17 +125,17 @@ static void all_degrees_are_the_energy(void **state) {
 
 /* The same at any place of pixels along a row, and at twice as many degrees. */
 static void turns_change_nothing(void **state) {
-    static light_image made, turned;
+    static test_light made, turned;
     double powers[LAST + 1];
     double others[2 * LAST + 1];
     (void)state;
-    fill(&made, 30, 15);
+    test_light_fill(&made, 30, 15);
     turned = made;
     for (size_t i = 0; i < made.width * made.height; i++) {
         turned.light[i] = made.light[i / made.width * made.width + (i + 11) % made.width];
     }
-    write_map("map.pfm", &made);
-    write_map("turned.pfm", &turned);
+    test_light_write("map.pfm", &made);
+    test_light_write("turned.pfm", &turned);
     ps_integrand *const first = test_integrand("map:file=map.pfm", TEST_SPHERE);
     ps_integrand *const second = test_integrand("map:file=turned.pfm", TEST_SPHERE);
     assert_ok(ps_integrand_degrees(first, LAST, powers, error));
@@ -175,13 +149,13 @@ static void turns_change_nothing(void **state) {
 
 /* Squares of linear pieces: with h = pi/H, z^2 is off by h^2/4 of its second derivative at most. */
 static void closed_forms(void **state) {
-    static light_image made = {.width = 128, .height = 64};
+    static test_light made = {.width = 128, .height = 64};
     double powers[LAST + 1];
     (void)state;
     for (size_t i = 0; i < made.width * made.height; i++) {
         made.light[i] = 2.5f;
     }
-    write_map("map.pfm", &made);
+    test_light_write("map.pfm", &made);
     ps_integrand *self = test_integrand("map:file=map.pfm", TEST_SPHERE);
     test_near("constant", "the integral", ps_integrand_integral(self), 2.5 * PS_FOUR_PI, 1e-13);
     test_near("constant", "the energy", ps_integrand_energy(self), 0, 1e-25);
@@ -195,7 +169,7 @@ static void closed_forms(void **state) {
         const double z = cos(PS_PI * ((double)(i / made.width) + 0.5) / (double)made.height);
         made.light[i] = (float)(z * z);
     }
-    write_map("map.pfm", &made);
+    test_light_write("map.pfm", &made);
     self = test_integrand("map:file=map.pfm", TEST_SPHERE);
     const double h = PS_PI / 64;
     assert_ok(ps_integrand_degrees(self, LAST, powers, error));
@@ -219,11 +193,11 @@ static void refuse(const char *text, const char *piece) {
 }
 
 static void words(void **state) {
-    static light_image made;
+    static test_light made;
     (void)state;
-    fill(&made, 4, 3);
+    test_light_fill(&made, 4, 3);
     made.light[5] = -1;
-    write_map("map.pfm", &made);
+    test_light_write("map.pfm", &made);
     refuse("map:file=map.pfm", "row 1, column 1, from 0, is -1, which is no light; clamp=yes");
     refuse("map:file=map.pfm,clamp=maybe", "no|yes");
     refuse("map:file=map.pfm,channel=alpha", "luminance|red|green|blue");

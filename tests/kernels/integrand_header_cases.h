@@ -19,6 +19,7 @@
 #include "integrands/map.h"
 #include "integrands/pixels.h"
 #include "integrands/sphere_series.h"
+#include "integrands/torus_map.h"
 #include "integrands/torus_series.h"
 #include "integrands/wave.h"
 #include "integrands/zonal.h"
@@ -264,6 +265,41 @@ static void map(void **state) {
     }
 }
 
+/* Pixels of both kinds, at their centres, between them and across both edges. */
+static void torus_map(void **state) {
+    enum { ROWS = 3, SIDE = 5 };
+    (void)state;
+    for (unsigned bytes = 3; bytes <= 4; bytes++) {
+        const real numbers[NUMBERS] = {SIDE, ROWS, (real)bytes};
+        real table[4 * ROWS * SIDE] = {0};
+        float pixels[ROWS * SIDE];
+        for (int i = 0; i < ROWS * SIDE; i++) {
+            uint32_t bits = 0;
+            pixels[i] = ldexpf((float)(i * 5 % 7), 3 * i - 20);
+            memcpy(&bits, &pixels[i], sizeof bits);
+            bits >>= bytes == 3 ? 7 : 0;
+            for (unsigned b = 0; b < bytes; b++) {
+                ((unsigned char *)table)[bytes * (unsigned)i + b] = (unsigned char)(bits >> 8 * b);
+            }
+        }
+        for (int j = 0; j < 40 * 40; j++) {
+            const real x[] = {(real)(j / 40) / 40, (real)(j % 40) / 40};
+            const long double down = (long double)x[0] * ROWS + ROWS - 0.5L;
+            const long double along = (long double)x[1] * SIDE + SIDE - 0.5L;
+            const int row = (int)down;
+            const int column = (int)along;
+            long double expected = 0;
+            for (int corner = 0; corner < 4; corner++) {
+                const int place = (row + corner / 2) % ROWS * SIDE + (column + corner % 2) % SIDE;
+                expected += fabsl(1 - corner / 2 - (down - row)) *
+                            fabsl(1 - corner % 2 - (along - column)) * (long double)pixels[place];
+            }
+            assert_true(fabsl((long double)torus_map_value(x, 2, numbers, table) - expected) <=
+                        20 * epsilon * 0x1p20L);
+        }
+    }
+}
+
 /* Runs of one, of three and of the most that there are. Every step of a run is off by some epsilon,
  * and the first phase of k by |k| epsilon of a turn. */
 static void torus_series(void **state) {
@@ -353,6 +389,7 @@ int main(void) {
         cmocka_unit_test(gaussian),
         cmocka_unit_test(gaussian_that_is_cut),
         cmocka_unit_test(pixels),
+        cmocka_unit_test(torus_map),
         cmocka_unit_test(map),
         cmocka_unit_test(zonal),
         cmocka_unit_test(torus_series),

@@ -222,6 +222,7 @@ static void maps(void **state) {
     (void)state;
     check("map:file=map.pfm", sphere, 0, slope * 0x1p-21, slope * 0x1p-50, false);
     check("map:file=map.pfm", hemisphere, 0, slope * 0x1p-21, slope * 0x1p-50, false);
+    check("map:file=map.pfm", torus, 0, slope * 0x1p-21, slope * 0x1p-50, false);
 }
 
 /* Whoever adds a kind that reads files adds it above. */

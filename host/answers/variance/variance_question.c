@@ -162,6 +162,7 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
     for (size_t i = 0; i < num; i++) {
         ps_variance_question *const question = &out->questions[i];
         *question = make_question(arguments);
+        question->made = &out->made;
         question->bounds = ps_request_bounds(arguments, i);
         question->name = ps_request_name(arguments, i);
         PS_TRY(out->files[i].num > 0
@@ -176,5 +177,6 @@ void ps_variance_list_free(ps_variance_list *list) {
     free(list->questions);
     free(list->requests);
     ps_file_lists_free(list->files, list->num);
+    ps_made_integrands_free(&list->made);
     *list = (ps_variance_list){0};
 }

@@ -1,10 +1,13 @@
-/* Light from every direction, an image: docs/mathematics/maps.md. */
+/* An image as light from every direction, or on the torus: docs/mathematics/maps.md. */
 #define PRECISION 64
 #include "integrands/map.h"
+#include "integrands/torus_map.h"
 
 #include "base/memory.h"
 #include "base/text.h"
 #include "images/sphere_map.h"
+#include "images/pixel.h"
+#include "images/torus_map.h"
 #include "integrands/files/coefficient_file.h"
 #include "integrands/integrand_kind.h"
 
@@ -15,8 +18,11 @@
 /* What self->own points to. */
 typedef struct map {
     char *path;
-    ps_sphere_map map;
+    ps_sphere_map map; /* on the sphere and the hemisphere */
     ps_map_moments moments;
+    ps_torus_map image; /* on the torus, with what was found of its powers so far */
+    ps_torus_map_powers powers;
+    size_t powers_cutoff;
     char note[160];
 } map;
 
@@ -32,23 +38,31 @@ static pspec_status read_word(const ps_integrand *self, const char *key, const c
     return *out >= 0 ? PSPEC_OK : ps_integrand_fail(self, key, text, words, error);
 }
 
+static bool is_on_torus(const ps_integrand *self) {
+    return self->place.where == PS_SAMPLES_TORUS;
+}
+
 /* What a result says of the image, which nothing else does. */
-static void describe(map *own) {
-    const ps_sphere_map *const image = &own->map;
+static void describe(const ps_integrand *self, map *own) {
+    const size_t num_clamped = own->map.num_clamped + own->image.num_clamped;
     int length = 0;
     if (own->path == NULL) {
         length = snprintf(own->note, sizeof own->note, "no file: light made up, %zu x %zu pixels",
-                          image->width, image->height);
+                          own->map.width, own->map.height);
     }
-    if (image->width != 2 * image->height) {
+    if (!is_on_torus(self) && own->map.width != 2 * own->map.height) {
         length = snprintf(own->note, sizeof own->note,
-                          "%zu x %zu pixels cover the sphere, which are not 2:1", image->width,
-                          image->height);
+                          "%zu x %zu pixels cover the sphere, which are not 2:1", own->map.width,
+                          own->map.height);
     }
-    if (image->num_clamped > 0) {
+    if (own->image.pixel_bytes == PIXEL_SHORT_BYTES) {
+        length = snprintf(own->note, sizeof own->note, "%zu x %zu pixels have 17 binary digits",
+                          own->image.width, own->image.height);
+    }
+    if (num_clamped > 0) {
         snprintf(own->note + length, sizeof own->note - (size_t)length,
                  "%s%zu pixels were negative or not finite, and count as 0", length > 0 ? "; " : "",
-                 image->num_clamped);
+                 num_clamped);
     }
 }
 
@@ -60,6 +74,29 @@ static void give_table(ps_integrand *self, const map *own) {
     self->num_table = (own->map.height + 2) * own->map.width;
     self->needs_doubles =
         self->num_table > most_places || !ps_fit_single(self->table, self->num_table);
+}
+
+static pspec_status read_sphere(ps_integrand *self, map *own, const ps_channel_source *source,
+                                ps_error *error) {
+    PS_TRY(ps_sphere_map_read(&own->map, source, error));
+    give_table(self, own);
+    return ps_sphere_map_moments(&own->moments, &own->map, ps_integrand_is_on_hemisphere(self),
+                                 error);
+}
+
+static pspec_status read_torus(ps_integrand *self, map *own, const ps_channel_source *source,
+                               ps_error *error) {
+    const ps_torus_map_limits limits = {PS_TORUS_MAP_MOST_FLOATS, self->most_bytes};
+    ps_torus_map *const image = &own->image;
+    PS_TRY(ps_torus_map_read(image, source, &limits, error));
+    self->numbers[TORUS_MAP_WIDTH] = (double)image->width;
+    self->numbers[TORUS_MAP_HEIGHT] = (double)image->height;
+    self->numbers[TORUS_MAP_BYTES] = image->pixel_bytes;
+    self->kernel = "torus_map";
+    self->bytes = image->pixels;
+    self->num_bytes = ps_torus_map_bytes(image);
+    self->needs_doubles = !ps_fit_single(&image->largest, 1);
+    return PSPEC_OK;
 }
 
 static pspec_status create(ps_integrand *self, const char *const *values, ps_error *error) {
@@ -76,18 +113,20 @@ static pspec_status create(ps_integrand *self, const char *const *values, ps_err
     PS_TRY(read_word(self, "clamp", values[2], "no|yes", &clamps, error));
     PS_TRY(ps_parse_count(values[3], "width of integrand map", 2, PS_IMAGE_MOST_SIDE / 4, &width,
                           error));
-    PS_TRY(ps_sphere_map_read(&own->map, own->path, (size_t)width, (ps_map_channel)channel,
-                              clamps == 1, error));
-    describe(own);
-    give_table(self, own);
-    return ps_sphere_map_moments(&own->moments, &own->map, ps_integrand_is_on_hemisphere(self),
-                                 error);
+    const ps_channel_source source = {own->path, (size_t)width, (ps_map_channel)channel,
+                                      clamps == 1};
+    PS_TRY(is_on_torus(self) ? read_torus(self, own, &source, error)
+                             : read_sphere(self, own, &source, error));
+    describe(self, own);
+    return PSPEC_OK;
 }
 
 static void destroy(ps_integrand *self) {
     map *const own = self->own;
     if (own != NULL) {
         ps_sphere_map_free(&own->map);
+        ps_torus_map_free(&own->image);
+        ps_torus_map_powers_free(&own->powers);
         free(own->path);
     }
     free(own);
@@ -96,12 +135,44 @@ static void destroy(ps_integrand *self) {
 /* ---- what is known ------------------------------------------------------------------------- */
 
 static double integral(const ps_integrand *self) {
-    return own_of(self)->moments.integral;
+    return is_on_torus(self) ? own_of(self)->image.mean : own_of(self)->moments.integral;
 }
 
 /* On the hemisphere that of the even extension. */
 static double energy(const ps_integrand *self) {
-    return (ps_integrand_is_on_hemisphere(self) ? 2 : 1) * own_of(self)->moments.deviation;
+    return is_on_torus(self)
+               ? own_of(self)->image.energy
+               : (ps_integrand_is_on_hemisphere(self) ? 2 : 1) * own_of(self)->moments.deviation;
+}
+
+/* Those up to a cut-off are found at once, and kept: who asks for more asks for twice as many. */
+static pspec_status find_powers(map *own, size_t cutoff, ps_error *error) {
+    if (own->powers.all != NULL && cutoff <= own->powers_cutoff) {
+        return PSPEC_OK;
+    }
+    ps_torus_map_powers_free(&own->powers);
+    own->powers_cutoff = cutoff > 2 * own->powers_cutoff ? cutoff : 2 * own->powers_cutoff;
+    return ps_torus_map_find_powers(&own->powers, &own->image, own->powers_cutoff, error);
+}
+
+/* Linear between pixels: their transform times sinc^2 of either axis. */
+static pspec_status powers(const ps_integrand *self, const int32_t *vectors, size_t num,
+                           double *out, ps_error *error) {
+    map *const own = self->own;
+    size_t cutoff = 0;
+    for (size_t i = 0; i < 2 * num; i++) {
+        const size_t size = (size_t)labs((long)vectors[i]);
+        cutoff = size > cutoff ? size : cutoff;
+    }
+    PS_TRY(find_powers(own, cutoff, error));
+    for (size_t i = 0; i < num; i++) {
+        const int32_t *const k = vectors + 2 * i;
+        const double factor =
+            ps_integrand_sinc(k[0], own->image.height) * ps_integrand_sinc(k[1], own->image.width);
+        const double square = factor * factor;
+        out[i] = square * square * ps_torus_map_power(&own->powers, &own->image, k);
+    }
+    return PSPEC_OK;
 }
 
 static pspec_status coefficients(const ps_integrand *self, size_t max_degree, double *out,
@@ -131,8 +202,10 @@ static pspec_status degrees(const ps_integrand *self, size_t max_degree, double 
 }
 
 static void values(const ps_integrand *self, const double *points, size_t num, double *out) {
+    const void *const bytes = self->bytes;
     for (size_t i = 0; i < num; i++) {
-        out[i] = map_value(points + 3 * i, 3, self->numbers, self->table);
+        out[i] = is_on_torus(self) ? torus_map_value(points + 2 * i, 2, self->numbers, bytes)
+                                   : map_value(points + 3 * i, 3, self->numbers, self->table);
     }
 }
 
@@ -152,8 +225,10 @@ static const char *file(const ps_integrand *self) {
 const ps_integrand_kind ps_integrand_map = {
     .name = "map",
     .kernel = "map",
-    .summary = "light from every direction, an equirectangular image in HDR or PFM",
-    .domains = PS_INTEGRAND_ROUND,
+    .summary = "an image in HDR or PFM: of the plane, or light from every direction",
+    .domains = PS_INTEGRAND_ON(PS_SAMPLES_TORUS) | PS_INTEGRAND_ROUND,
+    .least = 2,
+    .most = 2,
     .parameters = {{"file", "", "Radiance HDR or PFM, +z at the top; empty: made up"},
                    {"channel", "luminance", PS_MAP_CHANNELS},
                    {"clamp", "no", "yes: pixels below 0 and NaN count as 0"},
@@ -162,6 +237,7 @@ const ps_integrand_kind ps_integrand_map = {
     .destroy = destroy,
     .integral = integral,
     .energy = energy,
+    .powers = powers,
     .degrees = degrees,
     .coefficients = coefficients,
     .values = values,

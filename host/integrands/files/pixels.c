@@ -212,22 +212,13 @@ static pspec_status give_points(const ps_integrand *self, ps_integrand_points *o
     return PSPEC_OK;
 }
 
-/* sin(pi k/n)/(pi k/n), 0 at multiples of n. */
-static double sinc(int32_t k, size_t side) {
-    const double n = (double)side;
-    const double rest = fmod(k, n); /* exact */
-    const double t = PS_PI * k / n;
-    const double sine = sin(PS_PI * rest / n) * (fmod((k - rest) / n, 2) != 0 ? -1 : 1);
-    return k == 0 ? 1 : sine / t;
-}
-
 static void give_factors(const ps_integrand *self, const int32_t *vectors, size_t num,
                          double *factors) {
     const ps_npy_array *const image = &own_of(self)->image;
     for (size_t i = 0; i < num; i++) {
         double product = 1 / (double)image->num;
         for (unsigned axis = 0; axis < image->rank; axis++) {
-            product *= sinc(vectors[i * image->rank + axis], image->shape[axis]);
+            product *= ps_integrand_sinc(vectors[i * image->rank + axis], image->shape[axis]);
         }
         factors[i] = product * product;
     }

@@ -90,8 +90,8 @@ pspec_status ps_panorama_make(ps_panorama *out, const ps_given_integrands *given
     double *directions = NULL;
     PS_TRY(PS_NEW(&out->integrands, num, "integrands", error));
     for (; out->num < num; out->num++) {
-        PS_TRY(
-            ps_integrand_make(&out->integrands[out->num], given, texts[out->num], sphere, error));
+        PS_TRY(ps_integrand_make(&out->integrands[out->num], given, texts[out->num], sphere, 0,
+                                 error));
     }
     PS_TRY(choose_size(out, texts, error));
     PS_TRY(ps_allocate_for(&out->values, out->width * out->height, num * sizeof(double), "images",

@@ -102,8 +102,12 @@ static pspec_status fit_memory(measurement *self, ps_error *error) {
     ps_memory_room room = {plan->memory_limit, "the limit of --memory"};
     char needed[PS_SIZE_TEXT];
     char left[PS_SIZE_TEXT];
+    uint64_t held = 0; /* and counted */
+    for (size_t i = 0; i < plan->num_integrands; i++) {
+        held += ps_integrand_table_bytes(plan->integrands[i]);
+    }
     if (plan->memory_limit == 0) {
-        ps_memory_room_find(&room, 0);
+        ps_memory_room_find(&room, held);
     }
     const double limit = (double)room.bytes;
     while (self->batch > 1 && count_bytes(self) > limit) {

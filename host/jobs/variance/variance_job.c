@@ -58,6 +58,14 @@ static pspec_status check_integrand(const ps_variance_question *question,
                          integrand->kind->name);
 }
 
+static pspec_status take_integrand(ps_integrand **out, const ps_variance_question *question,
+                                   size_t index, unsigned dimension, ps_error *error) {
+    PS_TRY(ps_integrand_take(out, question->made, &question->given, question->texts[index],
+                             place_of(question, dimension),
+                             question->spectrum.limits.constraints.memory_limit, error));
+    return check_integrand(question, *out, error);
+}
+
 pspec_status ps_variance_question_check(const ps_variance_question *question, ps_error *error) {
     const ps_power_question *const spectrum = &question->spectrum;
     const unsigned dimension =
@@ -67,18 +75,13 @@ pspec_status ps_variance_question_check(const ps_variance_question *question, ps
     }
     for (size_t i = 0; i < question->num_integrands; i++) {
         ps_integrand *integrand = NULL;
-        PS_TRY(ps_integrand_make(&integrand, &question->given, question->texts[i],
-                                 place_of(question, dimension), error));
-        const pspec_status status = check_integrand(question, integrand, error);
-        ps_integrand_destroy(integrand);
-        PS_TRY(status);
+        PS_TRY(take_integrand(&integrand, question, i, dimension, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
+static pspec_status take_integrands(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
-    const ps_integrand_place place = place_of(question, job->files.dimension);
     const size_t num = question->num_integrands;
     PS_TRY(PS_NEW(&job->integrands, num, "integrands", error));
     PS_TRY(PS_NEW(&job->held, num, "energies", error));
@@ -86,9 +89,7 @@ static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     PS_TRY(PS_NEW(&job->measured_blocks, num, "variances", error));
     PS_TRY(PS_NEW(&job->rows, num, "variances", error));
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_integrand_make(&job->integrands[i], &question->given, question->texts[i], place,
-                                 error));
-        PS_TRY(check_integrand(question, job->integrands[i], error));
+        PS_TRY(take_integrand(&job->integrands[i], question, i, job->files.dimension, error));
     }
     return PSPEC_OK;
 }
@@ -148,7 +149,7 @@ static pspec_status prepare(ps_variance_job *job, ps_error *error) {
     job->spectrum_question.weigh = weigh;
     job->spectrum_question.weigh_payload = job;
     PS_TRY(open_files(job, error));
-    PS_TRY(parse_integrands(job, error));
+    PS_TRY(take_integrands(job, error));
     find_useful(job);
     PS_TRY(ps_power_job_create(&job->spectrum, &job->spectrum_question, error));
     PS_TRY(time_images(job, error));
@@ -173,9 +174,6 @@ pspec_status ps_variance_job_create(ps_variance_job **out, const ps_variance_que
 void ps_variance_job_destroy(ps_variance_job *job) {
     if (job == NULL) {
         return;
-    }
-    for (size_t i = 0; job->integrands != NULL && i < job->question->num_integrands; i++) {
-        ps_integrand_destroy(job->integrands[i]);
     }
     ps_power_job_destroy(job->spectrum);
     ps_variance_sets_close(&job->files);

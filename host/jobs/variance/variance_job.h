@@ -22,6 +22,7 @@ typedef struct ps_variance_question {
     ps_power_question spectrum;
     const char *const *texts;  /* of the integrands */
     ps_given_integrands given; /* those that some of them may name; borrowed */
+    ps_made_integrands *made;  /* of all questions that share them, and outlives their jobs */
     size_t num_integrands;
     /* The sum is over the exact shells of a ball instead of a box: of isotropic integrands */
     bool over_shells;
@@ -61,7 +62,7 @@ typedef struct ps_variance_job {
     const ps_variance_question *question;
     ps_power_question spectrum_question;
     ps_power_job *spectrum;         /* of the prediction: its plan, and what it found */
-    ps_integrand **integrands;      /* [num] */
+    ps_integrand **integrands;      /* [num], of question->made */
     double *held;                   /* [num] of the energy, up to the cut-off */
     ps_mean *measured;              /* [num] */
     ps_block_sums *measured_blocks; /* [num] */

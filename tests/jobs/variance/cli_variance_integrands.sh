@@ -107,6 +107,28 @@ refuses 'is no NPY array' --sampler white -n 8 --integrand pixels:file=wave.txt
 refuses 'needs its file' --sampler white -n 8 --integrand pixels
 refuses 'pixels have an axis for each of the 3 dimensions' --sampler white -d 3 -n 8 --integrand pixels:file=slope.npy
 
+# ---- images on the torus ----
+
+# floats of digits as letters: numbers of many sizes. The same of any batch, and on the host
+{
+    printf 'Pf 64 48 -1\n'
+    printf '%d' {1000..4071}
+} >digits.pfm
+runs 0 --sampler white -n 100 -m 40 --shifts 4 -k 60 --integrand map:file=digits.pfm
+awk -v z="$(column z_score)" 'BEGIN { exit !(z < 4 && z > -4 && z != 0) }' || complain "an image: $(table)"
+awk -v a="$(column lower)" -v x="$(column white)" -v b="$(column upper)" 'BEGIN { exit !(a > .8 * x && b < 1.2 * x) }' ||
+    complain "white noise: $(table)"
+digits=$(table | cut -d, -f6,7)
+runs 0 --sampler white -n 100 -m 40 --shifts 4 -k 60 --memory 2M --integrand map:file=digits.pfm
+[[ $(table | cut -d, -f6,7) == "$digits" ]] || complain "in another batch: $(table), not $digits"
+runs 0 --engine host_direct --sampler white -n 100 -m 40 --shifts 4 -k 20 --integrand map:file=digits.pfm
+near 'an image on the host' "$(column measured)" "$(sed 1d <<<"$digits" | cut -d, -f1)" 1e-9
+runs 1 --sampler white -n 8 --memory 10K --integrand map:file=digits.pfm
+says 'digits.pfm: 64 x 48 pixels take 12K of memory, above 10K, the limit of --memory'
+refuses 'points have 3 dimensions, and it has 2 to 2' --sampler white -d 3 -n 8 --integrand map:file=digits.pfm
+head -c 4000 digits.pfm >short.pfm
+refuses '64 x 48 pixels take at least 12288 bytes, and 3988 are left' --sampler white -n 8 --integrand map:file=short.pfm
+
 # ---- files are known as such ----
 
 cp wave.txt kept.txt

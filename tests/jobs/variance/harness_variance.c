@@ -24,13 +24,14 @@ void test_variance_ask(test_variance *out, const char *sampler, size_t num_point
                                             .precision = -1},
                      .open_device = device},
         .texts = out->texts,
+        .made = &out->made,
         .num_shifts = 1,
         .is_moved = true};
     test_variance_add(out, integrand);
 }
 
 const ps_variance_row *test_variance_run(test_variance *asked) {
-    ps_variance_job_destroy(asked->job);
+    test_variance_free(asked);
     assert_ok(ps_variance_question_check(&asked->question, error));
     assert_ok(ps_variance_job_create(&asked->job, &asked->question, error));
     assert_ok(ps_variance_job_run(asked->job, error));
@@ -47,6 +48,8 @@ const ps_integrand *test_variance_integrand(const test_variance *asked, size_t i
 
 void test_variance_free(test_variance *asked) {
     ps_variance_job_destroy(asked->job);
+    ps_made_integrands_free(&asked->made);
+    asked->job = NULL;
 }
 
 double *test_variance_points(const test_variance *asked, uint64_t realization, size_t *num_points) {

@@ -13,6 +13,7 @@ typedef struct test_variance {
     ps_sampler_request sampler;
     const char *texts[TEST_MOST_INTEGRANDS];
     ps_variance_question question;
+    ps_made_integrands made;
     ps_variance_job *job; /* NULL: not run */
 } test_variance;
 
