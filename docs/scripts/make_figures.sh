@@ -28,7 +28,7 @@ echo "figures: variance.png" >&2
 # Those of the scene p15_figure6.yaml: three minutes, unless sets of FPO and ccvt-sphere are kept.
 echo "figures: p15_figure6_torus.png p15_figure6_sphere.png" >&2
 "$pointspec" variance --sampler white --sampler jittered --sampler poisson-disk --sampler fpo --sampler bnot \
-    --integrand gaussian:sigma=0.0625 --integrand disk:radius=0.25 -n 16,64,256,1024,4096 -m 40 --shifts 10 \
+    --integrand gaussian:sigma=0.0625 --integrand disk:radius=0.25 --integrand map:width=2000 -n 16,64,256,1024,4096 -m 40 --shifts 10 \
     --quiet -o variance.csv --plot "$images/p15_figure6_torus.png"
 "$pointspec" variance --sampler white-sphere --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere \
     --integrand harmonic:degree=4 --integrand cap -n 12,48,192,768 -m 200 \

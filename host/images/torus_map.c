@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
+#include "images/discs.h"
 #include "images/pixel.h"
 #include "math/neumaier.h"
 
@@ -128,7 +129,8 @@ pspec_status ps_torus_map_read(ps_torus_map *out, const ps_channel_source *sourc
     const ps_channel_taker taker = {&self, begin, take};
     double *rows = NULL;
     *out = (ps_torus_map){0};
-    PS_TRY(ps_channel_read(source, &taker, &out->num_clamped, error));
+    PS_TRY(source->path != NULL ? ps_channel_read(source, &taker, &out->num_clamped, error)
+                                : ps_discs_make(source->width, &taker, error));
     PS_TRY(PS_NEW(&rows, 2 * out->width, "rows of an image", error));
     find_mean(out, rows);
     find_energy(out, rows);

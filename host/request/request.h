@@ -145,6 +145,7 @@ typedef struct ps_request {
     size_t num_integrands;
     const char *integrands[PS_MAX_INTEGRANDS];
     ps_given_integrands integrands_given; /* by a caller, which they may name; borrowed */
+    ps_made_integrands *integrands_made;  /* that requests share; borrowed; NULL: it has its own */
     uint64_t num_shifts;                  /* 1 unless given */
     bool in_place;                        /* sets are not moved */
     double tail;                          /* 0 unless given */

@@ -62,7 +62,7 @@ grep -q "^# integrand: map:width=64,file=$PWD/sky.pfm" there/*.csv || complain "
 grep -q 'data:sky.pfm' there/record.json || complain 'record of test data'
 POINTSPEC_TEST_DATA=$PWD/nowhere "$program" run data.yaml -o absent >/dev/null 2>err || complain 'no test data'
 says '"data:sky.pfm": it is not in the folder that POINTSPEC_TEST_DATA names; what the integrand is without a file stands in for it'
-grep -q '^# integrand_note: no file: light made up, 64 x 32 pixels' absent/*.csv || complain "no test data: $(<absent/shade-1.csv)"
+grep -q '^# integrand_note: 64 x 32 pixels made up for want of a file' absent/*.csv || complain "no test data: $(<absent/shade-1.csv)"
 sed -i 's/integrand: .*sky.pfm"/integrand: map, weights: "data:w.txt"/' data.yaml
 POINTSPEC_TEST_DATA='' "$program" run data.yaml -o other >/dev/null 2>err && complain 'weights of test data'
 says 'cannot read "data:w.txt"'

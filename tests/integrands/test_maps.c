@@ -204,7 +204,7 @@ static void words(void **state) {
     refuse("map:file=nothing.hdr", "nothing.hdr");
     refuse("map:width=1", "1 is not between 2 and 16384");
     ps_integrand *self = test_integrand("map:width=8", TEST_SPHERE);
-    assert_string_equal(ps_integrand_note(self), "no file: light made up, 8 x 4 pixels");
+    assert_string_equal(ps_integrand_note(self), "8 x 4 pixels made up for want of a file");
     assert_null(ps_integrand_file(self));
     ps_integrand_destroy(self);
     self = test_integrand("map:file=map.pfm,clamp=yes", TEST_SPHERE);

@@ -249,6 +249,30 @@ static void large_images_have_short_pixels(void **state) {
     }
 }
 
+/* Images of discs of any side are of one scene: a pixel has the light at its centre. */
+static void discs_are_the_same_at_every_size(void **state) {
+    enum { FEW = 40, TIMES = 3 };
+    ps_integrand *const few = test_integrand("map:width=40", TEST_PLANE);
+    ps_integrand *const many = test_integrand("map:width=120", TEST_PLANE);
+    double largest = 0;
+    (void)state;
+    for (int i = 0; i < FEW * FEW; i++) {
+        const double x[] = {(i / FEW + 0.5) / FEW, (i % FEW + 0.5) / FEW};
+        double values[2] = {0, 0};
+        ps_integrand_values(few, x, 1, &values[0]);
+        ps_integrand_values(many, x, 1, &values[1]);
+        test_near("discs", "light", values[0], values[1], 1e-11);
+        assert_true(values[0] > 0x1p-6 - 1e-6 && values[0] < 0x1p6 + 1e-6);
+        largest = fmax(largest, values[0]);
+    }
+    assert_true(largest > 32 && ps_integrand_energy(few) > 30);
+    assert_null(ps_integrand_file(few));
+    test_near("discs", "the integral", ps_integrand_integral(few), ps_integrand_integral(many),
+              0.1 * ps_integrand_integral(many));
+    ps_integrand_destroy(few);
+    ps_integrand_destroy(many);
+}
+
 /* ---- words --------------------------------------------------------------------------------- */
 
 static void refuse(const char *text, uint64_t most_bytes, pspec_status status, const char *piece) {
@@ -270,6 +294,10 @@ static void words(void **state) {
     refuse("map:file=image.pfm", 0, PSPEC_ERROR_INPUT, "row 1, column 1, from 0, is nan");
     refuse("map:file=image.pfm,clamp=yes", 47, PSPEC_ERROR_MEMORY,
            "image.pfm: 4 x 3 pixels take 48 of memory, above 47, the limit of --memory");
+    refuse("map:width=1.5", 0, PSPEC_ERROR_INVALID_ARGUMENT, "\"1.5\" is not a whole number");
+    refuse("map:width=16385", 0, PSPEC_ERROR_INVALID_ARGUMENT, "16385 is not between 2 and 16384");
+    refuse("map:width=9", 323, PSPEC_ERROR_MEMORY,
+           "an image made up: 9 x 9 pixels take 324 of memory");
     ps_integrand *const self = test_integrand("map:file=image.pfm,clamp=yes", TEST_PLANE);
     assert_string_equal(ps_integrand_note(self),
                         "1 pixels were negative or not finite, and count as 0");
@@ -316,6 +344,7 @@ int main(void) {
         cmocka_unit_test(closed_forms),
         cmocka_unit_test(values_are_linear_between_pixels),
         cmocka_unit_test(large_images_have_short_pixels),
+        cmocka_unit_test(discs_are_the_same_at_every_size),
         cmocka_unit_test(words),
         cmocka_unit_test(questions_share_an_image),
     };

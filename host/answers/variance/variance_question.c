@@ -162,7 +162,8 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
     for (size_t i = 0; i < num; i++) {
         ps_variance_question *const question = &out->questions[i];
         *question = make_question(arguments);
-        question->made = &out->made;
+        question->made =
+            arguments->integrands_made != NULL ? arguments->integrands_made : &out->made;
         question->bounds = ps_request_bounds(arguments, i);
         question->name = ps_request_name(arguments, i);
         PS_TRY(out->files[i].num > 0

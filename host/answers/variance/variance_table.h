@@ -14,7 +14,7 @@ typedef struct ps_variance_list {
     ps_variance_question *questions; /* [num] */
     ps_sampler_request *requests;    /* [num] */
     ps_file_list *files;             /* [num] */
-    ps_made_integrands made;         /* of all of them */
+    ps_made_integrands made;         /* of all of them, unless the request shares them */
 } ps_variance_list;
 
 /* Checks that the options fit together. *out is freed by ps_variance_list_free, also after an

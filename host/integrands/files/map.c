@@ -17,7 +17,7 @@
 
 /* What self->own points to. */
 typedef struct map {
-    char *path;
+    char *path;        /* NULL: of no file */
     ps_sphere_map map; /* on the sphere and the hemisphere */
     ps_map_moments moments;
     ps_torus_map image; /* on the torus, with what was found of its powers so far */
@@ -45,19 +45,17 @@ static bool is_on_torus(const ps_integrand *self) {
 /* What a result says of the image, which nothing else does. */
 static void describe(const ps_integrand *self, map *own) {
     const size_t num_clamped = own->map.num_clamped + own->image.num_clamped;
+    const char *const made = own->path == NULL ? " made up for want of a file" : "";
+    const char *const shape = !is_on_torus(self) && own->map.width != 2 * own->map.height
+                                  ? " cover the sphere, which are not 2:1"
+                                  : "";
+    const char *const digits =
+        own->image.pixel_bytes == PIXEL_SHORT_BYTES ? " have 17 binary digits" : "";
     int length = 0;
-    if (own->path == NULL) {
-        length = snprintf(own->note, sizeof own->note, "no file: light made up, %zu x %zu pixels",
-                          own->map.width, own->map.height);
-    }
-    if (!is_on_torus(self) && own->map.width != 2 * own->map.height) {
-        length = snprintf(own->note, sizeof own->note,
-                          "%zu x %zu pixels cover the sphere, which are not 2:1", own->map.width,
-                          own->map.height);
-    }
-    if (own->image.pixel_bytes == PIXEL_SHORT_BYTES) {
-        length = snprintf(own->note, sizeof own->note, "%zu x %zu pixels have 17 binary digits",
-                          own->image.width, own->image.height);
+    if (made[0] != '\0' || shape[0] != '\0' || digits[0] != '\0') {
+        length = snprintf(own->note, sizeof own->note, "%zu x %zu pixels%s%s%s",
+                          own->map.width + own->image.width, own->map.height + own->image.height,
+                          made, shape, digits);
     }
     if (num_clamped > 0) {
         snprintf(own->note + length, sizeof own->note - (size_t)length,
@@ -232,7 +230,7 @@ const ps_integrand_kind ps_integrand_map = {
     .parameters = {{"file", "", "Radiance HDR or PFM, +z at the top; empty: made up"},
                    {"channel", "luminance", PS_MAP_CHANNELS},
                    {"clamp", "no", "yes: pixels below 0 and NaN count as 0"},
-                   {"width", "1024", "pixels of a row where no file is: of light made up"}},
+                   {"width", "1024", "pixels of a row where no file is: light made up"}},
     .create = create,
     .destroy = destroy,
     .integral = integral,

@@ -72,6 +72,7 @@ void ps_run_free(ps_run *run) {
     for (size_t i = 0; i < run->num_results; i++) {
         free_result(&run->results[i]);
     }
+    ps_made_integrands_free(&run->made);
     for (size_t i = 0; i < run->num_questions; i++) {
         ps_scene_question_free(&run->questions[i].asked);
         ps_answer_free(&run->questions[i].answer);

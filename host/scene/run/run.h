@@ -128,6 +128,7 @@ typedef struct ps_run {
     bool lacks_device; /* a plan that goes on without */
     size_t num_results, num_questions, num_cached;
     ps_run_question *questions; /* of the results, one after the other */
+    ps_made_integrands made;    /* of all of them, till the end of the run */
     double seconds;             /* of this run */
     size_t num_undrawn;
     ps_error undrawn; /* why the first picture that was not drawn was not */
