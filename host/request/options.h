@@ -60,6 +60,10 @@ typedef const char *ps_option_input(const char *words, const char *value);
 
 /* The value itself; that of --weights where it is a file; that of "NAME:file=PATH". */
 ps_option_input ps_input_all, ps_input_of_weights, ps_input_of_named;
+/* The path alone, in an empty text, which is to be freed in either case: that of a name ends where
+ * its next parameter begins. path: what find says. */
+pspec_status ps_input_keep(ps_text *out, ps_option_input *find, const char *path,
+                           ps_error *error) PS_MUST_CHECK;
 
 /* What kind of points an option is about. */
 typedef enum ps_option_source { PS_OF_BOTH, PS_OF_SAMPLERS, PS_OF_FILES } ps_option_source;

@@ -17,6 +17,11 @@ static const char *const *find_texts(size_t *num, const ps_request *request,
     return texts;
 }
 
+pspec_status ps_input_keep(ps_text *out, ps_option_input *find, const char *path, ps_error *error) {
+    ps_text_append_bytes(out, path, strcspn(path, find == ps_input_of_named ? "," : ""));
+    return ps_text_check(out, error);
+}
+
 static pspec_status visit_option(const ps_request *request, ps_option_id id,
                                  ps_request_visit_input *visit, void *payload, ps_error *error) {
     const ps_option *const option = &ps_options[id];
@@ -24,10 +29,17 @@ static pspec_status visit_option(const ps_request *request, ps_option_id id,
     const char *const *const texts = find_texts(&num, request, option);
     for (size_t i = 0; i < num; i++) {
         const char *const path = option->input(option->metavar, texts[i]);
-        if (path != NULL) {
-            const ps_request_file input = {ps_option_show(request, id), path};
-            PS_TRY(visit(payload, &input, error));
+        ps_text own = {0};
+        if (path == NULL) {
+            continue;
         }
+        pspec_status status = ps_input_keep(&own, option->input, path, error);
+        if (status == PSPEC_OK) {
+            const ps_request_file input = {ps_option_show(request, id), ps_text_string(&own)};
+            status = visit(payload, &input, error);
+        }
+        ps_text_free(&own);
+        PS_TRY(status);
     }
     return PSPEC_OK;
 }

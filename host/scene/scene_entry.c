@@ -22,12 +22,15 @@ static pspec_status complain_of_stream(const ps_scene_file *file, const ps_scene
     return ps_scene_complain(file, value->line, NULL, PS_SCENE_NO_STREAM);
 }
 
+ps_option_input *ps_scene_find_input(int option) {
+    return option >= 0 && option < PS_NUM_OPTIONS ? ps_options[option].input : NULL;
+}
+
 const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text) {
     if (option == PS_SCENE_FILES) {
         return text;
     }
-    ps_option_input *const find =
-        option >= 0 && option < PS_NUM_OPTIONS ? ps_options[option].input : NULL;
+    ps_option_input *const find = ps_scene_find_input(option);
     return find != NULL ? find(ps_command_words(kind, (ps_option_id)option), text) : NULL;
 }
 
@@ -42,17 +45,20 @@ static pspec_status move_path(const ps_scene_file *file, const char **text, size
 
 /* An integrand is taken without its file, as the scene's page has it then. */
 static pspec_status do_without(const ps_scene_file *file, ps_scene_value *value, size_t index,
-                               const char *path) {
-    static const char key[] = ":file="; /* or ",file=" behind other parameters */
+                               const char *path, const char *after) {
+    static const char key[] = "file=";
     const char *const text = value->originals[index];
     const size_t num_before = (size_t)(path - text);
     const size_t length = sizeof key - 1;
-    if (num_before < length || strncmp(path - length + 1, key + 1, length - 1) != 0) {
+    if (num_before <= length || strncmp(path - length, key, length) != 0) {
         (void)ps_scene_complain(file, value->line, NULL, "cannot read \"%s\": " PS_SCENE_NO_DATA,
                                 path);
         return file->error->status = PSPEC_ERROR_IO; /* the scene may be right */
     }
-    PS_TRY(move_path(file, &value->originals[index], num_before - length, "", ""));
+    /* the mark before the key goes where nothing is behind it, else that behind the path */
+    const bool is_last = *after == '\0';
+    PS_TRY(move_path(file, &value->originals[index], num_before - length - (is_last ? 1 : 0), "",
+                     is_last ? "" : after + 1));
     value->texts[index] = value->originals[index];
     value->label = value->originals[0];
     file->scene->missing = path;
@@ -60,31 +66,39 @@ static pspec_status do_without(const ps_scene_file *file, ps_scene_value *value,
 }
 
 /* "data:" stands for the folder of test data, which not every machine has. */
-static pspec_status resolve_data(const ps_scene_file *file, ps_scene_value *value, size_t index,
-                                 const char *path) {
-    const char *const text = value->texts[index];
+static pspec_status resolve_data(const ps_scene_file *file, ps_option_input *find,
+                                 ps_scene_value *value, size_t index, const char *path) {
     const char *const folder = getenv("POINTSPEC_TEST_DATA");
-    const size_t num_before = (size_t)(path - text);
-    ps_text start = {0};
-    ps_text_append(&start, "%s/", folder != NULL ? folder : "");
-    const pspec_status status = move_path(file, &value->texts[index], num_before,
-                                          ps_text_string(&start), path + strlen(PS_SCENE_DATA));
-    ps_text_free(&start);
-    PS_TRY(status);
-    return folder != NULL && access(value->texts[index] + num_before, R_OK) == 0
-               ? PSPEC_OK
-               : do_without(file, value, index, path);
+    const size_t num_before = (size_t)(path - value->texts[index]);
+    ps_text alone = {0};
+    ps_text joined = {0};
+    pspec_status status = ps_input_keep(&alone, find, path, file->error);
+    if (status == PSPEC_OK) {
+        const char *const after = path + alone.length;
+        ps_text_append_bytes(&joined, value->texts[index], num_before);
+        ps_text_append(&joined, "%s/%s", folder != NULL ? folder : "",
+                       ps_text_string(&alone) + strlen(PS_SCENE_DATA));
+        const bool is_there =
+            folder != NULL && access(ps_text_string(&joined) + num_before, R_OK) == 0;
+        ps_text_append(&joined, "%s", after);
+        status = is_there ? ps_text_keep(&value->texts[index], &file->scene->memory, &joined,
+                                         file->error)
+                          : do_without(file, value, index, path, after);
+    }
+    ps_text_free(&alone);
+    ps_text_free(&joined);
+    return status;
 }
 
 /* The path, a part of the text, becomes relative to what the scene's folder is relative to. */
-static pspec_status resolve(const ps_scene_file *file, ps_scene_value *value, size_t index,
-                            const char *path) {
+static pspec_status resolve(const ps_scene_file *file, ps_option_input *find, ps_scene_value *value,
+                            size_t index, const char *path) {
     const char **const text = &value->texts[index];
     if (strcmp(path, "-") == 0) {
         return complain_of_stream(file, value);
     }
     if (strncmp(path, PS_SCENE_DATA, strlen(PS_SCENE_DATA)) == 0) {
-        return resolve_data(file, value, index, path);
+        return resolve_data(file, find, value, index, path);
     }
     /* "-odd.txt" alone would be an option in the command line of the question */
     const bool is_odd = file->scene->folder[0] == '\0' && path == *text && path[0] == '-';
@@ -98,7 +112,7 @@ static pspec_status resolve_paths(const ps_scene_file *file, const ps_kind *kind
     for (size_t i = 0; i < value->num_texts; i++) {
         const char *const path = ps_scene_find_path(kind, option, value->texts[i]);
         if (path != NULL) {
-            PS_TRY(resolve(file, value, i, path));
+            PS_TRY(resolve(file, ps_scene_find_input(option), value, i, path));
         }
     }
     return PSPEC_OK;

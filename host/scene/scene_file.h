@@ -90,6 +90,8 @@ pspec_status ps_scene_take_sets(const ps_scene_file *file, const ps_scene_node *
 pspec_status ps_scene_join_sources(const ps_scene_file *file,
                                    ps_scene_result *result) PS_MUST_CHECK;
 
+/* What finds the files in values of an option; NULL: there are none, or they are the value. */
+ps_option_input *ps_scene_find_input(int option);
 /* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
  * names none. */
 const char *ps_scene_find_path(const ps_kind *kind, int option, const char *text);

@@ -62,13 +62,21 @@ static pspec_status check_path(const input *place, const char *path) {
 static pspec_status visit_value(const ps_scene *scene, const ps_scene_result *result,
                                 const ps_scene_entry *entry, const ps_scene_value *value,
                                 ps_scene_visit_input *visit, void *payload, ps_error *error) {
+    ps_option_input *const find = value->set == NULL ? ps_scene_find_input(entry->option) : NULL;
     for (size_t i = 0; i < value->num_texts; i++) {
         const char *const path =
             value->set != NULL ? value->texts[i]
                                : ps_scene_find_path(result->kind, entry->option, value->texts[i]);
-        if (path != NULL) {
-            PS_TRY(visit(payload, scene, entry, value, path, error));
+        ps_text own = {0};
+        if (path == NULL) {
+            continue;
         }
+        pspec_status status = ps_input_keep(&own, find, path, error);
+        if (status == PSPEC_OK) {
+            status = visit(payload, scene, entry, value, ps_text_string(&own), error);
+        }
+        ps_text_free(&own);
+        PS_TRY(status);
     }
     return PSPEC_OK;
 }

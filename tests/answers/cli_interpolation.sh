@@ -78,9 +78,11 @@ cat >scene.yaml <<'END'
 scene: 1
 results:
   - {result: interpolation, integrand: "map:file=sky.pfm", smoothness: [1.1, 1.5], samplers: [fibonacci, white-sphere], points: [8, 16], realizations: 3, pictures: true}
+  - {result: interpolation, name: red, integrand: "map:file=sky.pfm,channel=red", sampler: fibonacci, points: 16}
 END
 "$program" run scene.yaml -o folder --quiet >/dev/null || complain 'scene'
 [[ $(cat folder/*.csv | grep -c "^$(tail -1 both)\$") == 1 ]] || complain "scene: $(cat folder/*.csv)"
+[[ $(tail -1 folder/red.csv) == "$expected" ]] || complain "red: $(cat folder/red.csv)"
 [[ $(grep -c '<image' folder/interpolation-1-image.svg) == 9 && $(<folder/interpolation-1-rmse.svg) == *fibonacci*slope* ]] || complain "scene: $(ls folder)"
 
 # Pisa: the same numbers by NumPy
@@ -99,6 +101,7 @@ refuses 'makes points of the torus' "${sky[@]}" --sampler white
 refuses 'makes points of the hemisphere' "${sky[@]}" --sampler fibonacci-hemisphere
 refuses 'smoothness 2 is not between 1 and 2' "${sky[@]}" --sampler fibonacci --smoothness 1.5,2
 refuses '9 numbers are more than 8' "${sky[@]}" --sampler fibonacci --smoothness 1.1,1.1,1.1,1.1,1.1,1.1,1.1,1.1,1.1
+refuses 'are the same file' --integrand map:file=sky.pfm,channel=red --sampler fibonacci --format csv -o sky.pfm
 refuses 'nothing to interpolate at' "${sky[@]}"
 refuses 'points 1 and 3 are equal' "${sky[@]}" equal.txt
 runs 1 "${sky[@]}" --sampler fibonacci -n 100000 --memory 1M
