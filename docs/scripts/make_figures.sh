@@ -161,6 +161,9 @@ routes=$docs/../bench-output/pairs_routes.txt
 
 # Figures 1 to 5 of Marques et al., for docs/user/reproduction.md.
 "$docs/scripts/reproduction.sh" "$pointspec" figures "$images"
+echo "figures: m18_figure6.png" >&2
+"$pointspec" interpolation --integrand map:width=512 --sampler white-sphere -n 2500 --smoothness 1.1,1.5,1.9 \
+    --quiet -o interpolation.csv --plot "$images/m18_figure6.png"
 
 # Time against error, pointspec and the libraries of others, from the last ./dev bench peers.
 for name in peers peers_sphere peers_pairs; do

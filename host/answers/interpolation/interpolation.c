@@ -4,11 +4,9 @@
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "math/sobolev.h"
-#include "request/file_list.h"
 #include "request/point_source.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 _Static_assert((int)PS_MAX_INTEGRANDS <= (int)PS_SOBOLEV_MOST_SUMS, "all functions are one call");
 

@@ -2,7 +2,6 @@
 #include "answers/interpolation/interpolation.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct gallery {
     ps_pool *memory;
