@@ -19,6 +19,11 @@ awk -F, 'NR > 1 && !($3 > 0 && $4 > 0 && $5 > .4 && $5 < .8) { exit 1 }' both ||
     complain "header: $(<out)"
 runs 0 "${asked[@]}" --sampler fibonacci-hemisphere -n 16 -m 3
 [[ $(tail -1 out) == $(tail -1 both | cut -d, -f3-) ]] || complain "alone: $(tail -1 out)"
+POCL_MAX_PTHREAD_COUNT=1 runs 0 "${asked[@]}" --sampler fibonacci-hemisphere -n 16 -m 3
+[[ $(tail -1 out) == $(tail -1 both | cut -d, -f3-) ]] || complain "one thread: $(tail -1 out)"
+mkdir empty
+OCL_ICD_VENDORS=$PWD/empty runs 0 "${asked[@]}" --sampler fibonacci-hemisphere -n 16 -m 3
+[[ $(tail -1 out) == $(tail -1 both | cut -d, -f3-) && $(key device) == none ]] || complain "without a device: $(tail -1 out)"
 
 # above a plane everything is seen: by every ray of a hemisphere, which files have by --lift or --hemisphere, too
 for points in '0 0 1' '.6 0 -.8' '0 0 -1'; do echo "$points"; done >points.txt
