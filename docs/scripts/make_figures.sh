@@ -34,6 +34,12 @@ echo "figures: p15_figure6_torus.png p15_figure6_sphere.png" >&2
     --integrand harmonic:degree=4 --integrand cap -n 12,48,192,768 -m 200 \
     --quiet -o variance.csv --plot "$images/p15_figure6_sphere.png"
 
+# That of the scene p15_figure6f.yaml.
+echo "figures: p15_figure6f.png" >&2
+"$pointspec" occlusion --mesh "$docs/scenes/box.obj" --camera 2.75,2.75,-8,2.75,2.75,0,40 --image 64x64 --sampler white-sphere \
+    --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere --sampler healpix -n 48,192,768,3072 -m 8 \
+    --quiet -o occlusion.csv --plot "$images/p15_figure6f.png"
+
 # Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"
 

@@ -139,7 +139,7 @@ static ps_camera choose_camera(const ps_request *request, const ps_mesh *mesh) {
 
 /* Of a triangle that is tried by a ray, on one core (AVX-512, PoCL 3.1: bench_occlusion), and of a
  * primary ray. */
-static const double try_seconds = 4e-10;
+static const double try_seconds = 1.7e-10;
 static const double primary_seconds = 1e-8;
 
 static pspec_status add_plan(ps_planner *planner, const ps_occlusion *self,
