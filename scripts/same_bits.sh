@@ -44,8 +44,8 @@ run_all() { # WHICH: every line in a folder of its own
         (cd "$out/folder" && env "${words[@]}" <"$stdin" >"$out/stdout" 2>"$scratch/messages") ||
             echo "exit $?: $(<"$scratch/messages")" >"$out/failure"
     done < <(cat "$here/commands.txt"; grep -v '^#' scripts/same_bits.txt | sed 's/^\([a-z]*\) /\1 - \1 /'
-        for scene in docs/scenes/*.yaml; do
-            echo "scene-$(basename "$scene" .yaml) - run --cache 0 --quiet $PWD/$scene -o new.folder"
+        for scene in docs/scenes/{*,*/*}.yaml; do
+            [[ ! -f $scene ]] || echo "scene-$(basename "$scene" .yaml) - run --cache 0 --quiet $PWD/$scene -o new.folder"
         done)
     echo "same_bits: $number command lines of $1"
 }

@@ -1,7 +1,7 @@
 /* Rays of ambient occlusion a second (host/jobs/occlusion) beside a plain C loop of one thread
  * (plain.c): a picture of 64 x 64 pixels, sets of 192, 1024 and 4096 points of the sphere.
  *
- *     bench_occlusion [MESH]                        default docs/scenes/box.obj, 16 quadrilaterals
+ *     bench_occlusion [MESH]                        default docs/scenes/p15/box.obj, 16 quadrilaterals
  *
  * Both take turns. Million rays for each second that a processor works for them, so that other
  * programs matter less: medians of the repeats, and of the ratios of neighbours. `clock` is the
@@ -130,7 +130,7 @@ static void run_case(given *self, size_t num) {
 int main(int argc, char **argv) {
     static const size_t nums[] = {192, 1024, BENCH_PLAIN_MOST_RAYS};
     given self = {.device = NULL};
-    make_given(&self, argc > 1 ? argv[1] : "docs/scenes/box.obj");
+    make_given(&self, argc > 1 ? argv[1] : "docs/scenes/p15/box.obj");
     printf("# %zu triangles, %zu pixels; million rays, differences per million rays\n",
            self.view.num_triangles, self.view.num_pixels);
     printf("%6s %8s %9s %7s %7s %7s\n", "points", "plain", "pointspec", "ratio", "clock", "differ");

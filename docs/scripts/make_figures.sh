@@ -25,20 +25,20 @@ echo "figures: variance.png" >&2
 "$pointspec" variance --sampler jittered --sampler poisson-disk --sampler white --integrand disk:radius=0.25 \
     -n 16..4096 -m 200 --quiet -o variance.csv --plot "$images/variance.png"
 
-# Those of the scene p15_figure6.yaml: three minutes, unless sets of FPO and ccvt-sphere are kept.
-echo "figures: p15_figure6_torus.png p15_figure6_sphere.png" >&2
+# Those of the scene p15/figure6.yaml: three minutes, unless sets of FPO and ccvt-sphere are kept.
+echo "figures: p15/figure6_torus.png p15/figure6_sphere.png" >&2
 "$pointspec" variance --sampler white --sampler jittered --sampler poisson-disk --sampler fpo --sampler bnot \
     --integrand gaussian:sigma=0.0625 --integrand disk:radius=0.25 --integrand map:width=2000 -n 16,64,256,1024,4096 -m 40 --shifts 10 \
-    --quiet -o variance.csv --plot "$images/p15_figure6_torus.png"
+    --quiet -o variance.csv --plot "$images/p15/figure6_torus.png"
 "$pointspec" variance --sampler white-sphere --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere \
     --integrand harmonic:degree=4 --integrand cap -n 12,48,192,768 -m 200 \
-    --quiet -o variance.csv --plot "$images/p15_figure6_sphere.png"
+    --quiet -o variance.csv --plot "$images/p15/figure6_sphere.png"
 
-# That of the scene p15_figure6f.yaml.
-echo "figures: p15_figure6f.png" >&2
-"$pointspec" occlusion --mesh "$docs/scenes/box.obj" --camera 2.75,2.75,-8,2.75,2.75,0,40 --image 64x64 --sampler white-sphere \
+# That of the scene p15/figure6f.yaml.
+echo "figures: p15/figure6f.png" >&2
+"$pointspec" occlusion --mesh "$docs/scenes/p15/box.obj" --camera 2.75,2.75,-8,2.75,2.75,0,40 --image 64x64 --sampler white-sphere \
     --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere --sampler healpix -n 48,192,768,3072 -m 8 \
-    --quiet -o occlusion.csv --plot "$images/p15_figure6f.png"
+    --quiet -o occlusion.csv --plot "$images/p15/figure6f.png"
 
 # Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"
@@ -167,9 +167,9 @@ routes=$docs/../bench-output/pairs_routes.txt
 
 # Figures 1 to 5 of Marques et al., for docs/user/reproduction.md.
 "$docs/scripts/reproduction.sh" "$pointspec" figures "$images"
-echo "figures: m18_figure6.png" >&2
+echo "figures: m18/figure6.png" >&2
 "$pointspec" interpolation --integrand map:width=512 --sampler white-sphere -n 2500 --smoothness 1.1,1.5,1.9 \
-    --quiet -o interpolation.csv --plot "$images/m18_figure6.png"
+    --quiet -o interpolation.csv --plot "$images/m18/figure6.png"
 
 # Time against error, pointspec and the libraries of others, from the last ./dev bench peers.
 for name in peers peers_sphere peers_pairs; do

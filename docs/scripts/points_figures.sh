@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15_figure*.png, pictures of points for
+# points_figures.sh POINTSPEC FOLDER: writes FOLDER/points/*.png, spectra/*.png and p15/figure*.png, pictures of points for
 # docs/user/samplers.md, of points and spectra for docs/samplers, and of both papers for docs/user/reproduction.md. Four minutes
 # on two cores; needs gnuplot and rsvg-convert.
 set -euo pipefail
 pointspec=$(realpath "$1") folder=$2
-mkdir -p "$folder"/{points,spectra}
+mkdir -p "$folder"/{points,spectra,p15,m18}
 
 points() { # NAME N SAMPLER...
     local name=$1 num=$2 sampler
@@ -28,14 +28,15 @@ trap 'rm -rf "$scratch"' EXIT
 scenes=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../scenes")
 scene() { # NAME: the pictures of a scene in a folder of its name
     echo "figures: $1.png" >&2
-    (cd "$scratch" && "$pointspec" run "$scenes/$1.yaml" >/dev/null)
+    mkdir -p "$scratch/${1%/*}"
+    "$pointspec" run "$scenes/$1.yaml" -o "$scratch/$1" >/dev/null
 }
-scene p15_figure1
-rsvg-convert -w 1080 "$scratch/p15_figure1/coefficients-scatter-1.svg" -o "$folder/p15_figure1.png"
-scene p15_figure2
+scene p15/figure1
+rsvg-convert -w 1080 "$scratch/p15/figure1/coefficients-scatter-1.svg" -o "$folder/p15/figure1.png"
+scene p15/figure2
 gnuplot <<GNUPLOT
 set terminal pngcairo size 1260,440 font "DejaVu Sans,10"
-set output "$folder/p15_figure2.png"
+set output "$folder/p15/figure2.png"
 set multiplot layout 1,3
 set grid linecolor "#dddddd"
 set key left top
@@ -55,7 +56,7 @@ set xlabel "points N"
 set ylabel "variance by the profile"
 set xrange [50:20000]
 set key right top
-bound(name, integrand) = sprintf("<grep '^%s' $scratch/p15_figure2/%s.csv", integrand, name)
+bound(name, integrand) = sprintf("<grep '^%s' $scratch/p15/figure2/%s.csv", integrand, name)
 do for [panel in "gaussian disk"] {
     set title panel eq "gaussian" ? "best case: Gaussian, sigma 1/16" : "worst case: disk, radius 1/4"
     set yrange [panel eq "gaussian" ? 1e-12 : 1e-8 : *]
@@ -66,12 +67,12 @@ do for [panel in "gaussian disk"] {
          bound("step", panel) using 2:11 with linespoints pointtype 7 linecolor "#cc79a7" title "step"
 }
 GNUPLOT
-scene m18_figure7 # with the map of POINTSPEC_TEST_DATA
-rsvg-convert -w 900 "$scratch/m18_figure7/diffuse-rmse-1.svg" -o "$folder/m18_figure7.png"
-rsvg-convert -w 900 "$scratch/m18_figure7/truncation-rmse.svg" -o "$folder/m18_figure8.png"
-echo "figures: p15_figure3.png" >&2
+scene m18/figure7 # with the map of POINTSPEC_TEST_DATA
+rsvg-convert -w 900 "$scratch/m18/figure7/diffuse-rmse-1.svg" -o "$folder/m18/figure7.png"
+rsvg-convert -w 900 "$scratch/m18/figure7/truncation-rmse.svg" -o "$folder/m18/figure8.png"
+echo "figures: p15/figure3.png" >&2
 "$pointspec" sample --sampler healpix --sampler healpix-jittered --sampler ccvt-sphere --sampler poisson-disk-sphere --sampler white-sphere \
-    -n 768 --plot "$folder/p15_figure3.png"
+    -n 768 --plot "$folder/p15/figure3.png"
 spectrum() { # NAME COMMAND SAMPLER...
     local name=$1 what=$2 sampler
     local samplers=()
@@ -82,8 +83,8 @@ spectrum() { # NAME COMMAND SAMPLER...
     [[ $what == power ]] || size=(-n 3072 -l 222)
     "$pointspec" "$what" "${samplers[@]}" "${size[@]}" -m 200 --quiet -o "$scratch/rows.csv" --plot "$folder/$name.png"
 }
-spectrum p15_figure4 power jittered poisson-disk fpo bnot step
-spectrum p15_figure5 angular white-sphere healpix-jittered poisson-disk-sphere ccvt-sphere
+spectrum p15/figure4 power jittered poisson-disk fpo bnot step
+spectrum p15/figure5 angular white-sphere healpix-jittered poisson-disk-sphere ccvt-sphere
 spectrum spectra/poisson_disk power poisson-disk
 spectrum spectra/bridson power bridson
 spectrum spectra/bnot power bnot

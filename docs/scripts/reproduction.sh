@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # reproduction.sh PROGRAM table: what Marques et al. (M18) print beside what PROGRAM, a pointspec, computes.
-# reproduction.sh PROGRAM figures FOLDER: their Figures 1 to 5 as FOLDER/m18_figure*.png.
+# reproduction.sh PROGRAM figures FOLDER: their Figures 1 to 5 as FOLDER/m18/figure*.png.
 # update_tables.sh and make_figures.sh call it. About a minute on one core.
 set -euo pipefail
 (($# == 2 && ${#2} == 5 || $# == 3)) || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
@@ -10,6 +10,7 @@ folder=$(realpath "${3:-.}")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
+[[ $what != figures ]] || mkdir -p "$folder/m18"
 
 brdfs=(diffuse glossy:n=30)
 lobes=(diffuse 'glossy, n = 30')
@@ -161,11 +162,11 @@ set title '${lobes[k]}, optimal weights'
 $(degree_curves "${brdfs[k]%:*}" optimal 5)
 "
     done
-    draw m18_figure1 700 "set multiplot layout 2,3 title 'spectra of rules, N = 256'
+    draw m18/figure1 700 "set multiplot layout 2,3 title 'spectra of rules, N = 256'
 set xlabel 'degree l'
 set key right bottom font ',8'
 $row"
-    draw m18_figure2 420 "set multiplot layout 1,2 title 'low degrees, N = 256, diffuse'
+    draw m18/figure2 420 "set multiplot layout 1,2 title 'low degrees, N = 256, diffuse'
 set xlabel 'degree l'
 set xrange [0:10]
 set xtics 1
@@ -176,7 +177,7 @@ set title 'equal weights'
 $(degree_curves diffuse equal 5 linespoints)
 set title 'optimal weights'
 $(degree_curves diffuse optimal 5 linespoints)"
-    draw m18_figure3 700 "set multiplot layout 2,2 title 'share of a degree in E^2, N = 256, s = 1.5'
+    draw m18/figure3 700 "set multiplot layout 2,2 title 'share of a degree in E^2, N = 256, s = 1.5'
 set xlabel 'degree l'
 set ylabel 'e_l^2 = a_l (d_l^2 + C_l^2)'
 set yrange [1e-9:1e-2]
@@ -196,7 +197,7 @@ title \"${titles[i]}: $(tr , ' ' <"error-${brdf%:*}-$weights-$i.csv" | slope | a
             plots=${plots%,}$'\n'
         done
     done
-    draw m18_figure4 800 "set multiplot layout 2,2
+    draw m18/figure4 800 "set multiplot layout 2,2
 set logscale x 2
 set xrange [56:585]
 set xtics (64, 128, 256, 512)
@@ -209,7 +210,7 @@ draw_truncation() {
     "$program" truncation --brdf diffuse -l 20 | grep '^[0-9]' >truncation-diffuse.csv
     "$program" truncation --brdf glossy:n=30 -l 20 | grep '^[0-9]' >truncation-glossy.csv
     "$program" truncation --brdf glossy:n=30 --harmonics hemispherical -l 20 | grep '^[0-9]' >truncation-hsh.csv
-    draw m18_figure5 420 "set multiplot layout 1,2
+    draw m18/figure5 420 "set multiplot layout 1,2
 set xlabel 'degree L'
 set key right top
 set ylabel 'E(L)'

@@ -58,7 +58,7 @@ table_pairs_routes() {
 # CPU time, and the clock beside it.
 table_bench_integrands() { bench integrands; }
 table_bench_occlusion() {
-    need bench/bench_occlusion && "$build/bench/bench_occlusion" "$docs/scenes/box.obj"
+    need bench/bench_occlusion && "$build/bench/bench_occlusion" "$docs/scenes/p15/box.obj"
 }
 # Some N of each sampler, and the seconds of all.
 some_of_bench_variance() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # variance_tables.sh PROGRAM laws|scores|crossovers: the tables of docs/user/variance.md. laws: variances predicted and measured beside
 # their laws for large N (twenty seconds of two cores). scores: z-scores of many cases, each of which has a seed of its own (some
-# minutes). crossovers: of the scene p15_figure6.yaml (two minutes, for nothing is kept).
+# minutes). crossovers: of the scene p15/figure6.yaml (two minutes, for nothing is kept).
 set -euo pipefail
 (($# == 2)) || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1")
@@ -118,7 +118,7 @@ scores() {
 # ---- crossovers ----
 
 crossovers() {
-    "$program" run --quiet "$folder/../scenes/p15_figure6.yaml" -o "$scratch/figure6" >/dev/null
+    "$program" run --quiet "$folder/../scenes/p15/figure6.yaml" -o "$scratch/figure6" >/dev/null
     "$folder/crossovers.sh" "$scratch/figure6/torus.csv"
     "$folder/crossovers.sh" "$scratch/figure6/sphere.csv" | tail -n +2
 }

@@ -30,8 +30,8 @@ typedef struct ps_torus_map_limits {
 /* 512 MB: 16000 x 16000 floats would take more than a gigabyte. */
 #define PS_TORUS_MAP_MOST_FLOATS ((size_t)1 << 27)
 
-/* Reads the image as ps_channel_read, or makes one of images/discs.h where the path is NULL, with a row beside what is kept; ps_torus_map_free frees it,
- * also after a failure. */
+/* Reads the image as ps_channel_read, or makes one of images/discs.h where the path is NULL, with
+ * a row beside what is kept; ps_torus_map_free frees it, also after a failure. */
 pspec_status ps_torus_map_read(ps_torus_map *out, const ps_channel_source *source,
                                const ps_torus_map_limits *limits, ps_error *error) PS_MUST_CHECK;
 void ps_torus_map_free(ps_torus_map *map);

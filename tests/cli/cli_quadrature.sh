@@ -267,7 +267,7 @@ grep -q '^# weights: optimal, by conjugate gradients.*2.23e+06 bytes, and --memo
 head -3 weights.txt >few.txt
 refuses 'holds 3 weights, but a set has 256 points' --brdf diffuse --weights few.txt morphed.txt
 # Figure 2 of M18 is C_l^2 of the diffuse lobe for l <= 10; the shipped scene draws it, and no glossy result says it is that.
-scene=$source_dir/docs/scenes/m18_figures.yaml
+scene=$source_dir/docs/scenes/m18/figures.yaml
 awk '/^  - result:/ { block = ""; inside = 1 }
     !inside { print; next }
     { block = block $0 "\n" }

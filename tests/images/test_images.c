@@ -298,30 +298,6 @@ static void light_is_neither_negative_nor_nan(void **state) {
     ps_sphere_map_free(&map);
 }
 
-/* Light made up is a function of the direction: sizes agree, and the brightest pixel is the sun. */
-static void made_up_light(void **state) {
-    double integrals[2];
-    (void)state;
-    for (size_t i = 0; i < 2; i++) {
-        ps_sphere_map map;
-        ps_map_moments moments;
-        size_t brightest = 0;
-        const ps_channel_source source = {.width = (size_t)256 << i};
-        assert_ok(ps_sphere_map_read(&map, &source, error));
-        assert_ok(ps_sphere_map_moments(&moments, &map, false, error));
-        integrals[i] = moments.integral;
-        for (size_t k = 0; k < map.width * map.height; k++) {
-            assert_true(map.rows[map.width + k] > 0);
-            brightest = map.rows[map.width + k] > map.rows[map.width + brightest] ? k : brightest;
-        }
-        const double height = PS_PI * (0.5 - (double)(brightest / map.width) / (double)map.height);
-        const double azimuth = PS_TWO_PI * (double)(brightest % map.width) / (double)map.width;
-        assert_true(fabs(height - 0.9) < 0.03 && fabs(azimuth - 1) < 0.03);
-        ps_sphere_map_free(&map);
-    }
-    assert_true(fabs(integrals[1] / integrals[0] - 1) < 0.01);
-}
-
 static pspec_status begin_any(void *payload, const ps_image *size, ps_error *error) {
     (void)error;
     *(ps_image *)payload = *size;
@@ -402,7 +378,6 @@ int main(void) {
         cmocka_unit_test(every_prefix_is_refused),
         cmocka_unit_test(nonsense_is_one_sentence),
         cmocka_unit_test(light_is_neither_negative_nor_nan),
-        cmocka_unit_test(made_up_light),
         cmocka_unit_test(pipes_promise_in_vain),
         cmocka_unit_test(known_maps),
     };

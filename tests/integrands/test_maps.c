@@ -180,6 +180,24 @@ static void closed_forms(void **state) {
     ps_integrand_destroy(self);
 }
 
+/* Light made up is a function of the direction: sizes agree, and nothing is as bright as the sun. */
+static void made_up_light(void **state) {
+    static const double sun[] = {0.33585924, 0.52306741, 0.78332691}; /* 0.9 above, azimuth 1 */
+    ps_integrand *const few = test_integrand("map:width=256", TEST_SPHERE);
+    ps_integrand *const many = test_integrand("map:width=512", TEST_SPHERE);
+    double bright = 0;
+    (void)state;
+    ps_integrand_values(many, sun, 1, &bright);
+    for (size_t i = 0; i < many->num_table; i++) {
+        assert_true(many->table[i] > 0 && many->table[i] < 1.01 * bright);
+    }
+    assert_true(bright > 5);
+    test_near("made up", "the integral", ps_integrand_integral(few), ps_integrand_integral(many),
+              0.01 * ps_integrand_integral(many));
+    ps_integrand_destroy(few);
+    ps_integrand_destroy(many);
+}
+
 /* ---- words --------------------------------------------------------------------------------- */
 
 static void refuse(const char *text, const char *piece) {
@@ -217,11 +235,9 @@ static void words(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_values),
-        cmocka_unit_test(all_degrees_are_the_energy),
-        cmocka_unit_test(turns_change_nothing),
-        cmocka_unit_test(closed_forms),
-        cmocka_unit_test(words),
+        cmocka_unit_test(sums_of_values),       cmocka_unit_test(all_degrees_are_the_energy),
+        cmocka_unit_test(turns_change_nothing), cmocka_unit_test(closed_forms),
+        cmocka_unit_test(made_up_light),        cmocka_unit_test(words),
     };
     return cmocka_run_group_tests_name("maps", tests, test_enter_lobes, test_leave_lobes);
 }

@@ -253,8 +253,8 @@ static void points_of_equal_error(void **state) {
     ps_device_close(device);
 }
 
-/* (u.e)^2 by the cosine about r: 1/3 + (2/3)(1/4) P_2(r.e), the diffuse lobe having 1/4 of degree 2;
- * of the plane, no light. */
+/* (u.e)^2 by the cosine about r: 1/3 + (2/3)(1/4) P_2(r.e), the diffuse lobe having 1/4 of degree
+ * 2; of the plane, no light. */
 static void light_about_an_axis(void **state) {
     static const double r[][3] = {{0, 0, 1}, {0.6, -0.8, 0}, {2. / 3, 1. / 3, -2. / 3}};
     ps_brdf *brdf = NULL;

@@ -121,7 +121,7 @@ if ((${#pages[@]} == 0)); then
     pages=(README.md)
     check_lists
     # The scenes that pages run are shorter than some of those that lie there.
-    for scene in "$source_dir"/docs/scenes/*.yaml; do
+    for scene in "$source_dir"/docs/scenes/{*,*/*}.yaml; do
         "$program" plan run "$scene" >"$scratch/plan" 2>&1 || { echo "$scene: $(<"$scratch/plan")" >&2; bad=1; }
     done
     for page in "$source_dir"/*.md "$source_dir"/docs/*/*.md; do

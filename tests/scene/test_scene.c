@@ -277,8 +277,8 @@ static void bytes_that_are_no_text(void **state) {
 /* Those that are shipped ask what can be asked. */
 static void shipped_scenes(void **state) {
     static const char *const names[] = {"gate",           "diffuse",     "glossy",
-                                        "radial_mean",    "m18_figures", "sphere_samplers",
-                                        "torus_samplers", "m18_table2"};
+                                        "radial_mean",    "m18/figures", "sphere_samplers",
+                                        "torus_samplers", "m18/table2"};
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[SENTENCE_BYTES];
