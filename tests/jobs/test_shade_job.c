@@ -6,6 +6,7 @@
 #include "jobs/shade/shade_job.h"
 #include "math/gauss_legendre.h"
 #include "math/pi.h"
+#include "math/sobolev.h"
 #include "test_folder.h"
 
 #include <math.h>
@@ -127,17 +128,22 @@ static void ask(asked *out, const char *lobe, const char *integrand, const char 
         .limits.constraints = {.engine = "host_direct", .precision = -1}};
 }
 
-/* What is left of it is numbers. squared: (d_1^2 + C_1^2), or NULL. */
-static ps_shade_job answer(asked *self, double *squared) {
+/* Of the rule; degree 1 has d_1^2 + C_1^2. */
+typedef struct rule_squares {
+    double degree_1, worst_case;
+} rule_squares;
+
+/* What is left of it is numbers. rule: NULL, or what is found. */
+static ps_shade_job answer(asked *self, rule_squares *rule) {
     ps_shade_job out;
     ps_quadrature_job *job = NULL;
     assert_ok(ps_shade_job_make(&out, &self->light, self->num_orientations, SEED, &self->question,
                                 error));
     assert_ok(ps_quadrature_job_create(&job, &self->question, error));
     assert_ok(ps_quadrature_job_run(job, error));
-    if (squared != NULL) {
+    if (rule != NULL) {
         const ps_quadrature_degree *const degree = &job->result.degrees[1];
-        *squared = degree->d2.mean + degree->c2.mean;
+        *rule = (rule_squares){degree->d2.mean + degree->c2.mean, job->result.squared.mean};
     }
     ps_quadrature_job_destroy(job);
     ps_shade_job_free(&out);
@@ -161,9 +167,9 @@ static void closed_forms(void **state) {
     forget(&job);
     ask(&job, "diffuse", "coefficients:file=linear.txt", "white-hemisphere", 2, 1);
     job.num_orientations = 20000;
-    double squared = 0;
-    found = answer(&job, &squared);
-    const double expected = squared / 3;
+    rule_squares rule;
+    found = answer(&job, &rule);
+    const double expected = rule.degree_1 / 3;
     assert_true(fabs(found.predicted.mean / expected - 1) < 1e-12);
     assert_true(found.beyond < 1e-14);
     assert_true(fabs(found.measured.mean - expected) < 4 * found.measured.standard_error);
@@ -196,6 +202,41 @@ static void predictions_hold(void **state) {
         const double error = hypot(found.measured.standard_error, found.predicted.standard_error);
         assert_true(fabs(found.measured.mean - found.predicted.mean) < 3.5 * error);
         assert_true(error < 0.35 * found.predicted.mean);
+        forget(&job);
+    }
+}
+
+/* Norm in the Sobolev space of s = 1.5, squared: sum_lm |F_lm|^2/a_l. */
+static double squared_norm(const ps_integrand *light) {
+    enum { LAST = 400 };
+    double powers[LAST + 1];
+    double a[LAST + 1];
+    double sum = 0;
+    assert_ok(ps_integrand_degrees(light, LAST, powers, error));
+    ps_sobolev_eigenvalues(1.5, LAST, a);
+    for (size_t l = 0; l <= LAST; l++) {
+        sum += powers[l] / a[l];
+    }
+    return sum;
+}
+
+/* Light of norm 1 has no larger error than the worst case, whatever rule, lobe and weights; smooth
+ * light has a much smaller one. */
+static void worst_case_holds(void **state) {
+    static const char *const lights[] = {"coefficients:file=light.txt", "lobe:n=40,axis=1x-2x2",
+                                         "square:axis=1x1x1", "harmonic:degree=9"};
+    static const char *const samplers[] = {"fibonacci-hemisphere", "white-hemisphere"};
+    (void)state;
+    for (size_t i = 0; i < 4 * sizeof lights / sizeof lights[0]; i++) {
+        asked job;
+        rule_squares rule;
+        ask(&job, i % 2 == 0 ? "diffuse" : "glossy:n=10", lights[i / 4], samplers[i / 2 % 2], 24,
+            1);
+        job.question.weights.kind = i % 2 == 0 ? PS_WEIGHTS_EQUAL : PS_WEIGHTS_OPTIMAL;
+        const ps_shade_job found = answer(&job, &rule);
+        const double most = rule.worst_case * squared_norm(job.light.integrand);
+        assert_true(found.measured.mean > 1e-8 * most && found.measured.mean < most);
+        assert_true(found.predicted.mean < most);
         forget(&job);
     }
 }
@@ -278,6 +319,7 @@ int main(void) {
         cmocka_unit_test(exact_integrals),     cmocka_unit_test(closed_forms),
         cmocka_unit_test(predictions_hold),    cmocka_unit_test(batches),
         cmocka_unit_test(light_about_an_axis), cmocka_unit_test(points_of_equal_error),
+        cmocka_unit_test(worst_case_holds),
     };
     return cmocka_run_group_tests_name("shade_job", tests, make_files, remove_files);
 }
