@@ -240,7 +240,3 @@ bool ps_integrand_image_size(const ps_integrand *integrand, size_t *width, size_
 const char *ps_integrand_note(const ps_integrand *integrand) {
     return integrand->kind->note != NULL ? integrand->kind->note(integrand) : NULL;
 }
-
-const char *ps_integrand_file(const ps_integrand *integrand) {
-    return integrand->kind->file != NULL ? integrand->kind->file(integrand) : NULL;
-}

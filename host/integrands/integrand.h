@@ -95,7 +95,6 @@ typedef struct ps_integrand_kind {
     /* The pixels of the image of the sphere that it is; NULL: it is none. */
     void (*image_size)(const ps_integrand *, size_t *width, size_t *height);
     const char *(*note)(const ps_integrand *); /* what a result should say of it; may be NULL */
-    const char *(*file)(const ps_integrand *); /* that was read; NULL: kinds without files */
 } ps_integrand_kind;
 
 #define PS_INTEGRAND_ON(where) (1U << (where))
@@ -234,6 +233,5 @@ double ps_integrand_steps(const ps_integrand *integrand);
 /* Is it an image of the sphere? Then of so many pixels. */
 bool ps_integrand_image_size(const ps_integrand *integrand, size_t *width, size_t *height);
 const char *ps_integrand_note(const ps_integrand *integrand); /* or NULL */
-const char *ps_integrand_file(const ps_integrand *integrand); /* or NULL */
 
 #endif

@@ -1,4 +1,5 @@
 /* Estimates of integrals over the sphere and the hemisphere: rotations, by hand. */
+#include "file_kinds.h"
 #include "harness.h"
 
 #include "math/pi.h"
@@ -132,7 +133,7 @@ static void kernels_of_rows_have_their_values(void **state) {
     (void)state;
     for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
         const ps_integrand_kind *const kind = ps_integrand_kinds[i];
-        if (kind->file == NULL && (kind->domains & PS_INTEGRAND_ON(PS_SAMPLES_SPHERE)) != 0 &&
+        if (!is_of_file(kind) && (kind->domains & PS_INTEGRAND_ON(PS_SAMPLES_SPHERE)) != 0 &&
             ps_device_get_limits(device)->has_fp64) {
             char text[64];
             const bool needs_exponent =

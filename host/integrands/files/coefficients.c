@@ -141,10 +141,6 @@ static double steps(const ps_integrand *self) {
                              : ps_sphere_series_steps(own_of(self)->sphere);
 }
 
-static const char *file(const ps_integrand *self) {
-    return own_of(self)->path;
-}
-
 const ps_integrand_kind ps_integrand_coefficients = {
     .name = "coefficients",
     .summary =
@@ -165,5 +161,4 @@ const ps_integrand_kind ps_integrand_coefficients = {
     .correlation = correlation,
     .reach = reach,
     .steps = steps,
-    .file = file,
 };

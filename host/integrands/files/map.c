@@ -216,10 +216,6 @@ static const char *note(const ps_integrand *self) {
     return own_of(self)->note[0] != '\0' ? own_of(self)->note : NULL;
 }
 
-static const char *file(const ps_integrand *self) {
-    return own_of(self)->path;
-}
-
 const ps_integrand_kind ps_integrand_map = {
     .name = "map",
     .kernel = "map",
@@ -241,5 +237,4 @@ const ps_integrand_kind ps_integrand_map = {
     .values = values,
     .image_size = image_size,
     .note = note,
-    .file = file,
 };

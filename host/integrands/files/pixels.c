@@ -224,10 +224,6 @@ static void give_factors(const ps_integrand *self, const int32_t *vectors, size_
     }
 }
 
-static const char *file(const ps_integrand *self) {
-    return own_of(self)->path;
-}
-
 const ps_integrand_kind ps_integrand_pixels = {
     .name = "pixels",
     .kernel = "pixels",
@@ -244,5 +240,4 @@ const ps_integrand_kind ps_integrand_pixels = {
     .factors = give_factors,
     .values = values,
     .correlation = correlation,
-    .file = file,
 };

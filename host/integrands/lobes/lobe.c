@@ -27,7 +27,6 @@ void ps_brdf_destroy(ps_brdf *brdf) {
     if (brdf != NULL) {
         free(brdf->nodes);
         free(brdf->values);
-        free(brdf->path);
         free(brdf->densities);
         free(brdf);
     }

@@ -37,7 +37,6 @@ struct ps_brdf {
     const ps_integrand_kind *kind;
     double exponent;      /* n of glossy and Phong lobes */
     bool is_whole_sphere; /* glossy: not cut at the horizon */
-    char *path;           /* of a table */
     size_t num_nodes;     /* of a table: p is linear in z between them, 0 outside */
     double *nodes, *values;
     double *densities; /* heights and phat there, as kernels/integrands/zonal.h takes them */

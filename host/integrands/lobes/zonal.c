@@ -201,8 +201,6 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "BRDF zonal: of=%s is not one of cosine, degrees, radians", unit);
     }
-    PS_TRY(PS_NEW(&brdf->path, strlen(path) + 1, "a path", error));
-    memcpy(brdf->path, path, strlen(path));
     PS_TRY(ps_read_rows(path, LINE, &rows, &num, error));
     const pspec_status status = fill_nodes(brdf, path, unit, rows, num, error);
     free(rows);
@@ -228,10 +226,6 @@ static void values(const ps_integrand *self, const double *points, size_t num, d
     }
 }
 
-static const char *file(const ps_integrand *self) {
-    return ((const ps_brdf *)self->own)->path;
-}
-
 static const ps_lobe lobe = {
     .create = create,
     .norm = norm,
@@ -253,5 +247,4 @@ const ps_integrand_kind ps_integrand_zonal = {
     .lobe = &lobe,
     .kernel = "zonal",
     .values = values,
-    .file = file,
 };
