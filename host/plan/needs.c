@@ -57,7 +57,6 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     }
     if (is_grid && question->dimension > 1 && !question->wants_full_array &&
         !(question->share_not_drawn > 0)) {
-        needs.only_ball = true;
         ps_needs_add(
             &needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
             share_of_corners(question->dimension, question->max_frequency, question->max_norm2));

@@ -33,7 +33,6 @@ typedef struct ps_skip {
 enum { PS_MAX_SKIPS = 16 };
 
 typedef struct ps_needs {
-    bool only_ball;       /* leave the corners of the box out */
     bool one_realization; /* one stands for all */
     bool sequential;      /* no more realizations than the standard error takes */
     bool no_shift;

@@ -241,14 +241,3 @@ pspec_status ps_cache_put(ps_cache *cache, const void *key, size_t key_bytes, co
     }
     return ps_cache_end(cache, &npz, error);
 }
-
-/* ---- all of them ---- */
-
-pspec_status ps_cache_usage(const ps_cache *cache, size_t *num_entries, uint64_t *bytes,
-                            ps_error *error) {
-    return ps_cache_folder_usage(cache->directory, num_entries, bytes, error);
-}
-
-pspec_status ps_cache_clear(const ps_cache *cache, ps_error *error) {
-    return ps_cache_folder_shrink(cache->directory, 0, error);
-}

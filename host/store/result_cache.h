@@ -67,10 +67,4 @@ pspec_status ps_cache_end(ps_cache *cache, ps_npz **npz, ps_error *error) PS_MUS
 pspec_status ps_cache_put(ps_cache *cache, const void *key, size_t key_bytes, const void *data,
                           size_t data_bytes, ps_error *error) PS_MUST_CHECK;
 
-/* Entries, and the disk space of these and of temporary files. */
-pspec_status ps_cache_usage(const ps_cache *cache, size_t *num_entries, uint64_t *bytes,
-                            ps_error *error) PS_MUST_CHECK;
-/* Removes all entries; other files in the folder stay. */
-pspec_status ps_cache_clear(const ps_cache *cache, ps_error *error) PS_MUST_CHECK;
-
 #endif

@@ -93,11 +93,15 @@ int harness_cache_must_get(ps_cache *cache, unsigned number, size_t most_bytes) 
     return found;
 }
 
-void harness_cache_check_usage(ps_cache *cache, size_t num_entries, uint64_t bytes) {
+const char *harness_cache_folder(void **state) {
+    return ((const test_folder *)*state)->path;
+}
+
+void harness_cache_check_usage(const char *folder, size_t num_entries, uint64_t bytes) {
     size_t entries_there = 0;
     uint64_t bytes_there = 0;
     ps_error error = {0};
-    assert_int_equal(ps_cache_usage(cache, &entries_there, &bytes_there, &error), PSPEC_OK);
+    assert_int_equal(ps_cache_folder_usage(folder, &entries_there, &bytes_there, &error), PSPEC_OK);
     assert_int_equal(entries_there, num_entries);
     assert_int_equal(bytes_there, bytes);
 }

@@ -2,6 +2,7 @@
 #ifndef PS_TESTS_HARNESS_CACHE_H
 #define PS_TESTS_HARNESS_CACHE_H
 
+#include "store/cache_folder.h"
 #include "store/result_cache.h"
 #include "test_folder.h"
 
@@ -26,7 +27,9 @@ int harness_cache_get(ps_cache *cache, unsigned number, size_t most_bytes, ps_er
 ps_cache *harness_cache_open(void **state, uint64_t max_bytes);
 void harness_cache_must_put(ps_cache *cache, unsigned number, size_t most_bytes);
 int harness_cache_must_get(ps_cache *cache, unsigned number, size_t most_bytes);
-void harness_cache_check_usage(ps_cache *cache, size_t num_entries, uint64_t bytes);
+/* That folder, and what entries and temporary files of a folder take on the disk. */
+const char *harness_cache_folder(void **state);
+void harness_cache_check_usage(const char *folder, size_t num_entries, uint64_t bytes);
 
 /* The file of an entry. */
 const char *harness_cache_path(const char *directory, unsigned number, char path[CACHE_PATH_BYTES]);

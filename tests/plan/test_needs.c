@@ -35,7 +35,7 @@ static void symmetry_is_always_used(void **state) {
         question.max_frequency = 0; /* a list is taken as it is */
         const ps_needs of_list = ps_needs_find(&question);
         assert_null(find_skip(&of_list, "-k"));
-        assert_false(of_list.only_ball);
+        assert_null(find_skip(&of_list, "corners"));
     }
 }
 
@@ -67,15 +67,15 @@ static void corners(void **state) {
     for (unsigned dimension = 2; dimension <= 4; dimension++) {
         question.dimension = dimension;
         const ps_needs needs = ps_needs_find(&question);
-        assert_true(needs.only_ball);
+        assert_non_null(find_skip(&needs, "corners"));
         assert_true(fabs(find_skip(&needs, "corners")->share - (1 - balls[dimension - 1])) < 1e-12);
     }
     question.dimension = 1;
-    assert_false(ps_needs_find(&question).only_ball);
+    const ps_needs line = ps_needs_find(&question);
+    assert_null(find_skip(&line, "corners"));
     question.dimension = 2;
     question.wants_full_array = true;
     const ps_needs full = ps_needs_find(&question);
-    assert_false(full.only_ball);
     assert_null(find_skip(&full, "corners"));
 }
 
@@ -126,7 +126,8 @@ static void everything_is_done_on_request(void **state) {
     assert_true(ps_needs_find(&question).no_frequency_errors);
     question.accuracy.no_skip = true;
     const ps_needs needs = ps_needs_find(&question);
-    assert_false(needs.only_ball || needs.one_realization || needs.no_shift);
+    assert_false(needs.one_realization || needs.no_shift);
+    assert_null(find_skip(&needs, "corners"));
     assert_false(needs.no_frequency_errors);
     assert_int_equal(needs.num_skips, 1);
 }

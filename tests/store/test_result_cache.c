@@ -119,16 +119,16 @@ static void the_longest_unused_goes_first(void **state) {
         harness_cache_must_put(cache, i, SMALL);
         entry_used(state, i, 1000 - (time_t)i);
     }
-    harness_cache_check_usage(cache, NUM, NUM * CACHE_BLOCK_BYTES);
+    harness_cache_check_usage(harness_cache_folder(state), NUM, NUM * CACHE_BLOCK_BYTES);
     assert_int_equal(harness_cache_must_get(cache, 0, SMALL), 1);
     harness_cache_must_put(cache, NUM, SMALL);
-    harness_cache_check_usage(cache, NUM, NUM * CACHE_BLOCK_BYTES);
+    harness_cache_check_usage(harness_cache_folder(state), NUM, NUM * CACHE_BLOCK_BYTES);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 0);
     assert_int_equal(harness_cache_must_get(cache, 0, SMALL), 1);
     ps_cache_close(cache);
     cache = harness_cache_open(state, 4 * CACHE_BLOCK_BYTES); /* the limit is the opener's */
     harness_cache_must_put(cache, NUM + 1, SMALL);
-    harness_cache_check_usage(cache, 4, 4 * CACHE_BLOCK_BYTES);
+    harness_cache_check_usage(harness_cache_folder(state), 4, 4 * CACHE_BLOCK_BYTES);
     for (unsigned i = 0; i < NUM + 2; i++) {
         assert_int_equal(harness_cache_must_get(cache, i, SMALL), i == 0 || i >= NUM - 1);
     }
@@ -143,7 +143,9 @@ static void the_bound_holds_for_entries_of_any_size(void **state) {
         size_t num_entries = 0;
         uint64_t bytes = 0;
         harness_cache_must_put(cache, i, LARGE);
-        assert_int_equal(ps_cache_usage(cache, &num_entries, &bytes, &error), PSPEC_OK);
+        assert_int_equal(
+            ps_cache_folder_usage(harness_cache_folder(state), &num_entries, &bytes, &error),
+            PSPEC_OK);
         assert_true(num_entries > 0 && bytes <= bound);
         assert_int_equal(harness_cache_must_get(cache, i, LARGE),
                          1); /* the one just put is the youngest */
@@ -167,9 +169,9 @@ static void what_is_larger_than_the_limit_is_not_stored(void **state) {
     harness_cache_must_put(cache, 1, SMALL);
     assert_int_equal(ps_cache_put(cache, key, sizeof key, data, fits + 1, &error), PSPEC_OK);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 1);
-    harness_cache_check_usage(cache, 1, CACHE_BLOCK_BYTES);
+    harness_cache_check_usage(harness_cache_folder(state), 1, CACHE_BLOCK_BYTES);
     assert_int_equal(ps_cache_put(cache, key, sizeof key, data, fits, &error), PSPEC_OK);
-    harness_cache_check_usage(cache, 1, 2 * CACHE_BLOCK_BYTES);
+    harness_cache_check_usage(harness_cache_folder(state), 1, 2 * CACHE_BLOCK_BYTES);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 0);
     ps_cache_close(cache);
     cache = harness_cache_open(state, 0);
@@ -201,15 +203,16 @@ static void only_our_files_count_and_go(void **state) {
         assert_true(test_write_file(test_path(*state, foreign[i], path), "text", 4));
         make_old(path, 100000);
     }
-    harness_cache_check_usage(cache, 0, 0);
+    harness_cache_check_usage(harness_cache_folder(state), 0, 0);
     harness_cache_must_put(cache, 1, SMALL);
     assert_true(test_write_file(test_path(*state, ".pointspec-1-0.tmp", path), "text", 4));
-    harness_cache_check_usage(cache, 1, 2 * CACHE_BLOCK_BYTES);
-    assert_int_equal(ps_cache_clear(cache, &error), PSPEC_OK); /* somebody may be writing to it */
-    harness_cache_check_usage(cache, 0, CACHE_BLOCK_BYTES);
+    harness_cache_check_usage(harness_cache_folder(state), 1, 2 * CACHE_BLOCK_BYTES);
+    assert_int_equal(ps_cache_folder_shrink(harness_cache_folder(state), 0, &error),
+                     PSPEC_OK); /* somebody may be writing to it */
+    harness_cache_check_usage(harness_cache_folder(state), 0, CACHE_BLOCK_BYTES);
     make_old(path, 4000); /* its process is gone */
-    assert_int_equal(ps_cache_clear(cache, &error), PSPEC_OK);
-    harness_cache_check_usage(cache, 0, 0);
+    assert_int_equal(ps_cache_folder_shrink(harness_cache_folder(state), 0, &error), PSPEC_OK);
+    harness_cache_check_usage(harness_cache_folder(state), 0, 0);
     assert_int_equal(test_folder_count(*state, false), NUM_FOREIGN);
     ps_cache_close(cache);
 }
@@ -226,12 +229,12 @@ static void the_folder_is_made_when_it_is_missing(void **state) {
     assert_int_equal(stat(path, &facts), 0);
     assert_int_equal(facts.st_mode & 0777, 0700);
     assert_int_equal(rmdir(path), 0); /* as somebody may empty ~/.cache at any time */
-    harness_cache_check_usage(cache, 0, 0);
+    harness_cache_check_usage(path, 0, 0);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 0);
-    assert_int_equal(ps_cache_clear(cache, &error), PSPEC_OK);
+    assert_int_equal(ps_cache_folder_shrink(path, 0, &error), PSPEC_OK);
     harness_cache_must_put(cache, 1, SMALL);
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 1);
-    assert_int_equal(ps_cache_clear(cache, &error), PSPEC_OK);
+    assert_int_equal(ps_cache_folder_shrink(path, 0, &error), PSPEC_OK);
     ps_cache_close(cache);
     assert_int_equal(rmdir(path), 0);
     assert_int_equal(rmdir(test_path(*state, "a/b", path)), 0);

@@ -73,8 +73,8 @@ static void what_is_no_file_is_a_miss(void **state) {
     assert_int_equal(harness_cache_must_get(cache, 1, SMALL), 0);
     assert_int_equal(harness_cache_put(cache, 1, SMALL, &error), PSPEC_ERROR_IO);
     assert_non_null(strstr(error.message, "Is a directory"));
-    harness_cache_check_usage(cache, 0, 0);
-    assert_int_equal(ps_cache_clear(cache, &error), PSPEC_OK);
+    harness_cache_check_usage(harness_cache_folder(state), 0, 0);
+    assert_int_equal(ps_cache_folder_shrink(harness_cache_folder(state), 0, &error), PSPEC_OK);
     assert_int_equal(access(path, F_OK), 0);
     ps_cache_close(cache);
 }

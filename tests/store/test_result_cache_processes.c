@@ -82,7 +82,7 @@ static int work(const test_folder *folder, unsigned number) {
             fprintf(stderr, "process %u, step %d: %s\n", number, i, error.message);
             return 2;
         }
-        if (i % CLEAR_EVERY == 0 && ps_cache_clear(cache, &error) != PSPEC_OK) {
+        if (i % CLEAR_EVERY == 0 && ps_cache_folder_shrink(folder->path, 0, &error) != PSPEC_OK) {
             return 3;
         }
     }
@@ -104,7 +104,8 @@ static void several_processes_share_it(void **state) {
     size_t num_entries = 0;
     uint64_t bytes = 0;
     assert_int_equal(harness_cache_put(cache, 0, LARGE, &error), PSPEC_OK);
-    assert_int_equal(ps_cache_usage(cache, &num_entries, &bytes, &error), PSPEC_OK);
+    assert_int_equal(
+        ps_cache_folder_usage(harness_cache_folder(state), &num_entries, &bytes, &error), PSPEC_OK);
     assert_true(bytes <= BOUND);
     assert_int_equal(check_entries(cache), num_entries);
     assert_true(test_folder_count(*state, false) <= num_entries + 1); /* and the lock */
@@ -124,12 +125,15 @@ static void a_lock_that_is_held_delays_eviction_only(void **state) {
     unsigned key = 0;
     for (; bytes <= BOUND; key++) {
         assert_int_equal(harness_cache_put(cache, key, LARGE, &error), PSPEC_OK);
-        assert_int_equal(ps_cache_usage(cache, &num_entries, &bytes, &error), PSPEC_OK);
+        assert_int_equal(
+            ps_cache_folder_usage(harness_cache_folder(state), &num_entries, &bytes, &error),
+            PSPEC_OK);
         assert_int_equal(num_entries, key + 1);
     }
     close(lock);
     assert_int_equal(harness_cache_put(cache, key, LARGE, &error), PSPEC_OK);
-    assert_int_equal(ps_cache_usage(cache, &num_entries, &bytes, &error), PSPEC_OK);
+    assert_int_equal(
+        ps_cache_folder_usage(harness_cache_folder(state), &num_entries, &bytes, &error), PSPEC_OK);
     assert_true(num_entries < key && bytes <= BOUND);
     ps_cache_close(cache);
 }
@@ -186,7 +190,7 @@ static void processes_that_are_killed_leave_whole_entries(void **state) {
         check_after_kill(*state, cache, &num_temporary);
     }
     assert_true(num_temporary > 0);
-    assert_int_equal(ps_cache_clear(cache, &error), PSPEC_OK);
+    assert_int_equal(ps_cache_folder_shrink(harness_cache_folder(state), 0, &error), PSPEC_OK);
     assert_true(test_folder_count(*state, false) <= 1); /* the lock */
     ps_cache_close(cache);
 }
@@ -205,7 +209,8 @@ static void temporary_files_count_and_go(void **state) {
     for (int round = 0; round < 2; round++) {
         for (unsigned key = 0; key < NUM_KEYS; key++) {
             assert_int_equal(harness_cache_put(cache, key, LARGE, &error), PSPEC_OK);
-            assert_int_equal(ps_cache_usage(cache, &num_entries[round], &bytes_there, &error),
+            assert_int_equal(ps_cache_folder_usage(harness_cache_folder(state), &num_entries[round],
+                                                   &bytes_there, &error),
                              PSPEC_OK);
             assert_true(num_entries[round] > 0 && bytes_there <= BOUND);
         }

@@ -221,7 +221,7 @@ void ps_ccvt_give(const ps_ccvt *c, double *points, ps_ccvt_outcome *outcome) {
         ps_ccvt_place(c->site, i, axes, points + axes * i);
     }
     if (outcome != NULL) {
-        *outcome = (ps_ccvt_outcome){c->num_passes, c->num_swaps, ps_ccvt_energy(c)};
+        *outcome = (ps_ccvt_outcome){c->num_passes, ps_ccvt_energy(c)};
     }
 }
 

@@ -98,8 +98,7 @@ struct ps_ccvt {
 
 typedef struct ps_ccvt_outcome {
     uint32_t passes; /* over pairs of sites */
-    uint64_t swaps;
-    double energy; /* sum of squared distances from points to their sites */
+    double energy;   /* sum of squared distances from points to their sites */
 } ps_ccvt_outcome;
 
 /* Refuses numbers outside the limits with a sentence. */
