@@ -296,7 +296,7 @@ ps_range ps_range_light(const ps_device *device, size_t first, size_t second, si
  * compiled with -DALONE=1 (kernels/shared/group.h) then, and launched on ps_range_alone, whatever
  * changes in between. */
 bool ps_range_is_alone(const ps_device *device);
-ps_range ps_range_alone(size_t second, size_t third, double flops, double bytes);
+ps_range ps_range_alone(size_t second, double flops);
 /* Work-groups of `wanted` items, or as many as there may be, which share local memory: (1, second,
  * third) of them. Their kernels serve any number of items. */
 ps_range ps_range_shared(const ps_device *device, size_t wanted, size_t second, size_t third,

@@ -50,8 +50,8 @@ bool ps_range_is_alone(const ps_device *device) {
     return !device->limits.has_dedicated_local_memory && device->group_size == 0;
 }
 
-ps_range ps_range_alone(size_t second, size_t third, double flops, double bytes) {
-    return make_range(1, 1, second, third, flops, bytes);
+ps_range ps_range_alone(size_t second, double flops) {
+    return make_range(1, 1, second, 1, flops, 0);
 }
 
 ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, size_t third,

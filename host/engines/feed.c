@@ -4,8 +4,8 @@ static pspec_status map_next(ps_feed *self, ps_error *error) {
     return ps_mapping_begin(self->device, &self->mapping, &self->buffers[self->next], error);
 }
 
-pspec_status ps_feed_create(ps_feed *out, size_t bytes, const char *what, ps_device *device,
-                            ps_error *error) {
+pspec_status ps_feed_create(ps_feed *out, size_t bytes, ps_device *device, ps_error *error) {
+    static const char what[] = "points";
     *out = (ps_feed){.device = device};
     for (unsigned i = 0; i < 2; i++) {
         PS_TRY(ps_buffer_create(device, &out->buffers[i], bytes, what, error));

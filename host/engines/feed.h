@@ -15,7 +15,7 @@ typedef struct ps_feed {
 } ps_feed;
 
 /* Zeroed memory must be given; free it also after a failure. */
-pspec_status ps_feed_create(ps_feed *out, size_t bytes, const char *what, ps_device *device,
+pspec_status ps_feed_create(ps_feed *out, size_t bytes, ps_device *device,
                             ps_error *error) PS_MUST_CHECK;
 void ps_feed_free(ps_feed *feed);
 /* Memory to fill. Waits for what was launched before the last ps_feed_end; when it is not followed

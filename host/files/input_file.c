@@ -16,13 +16,10 @@ enum {
     MOST_PEEKED = 1024
 };
 
-pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) {
-    for (size_t i = 0; i < num; i++) {
-        if (paths[i] != NULL && strcmp(paths[i], "-") != 0 && access(paths[i], R_OK) != 0) {
-            return ps_read_fail(paths[i], error);
-        }
-    }
-    return PSPEC_OK;
+pspec_status ps_input_check(const char *path, ps_error *error) {
+    return path == NULL || strcmp(path, "-") == 0 || access(path, R_OK) == 0
+               ? PSPEC_OK
+               : ps_read_fail(path, error);
 }
 
 /* ---- opening ----------------------------------------------------------------------------- */

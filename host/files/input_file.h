@@ -25,9 +25,9 @@ typedef struct ps_input {
     bool can_reopen;  /* a regular file that has a path */
 } ps_input;
 
-/* Can the files be read? Without opening them, so that a stream loses nothing. "-" can; a NULL is
- * none. */
-pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) PS_MUST_CHECK;
+/* Can the file be read? Without opening it, so that a stream loses nothing. "-" can; NULL is none.
+ */
+pspec_status ps_input_check(const char *path, ps_error *error) PS_MUST_CHECK;
 
 /* Opens path, or standard input for "-". Folders and empty files are refused; gzip and zip are
  * recognised by their first bytes. Of an archive with several arrays the one called `array` is

@@ -219,7 +219,7 @@ pspec_status ps_points_check(const char *const *paths, size_t num, const ps_poin
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_given_sets_find(&options->given, paths[i]) != NULL
                    ? PSPEC_OK
-                   : ps_inputs_check(&paths[i], 1, error));
+                   : ps_input_check(paths[i], error));
     }
     return PSPEC_OK;
 }

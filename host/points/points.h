@@ -123,7 +123,7 @@ typedef struct ps_point_options {
 
 typedef struct ps_point_reader ps_point_reader;
 
-/* Can all be read? Without opening them, as ps_inputs_check. */
+/* Can all be read? Without opening them, as ps_input_check. */
 pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
                              ps_error *error) PS_MUST_CHECK;
 /* Opens path: a given set, else a file, standard input for "-". The texts of options must outlive

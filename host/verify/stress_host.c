@@ -145,7 +145,7 @@ static pspec_status measure_diagonal(ps_device *device, ps_precision precision, 
     const ps_rule rule = {NUM, pattern.points, NULL};
     pspec_status status = ps_rule_distance(&rule, smoothness, NULL, &sum, error);
     if (status == PSPEC_OK) {
-        status = ps_host_chords(&pattern, 0, smoothness - 1, &truth, error);
+        status = ps_host_chords(&pattern, smoothness - 1, &truth, error);
     }
     *found = fabs((double)(sum - truth / NUM / NUM));
     *bound = 16 * DBL_EPSILON * ps_sobolev_constant(smoothness); /* as in worst_case_error.c */

@@ -44,7 +44,7 @@ pspec_status ps_host_pairs(const pspec_pattern *pattern, int exponent, int32_t m
                            long double *sums, ps_error *error) PS_MUST_CHECK;
 
 /* sum over i != j of w_i w_j |u_i - u_j|^(2 power), power > 0; equal points have distance 0. */
-pspec_status ps_host_chords(const pspec_pattern *pattern, int exponent, double power,
-                            long double *sum, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_host_chords(const pspec_pattern *pattern, double power, long double *sum,
+                            ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -70,10 +70,10 @@ pspec_status ps_host_pairs(const pspec_pattern *pattern, int exponent, int32_t m
     return PSPEC_OK;
 }
 
-pspec_status ps_host_chords(const pspec_pattern *pattern, int exponent, double power,
-                            long double *sum, ps_error *error) {
+pspec_status ps_host_chords(const pspec_pattern *pattern, double power, long double *sum,
+                            ps_error *error) {
     direction *all = NULL;
-    PS_TRY(make_directions(pattern, exponent, &all, error));
+    PS_TRY(make_directions(pattern, 0, &all, error));
     *sum = 0;
     for (size_t i = 0; i < pattern->num_points; i++) {
         for (size_t j = 0; j < i; j++) {

@@ -84,8 +84,8 @@ static pspec_status create_points(ps_pairs_state *self, size_t batch, ps_error *
     }
     PS_TRY(PS_NEW(&self->host_counts, batch, "numbers of points", error));
     PS_TRY(PS_NEW(&self->squares, batch, "sums of weights", error));
-    PS_TRY(ps_feed_create(&self->points, num * ps_real_bytes(self->precision), "points",
-                          self->device, error));
+    PS_TRY(
+        ps_feed_create(&self->points, num * ps_real_bytes(self->precision), self->device, error));
     return ps_buffer_create(self->device, &self->counts, batch * sizeof(uint64_t),
                             "numbers of points", error);
 }

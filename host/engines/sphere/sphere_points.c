@@ -41,8 +41,8 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
         PS_TRY(create_prepare(out, error));
     }
     PS_TRY(allocate_on_host(out, error));
-    PS_TRY(ps_feed_create(&out->points, capacity * PS_SPHERE_DIMENSION * sizeof(double), "points",
-                          device, error));
+    PS_TRY(ps_feed_create(&out->points, capacity * PS_SPHERE_DIMENSION * sizeof(double), device,
+                          error));
     const ps_wanted_buffer wanted[] = {
         {&out->values, capacity * PS_SPHERE_ARRAYS * layout->real_bytes, "directions"},
         {&out->turns, capacity * sizeof(uint64_t), "azimuths"},

@@ -62,8 +62,7 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
     PS_TRY(
         ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets", error));
     PS_TRY(upload_unit_weights(out, device, error));
-    return ps_feed_create(&out->feed, count * dimension * sizeof(uint64_t), "points", device,
-                          error);
+    return ps_feed_create(&out->feed, count * dimension * sizeof(uint64_t), device, error);
 }
 
 void ps_torus_points_free(ps_torus_points *points) {

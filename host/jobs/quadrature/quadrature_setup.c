@@ -270,7 +270,7 @@ pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,
     *out = (ps_quadrature_setup){0};
     PS_TRY(ps_plan_check_engine(question->limits.constraints.engine, PS_ON_SPHERE, error));
     PS_TRY(ps_points_check(question->paths, question->num_paths, &question->point_options, error));
-    PS_TRY(ps_inputs_check(&question->weights.path, 1, error));
+    PS_TRY(ps_input_check(question->weights.path, error));
     return question->limits.device != NULL ? open_device(out, question, error) : PSPEC_OK;
 }
 

@@ -23,8 +23,8 @@ static pspec_status check_names(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_check_engine(question->limits.constraints.engine,
                                 question->on_sphere ? PS_ON_SPHERE : PS_ON_TORUS, error));
     PS_TRY(ps_points_check(question->paths, question->num_paths, &question->point_options, error));
-    PS_TRY(ps_inputs_check(&question->weights.path, 1, error));
-    PS_TRY(ps_inputs_check(&question->frequencies.path, 1, error));
+    PS_TRY(ps_input_check(question->weights.path, error));
+    PS_TRY(ps_input_check(question->frequencies.path, error));
     return question->limits.device != NULL ? open_device(job, error) : PSPEC_OK;
 }
 

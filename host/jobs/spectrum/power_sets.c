@@ -113,12 +113,11 @@ static pspec_status check_weights(const ps_power_sets *sets, uint64_t num_points
                          sets->num_weights, (unsigned long long)num_points);
 }
 
-/* Points first .. end - 1 of a set, of which number `first` is that of the whole set's point
- * `position`. */
-static pspec_pattern show(const ps_power_sets *sets, const ps_point_set *set, size_t first,
-                          size_t end, uint64_t position) {
-    const double *const own = set->has_weights ? set->weights + first : NULL;
-    return (pspec_pattern){set->dimension, end - first, set->points + first * set->dimension,
+/* The first points of a set, or of a part of it that begins with point `position` of the whole. */
+static pspec_pattern show(const ps_power_sets *sets, const ps_point_set *set, size_t num,
+                          uint64_t position) {
+    const double *const own = set->has_weights ? set->weights : NULL;
+    return (pspec_pattern){set->dimension, num, set->points,
                            sets->weights != NULL ? sets->weights + position : own};
 }
 
@@ -152,7 +151,7 @@ static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
     ps_point_set *const set = &sets->sets[at];
     exchange(set, &sets->next);
     sets->has_next = false;
-    sets->patterns[at] = show(sets, set, 0, set->num_points, 0);
+    sets->patterns[at] = show(sets, set, set->num_points, 0);
     look_at(sets, &sets->patterns[at], true);
     PS_TRY(keep_first(sets, set, error));
     return check_weights(sets, set->num_points, error);
@@ -211,7 +210,7 @@ static pspec_status next_block(void *payload, size_t unit, pspec_pattern *block,
     if (sets->num_streamed + sets->used > sets->part.count.num_points) {
         sets->used = 0; /* more than were counted: the estimator will say so */
     }
-    *block = show(sets, set, 0, sets->used, sets->num_streamed);
+    *block = show(sets, set, sets->used, sets->num_streamed);
     sets->num_streamed += sets->used;
     look_at(sets, block, sets->num_streamed == sets->part.count.num_points);
     return PSPEC_OK;

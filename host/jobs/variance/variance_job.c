@@ -100,7 +100,7 @@ static pspec_status open_files(ps_variance_job *job, ps_error *error) {
         return PSPEC_OK;
     }
     PS_TRY(ps_points_check(spectrum->paths, spectrum->num_paths, &spectrum->point_options, error));
-    PS_TRY(ps_inputs_check(&spectrum->weights.path, 1, error));
+    PS_TRY(ps_input_check(spectrum->weights.path, error));
     PS_TRY(ps_variance_sets_open(&job->files, spectrum, job->question->num_shifts > 0, error));
     spectrum->source = job->files.source;
     spectrum->num_sets = job->files.num_predicting;

@@ -227,7 +227,7 @@ static void designs(void **state) {
         free(q);
     }
     long double sum = 0;
-    assert_ok(ps_host_chords(&pattern, 0, 0.5, &sum, error));
+    assert_ok(ps_host_chords(&pattern, 0.5, &sum, error));
     const double constant = (4.0 / 3 - (double)sum / (NUM * NUM)) * NUM * sqrt(NUM);
     print_message("design: E^2 N^1.5 = %.5f\n", constant);
     assert_true(fabs(constant - 0.8191) <= 1e-4);

@@ -41,7 +41,7 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
                                     error));
         }
     }
-    return ps_feed_create(&self->vectors, bytes.vectors, "points", self->device, error);
+    return ps_feed_create(&self->vectors, bytes.vectors, self->device, error);
 }
 
 static void set_weight(ps_sphere_places *self, size_t at, double weight) {

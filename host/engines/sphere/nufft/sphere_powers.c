@@ -38,7 +38,7 @@ pspec_status ps_sphere_powers_create(ps_sphere_state *self, ps_error *error) {
 
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups,
                                double flops) {
-    return is_alone ? ps_range_alone(groups, 1, flops, 0)
+    return is_alone ? ps_range_alone(groups, flops)
                     : ps_range_heavy(device, 1, groups, 1, flops, 0);
 }
 

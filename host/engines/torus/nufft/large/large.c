@@ -143,7 +143,7 @@ static pspec_status spread_colour(ps_nufft_state *self, uint32_t slab, size_t nu
     const ps_nufft_plan *first = &self->plans[0]; /* not looked at in the plane */
     const ps_nufft_local local = ps_nufft_boxes_local(&self->layout);
     const ps_range range = of(self)->is_alone
-                               ? ps_range_alone(num_boxes, 1, flops, 0)
+                               ? ps_range_alone(num_boxes, flops)
                                : ps_nufft_group_range(self->device, num_boxes, 1, flops);
     return PS_LAUNCH(self->device, of(self)->spread, &range, error, PS_STRUCT(*numbers),
                      PS_BUFFER(self->places.places), PS_BUFFER(self->places.sorted),

@@ -51,9 +51,9 @@ static ps_range range_of(const ps_nufft_state *self, size_t num_realizations) {
     const double transforms = ps_fft_flops(axes[0].n) * axes[1].n / 2 +
                               ps_fft_flops(axes[1].n) * (double)layout->num_tiles * layout->lanes;
     const double spread = 2.0 * axes[0].window.width * axes[1].window.width;
-    return ps_range_alone(
-        num_groups(self, num_realizations), 1,
-        (double)num_realizations * transforms + spread * (double)self->places.num_points, 0);
+    return ps_range_alone(num_groups(self, num_realizations),
+                          (double)num_realizations * transforms +
+                              spread * (double)self->places.num_points);
 }
 
 static strips_numbers numbers_of(const ps_nufft_state *self, size_t num_realizations,

@@ -151,7 +151,7 @@ static ps_range range_of(const ps_nufft_state *self, size_t num_realizations, si
     const size_t groups =
         num_realizations < self->layout.groups ? num_realizations : self->layout.groups;
     const double all_flops = flops + spread * (double)num_points;
-    return of(self)->is_alone ? ps_range_alone(groups, 1, all_flops, 0)
+    return of(self)->is_alone ? ps_range_alone(groups, all_flops)
                               : ps_nufft_group_range(self->device, groups, 1, all_flops);
 }
 
