@@ -18,17 +18,24 @@ static size_t choose_block(size_t size) {
     return block;
 }
 
-/* Mean over a block of frequencies, DC and what is outside the image left out. */
-static double average_block(const ps_plot_image *image, ptrdiff_t first_1, ptrdiff_t first_2,
+/* Numbers in rows; `without`: the index of one that does not count. */
+typedef struct pixels {
+    const double *values;
+    size_t rows, columns, without;
+} pixels;
+
+/* Mean over a block, what is outside the image left out; 0 where nothing is left. */
+static double average_block(const pixels *image, ptrdiff_t first_row, ptrdiff_t first_column,
                             size_t block) {
-    const ptrdiff_t size = (ptrdiff_t)image->size;
+    const ptrdiff_t rows = (ptrdiff_t)image->rows;
+    const ptrdiff_t columns = (ptrdiff_t)image->columns;
     double sum = 0;
     size_t count = 0;
-    for (ptrdiff_t i = first_1; i < first_1 + (ptrdiff_t)block; i++) {
-        for (ptrdiff_t j = first_2; j < first_2 + (ptrdiff_t)block; j++) {
-            const int is_inside = i >= 0 && j >= 0 && i < size && j < size;
-            if (is_inside && !(i == size / 2 && j == size / 2)) {
-                sum += image->power[i * size + j];
+    for (ptrdiff_t i = first_row; i < first_row + (ptrdiff_t)block; i++) {
+        for (ptrdiff_t j = first_column; j < first_column + (ptrdiff_t)block; j++) {
+            const bool is_inside = i >= 0 && j >= 0 && i < rows && j < columns;
+            if (is_inside && (size_t)(i * columns + j) != image->without) {
+                sum += image->values[i * columns + j];
                 count++;
             }
         }
@@ -73,11 +80,13 @@ pspec_status ps_script_make_raster(ps_script_raster *out, ps_pool *memory,
         .size = size, .pixel = (double)block / image->unit, .maximum = image->maximum};
     PS_TRY(PS_POOL_NEW(memory, &out->power, size * size, "picture", error));
     const ptrdiff_t first = half_image - (ptrdiff_t)(block / 2) - half * (ptrdiff_t)block;
+    const size_t dc = image->size * image->size / 2;
+    const pixels all = {image->power, image->size, image->size, dc};
     for (size_t row = 0; row < size; row++) {
         for (size_t column = 0; column < size; column++) {
             const ptrdiff_t k_1 = first + (ptrdiff_t)(column * block);
             const ptrdiff_t k_2 = first + (ptrdiff_t)(row * block);
-            out->power[row * size + column] = average_block(image, k_1, k_2, block);
+            out->power[row * size + column] = average_block(&all, k_1, k_2, block);
         }
     }
     return image->maximum > 0 ? PSPEC_OK : choose_maximum(out, error);
@@ -185,27 +194,14 @@ void ps_script_print_image(ps_text *out, const ps_script_panel *panel) {
 
 enum { MOST_SHOWN = 600, WHITE = 255 }; /* more would not be seen in panels of that width */
 
-static size_t most_sides(const ps_series *series) {
-    const size_t rows = series->num / series->columns;
-    return rows > series->columns ? rows : series->columns;
+static pixels pixels_of(const ps_series *series) {
+    return (pixels){series->y, series->num / series->columns, series->columns, SIZE_MAX};
 }
 
 /* Pixels along a side of a block that is shown as one. */
-static size_t block_of(const ps_series *series) {
-    return (most_sides(series) + MOST_SHOWN - 1) / MOST_SHOWN;
-}
-
-static double mean_of_block(const ps_series *series, size_t row, size_t column) {
-    const size_t block = block_of(series);
-    const size_t rows = series->num / series->columns;
-    double sum = 0;
-    double num = 0;
-    for (size_t i = row; i < row + block && i < rows; i++) {
-        for (size_t j = column; j < column + block && j < series->columns; j++, num++) {
-            sum += series->y[i * series->columns + j];
-        }
-    }
-    return sum / num;
+static size_t block_of(const pixels *image) {
+    const size_t most = image->rows > image->columns ? image->rows : image->columns;
+    return (most + MOST_SHOWN - 1) / MOST_SHOWN;
 }
 
 /* As bright as screens show it. */
@@ -216,11 +212,11 @@ static double brightness(const ps_frame *frame, double mean) {
 }
 
 void ps_script_print_pixel_data(ps_text *out, const ps_panel *panel) {
-    const ps_series *const series = &panel->series[0];
-    const size_t block = block_of(series);
-    for (size_t i = 0; i < series->num / series->columns; i += block) {
-        for (size_t j = 0; j < series->columns; j += block) {
-            const double mean = mean_of_block(series, i, j);
+    const pixels image = pixels_of(&panel->series[0]);
+    const size_t block = block_of(&image);
+    for (size_t i = 0; i < image.rows; i += block) {
+        for (size_t j = 0; j < image.columns; j += block) {
+            const double mean = average_block(&image, (ptrdiff_t)i, (ptrdiff_t)j, block);
             ps_text_append(out, " %.6g",
                            panel->frame.form == PS_FRAME_LIGHT ? brightness(&panel->frame, mean)
                                                                : mean);
@@ -248,10 +244,10 @@ static void print_scale(ps_text *out, const ps_frame *frame, const ps_script_box
 void ps_script_print_pixels(ps_text *out, const ps_script_panel *panel, size_t number) {
     const ps_frame *const frame = &panel->panel.frame;
     const ps_script_box *const where = &panel->where;
-    const ps_series *const series = &panel->panel.series[0];
-    const size_t block = block_of(series);
-    const double columns = ceil((double)series->columns / (double)block);
-    const double rows = ceil((double)(series->num / series->columns) / (double)block);
+    const pixels image = pixels_of(&panel->panel.series[0]);
+    const double block = (double)block_of(&image);
+    const double columns = ceil((double)image.columns / block);
+    const double rows = ceil((double)image.rows / block);
     const double width = where->right - where->left;
     const double height = where->bottom - where->top;
     const double unit = fmax(columns / width, rows / height); /* pixels of the image in one */

@@ -48,21 +48,21 @@ static pspec_status add(gallery *self, const ps_chart_part *part, const char *ar
 static pspec_status add_image(gallery *self, const ps_chart_part *part, size_t row, size_t index) {
     static const char *const columns[] = {"sampler", "integrand"};
     const ps_table *const table = part->table;
-    size_t column = 0;
+    const double points = ps_cell_number(ps_table_find_cell(table, row, "points"));
+    const double smoothness = ps_cell_number(ps_table_find_cell(table, row, "smoothness"));
     ps_text title = {0};
     ps_text_append(&title, "%s", part->label);
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++) {
-        if (ps_table_find_column(table, columns[i], &column)) {
-            ps_text_append(&title, "%s%s", title.length > 0 ? ", " : "",
-                           ps_cell_text(ps_table_cell(table, row, column)));
+        const ps_cell name = ps_table_find_cell(table, row, columns[i]);
+        if (name.kind == PS_CELL_TEXT) {
+            ps_text_append(&title, "%s%s", title.length > 0 ? ", " : "", name.text);
         }
     }
-    if (ps_table_find_column(table, "points", &column)) {
-        ps_text_append(&title, "%sN = %g", title.length > 0 ? ", " : "",
-                       ps_cell_number(ps_table_cell(table, row, column)));
+    if (isfinite(points)) {
+        ps_text_append(&title, "%sN = %g", title.length > 0 ? ", " : "", points);
     }
-    if (part->label[0] == '\0' && ps_table_find_column(table, "smoothness", &column)) {
-        ps_text_append(&title, ", s = %g", ps_cell_number(ps_table_cell(table, row, column)));
+    if (part->label[0] == '\0' && isfinite(smoothness)) {
+        ps_text_append(&title, ", s = %g", smoothness);
     }
     return add(self, part, "image", index, &title);
 }

@@ -37,9 +37,9 @@ static pspec_status add_row(picture *self, size_t row, ps_error *error) {
     const size_t before = row * self->width * self->height;
     const char *titles[2];
     ps_text text = {0};
-    size_t column = 0;
-    if (ps_table_find_column(self->table, "sampler", &column)) {
-        ps_text_append(&text, "%s, ", ps_cell_text(ps_table_cell(self->table, row, column)));
+    const ps_cell sampler = ps_table_find_cell(self->table, row, "sampler");
+    if (sampler.kind == PS_CELL_TEXT) {
+        ps_text_append(&text, "%s, ", sampler.text);
     }
     ps_text_append(&text, "N = %.6g",
                    ps_cell_number(ps_entry_of(self->table, "points", row, "points")));
@@ -68,10 +68,9 @@ static double find_reach(const ps_npy_array *errors, size_t pixels) {
 
 /* Does the row have the same number of points as the first? */
 static bool is_shown(const ps_table *table, size_t row) {
-    size_t column = 0;
-    return !ps_table_find_column(table, "points", &column) ||
-           ps_cell_number(ps_table_cell(table, row, column)) ==
-               ps_cell_number(ps_table_cell(table, 0, column));
+    const ps_cell first = ps_table_find_cell(table, 0, "points");
+    return first.kind == PS_CELL_MISSING ||
+           ps_cell_number(ps_table_find_cell(table, row, "points")) == ps_cell_number(first);
 }
 
 pspec_status ps_occlusion_figure(ps_figure *out, ps_pool *memory, const ps_chart *chart,
