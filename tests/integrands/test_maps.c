@@ -180,7 +180,7 @@ static void closed_forms(void **state) {
     ps_integrand_destroy(self);
 }
 
-/* Light made up is a function of the direction: sizes agree, and nothing is as bright as the sun. */
+/* Light made up is a function of the direction: sizes agree, nothing is as bright as the sun. */
 static void made_up_light(void **state) {
     static const double sun[] = {0.33585924, 0.52306741, 0.78332691}; /* 0.9 above, azimuth 1 */
     ps_integrand *const few = test_integrand("map:width=256", TEST_SPHERE);
