@@ -6,7 +6,7 @@ rooms=(
     samplers samplers/torus samplers/sphere samplers/darts samplers/optimized samplers/ccvt samplers/forces sets integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
     engines/pairs trials plan spectra rules jobs jobs/spectrum jobs/quadrature jobs/variance jobs/shade jobs/interpolation jobs/occlusion request verify verify/bench
-    answers answers/points answers/spectra answers/quadrature answers/truncation answers/homogeneity answers/check answers/variance answers/shade answers/interpolation answers/occlusion
+    answers answers/points answers/spectra answers/quadrature answers/truncation answers/homogeneity answers/check answers/variance answers/shade answers/interpolation answers/occlusion answers/light
     scene scene/run commands api cli cli/commands
 )
 

@@ -39,6 +39,7 @@ add_program_test(cli_truncation) # lobes, formats, what is refused
 add_program_test(cli_quadrature) # golden values, engines, files, what is refused
 add_program_test(cli_shade)     # columns, bits, scenes, plans, what is refused
 add_program_test(cli_interpolation) # rows, bits, maps, arrays, scenes, plans, what is refused
+add_program_test(cli_light)     # closed forms, maps, arrays, pictures, scenes, plans, what is refused
 add_program_test(cli_occlusion) # columns, bits, images, scenes, plans, what is refused
 add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is refused
 add_program_test(cli_variance_files) # halves, single sets, weights, streams, memory, saved results that are refused

@@ -25,10 +25,11 @@ ps_cell ps_entry_of(const ps_table *table, const char *first, size_t number, con
 
 /* Tables of several questions have their rows one after the other, with what they are of in their
  * first columns. */
-static bool is_lead(const ps_table *table, size_t column) {
+static bool is_lead(const ps_picture_kind *what, const ps_table *table, size_t column) {
     const char *const name = ps_table_column_name(table, column);
     return strcmp(name, "sampler") == 0 || strcmp(name, "points") == 0 ||
-           strcmp(name, "smoothness") == 0;
+           strcmp(name, "smoothness") == 0 ||
+           (strcmp(name, "integrand") == 0 && what->panels == NULL);
 }
 
 static bool are_alike(ps_cell a, ps_cell b) {
@@ -36,13 +37,13 @@ static bool are_alike(ps_cell a, ps_cell b) {
                                   : ps_cell_number(a) == ps_cell_number(b);
 }
 
-static bool is_of_same(const ps_table *table, size_t a, size_t b) {
+static bool is_of_same(const ps_picture_kind *what, const ps_table *table, size_t a, size_t b) {
     size_t column = 0;
-    while (column < ps_table_num_columns(table) && is_lead(table, column) &&
+    while (column < ps_table_num_columns(table) && is_lead(what, table, column) &&
            are_alike(ps_table_cell(table, a, column), ps_table_cell(table, b, column))) {
         column++;
     }
-    return column == ps_table_num_columns(table) || !is_lead(table, column);
+    return column == ps_table_num_columns(table) || !is_lead(what, table, column);
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -81,6 +82,10 @@ typedef struct picture {
 static const char *name_part(const picture *self, const ps_chart_part *part) {
     const ps_request *const request = part->request;
     size_t column = 0;
+    if (self->chart->what->panels == NULL && self->chart->num_parts == 1 &&
+        ps_table_find_column(part->table, "integrand", &column)) {
+        return ""; /* its functions are told apart */
+    }
     return part->label[0] != '\0' || self->chart->what->panels == NULL ||
                    ps_table_find_column(part->table, "sampler", &column)
                ? part->label
@@ -92,7 +97,8 @@ static pspec_status write_label(const picture *self, const place *own, const cha
     const ps_table *const table = own->part->table;
     ps_text label = {0};
     ps_text_append(&label, "%s", name_part(self, own->part));
-    for (size_t i = 0; i < ps_table_num_columns(table) && is_lead(table, i); i++) {
+    for (size_t i = 0; i < ps_table_num_columns(table) && is_lead(self->chart->what, table, i);
+         i++) {
         const ps_cell cell = ps_table_cell(table, own->row, i);
         const char *const comma = label.length > 0 ? ", " : "";
         const bool is_space = strcmp(ps_table_column_name(table, i), "smoothness") == 0;
@@ -148,7 +154,7 @@ static pspec_status add_places(picture *self, const ps_chart_part *part) {
     const ps_picture_kind *const what = self->chart->what;
     place own = {.part = part};
     for (size_t row = 0; row < ps_table_num_rows(part->table); row++) {
-        const bool is_same = row > 0 && is_of_same(part->table, row - 1, row);
+        const bool is_same = row > 0 && is_of_same(what, part->table, row - 1, row);
         own.row = row;
         own.number += row > 0 && !is_same;
         if (is_same && what->is_of_entries) {

@@ -41,14 +41,15 @@ typedef pspec_status ps_make_figure(ps_figure *out, ps_pool *memory, const ps_ch
 typedef enum ps_dealing { PS_OF_CURVES, PS_OF_COUNTS, PS_OF_EACH, PS_OF_SETS } ps_dealing;
 
 /* Who draws it, and what has to be asked for: several numbers of points, --scatter, pictures (a key
- * of scenes; a command asks by --plot), --integrand. */
+ * of scenes; a command asks by --plot), --integrand, --max-degree (of commands; scenes draw it). */
 enum { PS_BY_SCENE = 1, PS_BY_COMMAND = 2 };
 typedef enum ps_picture_need {
     PS_NEEDS_NOTHING,
     PS_NEEDS_COUNTS,
     PS_NEEDS_SCATTER,
     PS_NEEDS_PICTURES,
-    PS_NEEDS_INTEGRAND
+    PS_NEEDS_INTEGRAND,
+    PS_NEEDS_DEGREE
 } ps_picture_need;
 
 /* A line of every curve: a column, or a header entry, against those of x. */

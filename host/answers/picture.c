@@ -165,6 +165,7 @@ static void write_title(ps_text *title, const ps_request *request, const ps_tabl
 static bool is_asked(const ps_picture_kind *picture, const ps_request *request) {
     return (picture->by & PS_BY_COMMAND) != 0 &&
            (picture->needs != PS_NEEDS_COUNTS || request->num_counts > 1) &&
+           (picture->needs != PS_NEEDS_DEGREE || request->max_degree > 0) &&
            (picture->needs != PS_NEEDS_SCATTER || request->frequencies.num_shown > 0);
 }
 

@@ -22,9 +22,9 @@
 #define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
 
 /* Sets of commands that many options have: kinds of spectra, those of them on the sphere, kinds
- * that look at point sets, those that have engines, all that read sets from files, kinds that have
- * a lobe, and those that have a curve for each of several; commands that try engines, and those
- * whose output is a table. */
+ * that look at point sets, those that have engines, all that read sets from files, kinds without
+ * sets, those that have a lobe, and those that have a curve for each of several; commands that try
+ * engines, and those whose output is a table. */
 #define BIT PS_COMMAND_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
@@ -32,10 +32,12 @@
 #define SETS (SPECTRA | RULES | BIT(check))
 #define ENGINES (SETS | BIT(variance))
 #define READERS (ENGINES | BIT(interpolation) | BIT(occlusion))
+#define SETLESS (BIT(truncation) | BIT(light))
 #define LOBES (RULES | BIT(truncation))
 #define SERIES (SPECTRA | RULES | BIT(variance) | BIT(interpolation) | BIT(occlusion))
-#define PICTURES (SPECTRA | LOBES | BIT(variance) | BIT(interpolation) | BIT(occlusion))
+#define PICTURES                                                                                   \
+    (SPECTRA | LOBES | BIT(variance) | BIT(interpolation) | BIT(occlusion) | BIT(light))
 #define SUITES (BIT(bench) | BIT(stress))
-#define TABLES (READERS | SUITES | BIT(truncation) | BIT(merge) | BIT(devices))
+#define TABLES (READERS | SUITES | SETLESS | BIT(merge) | BIT(devices))
 
 #endif

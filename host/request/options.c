@@ -54,8 +54,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                        .set = ps_add_set, .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_INTEGRAND] =
         {NAMED("integrand", 0, "NAME[:key=value,...]"),
-         OF(BIT(variance) | BIT(shade) | BIT(truncation) | BIT(interpolation), 0),
-         .help = "what is {interpolation:interpolated}{:integrated}, see Integrands",
+         OF(BIT(variance) | BIT(shade) | SETLESS | BIT(interpolation), 0),
+         .help = "what is {interpolation:interpolated}{light:shown}{:integrated}, see Integrands",
          TEXTS(integrands, PS_MAX_INTEGRANDS), .input = ps_input_of_named},
     [PS_OPTION_SHIFTS] =
         {NAMED("shifts", 0, "S"), OF(BIT(variance) | BIT(shade), 0),
@@ -135,8 +135,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
     [PS_OPTION_MAX_DEGREE] =
-        {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
-         .help = "the largest degree (default {truncation:20}{quadrature:at most "
+        {NAMED("max-degree", 'l', "L"),
+         OF(SPHERES | LOBES | BIT(check) | BIT(variance) | BIT(light), 0),
+         .help = "the largest degree (default {truncation:20}{light:64}{quadrature:at most "
                  "ceil(4 sqrt N)}{shade:that of the light, at most 256}{:ceil(4 sqrt N)})",
          .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
@@ -368,8 +369,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           WORD(format)},
     [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"),
                         OF(0, PICTURES | BIT(bench) | BIT(sample) | BIT(convert)),
-                        .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
-                                "warning, and an error where nothing else is kept",
+                        .help = "draw a picture too{light:, of powers where -l is given, else of "
+                                "functions}{:}: .png, .svg or .pdf; one that fails is a warning, "
+                                "and an error where nothing else is kept",
                         FILE_OUT(plot)},
     [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, PICTURES),
                             .help = "which axes of the picture are logarithmic",
@@ -385,8 +387,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(limits.profile)},
     [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
-                         OF(0, READERS | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
-                                   BIT(run)),
+                         OF(0, READERS | SUITES | SETLESS | BIT(sample) | BIT(convert) | BIT(run)),
                          .help = "no progress line, no remarks", FLAG(quiet)},
     [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
                          .help = "leave out the cases that take more than a second or so",
@@ -396,8 +397,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "and compare the answers",
                           FLAG(scenes)},
     [PS_OPTION_VERBOSE] =
-        {NAMED("verbose", 0, NULL), OF(0, READERS | BIT(truncation)),
-         .help = "{truncation:}{:say on standard error what is being done; }all lines "
+        {NAMED("verbose", 0, NULL), OF(0, READERS | SETLESS),
+         .help = "{truncation,light:}{:say on standard error what is being done; }all lines "
                  "of the header, of which a terminal shows four",
          FLAG(verbose)},
     [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",

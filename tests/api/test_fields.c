@@ -53,6 +53,8 @@ static const char *const questions[] = {
     "integrand=coefficients:file=light.txt integrand=map:file=light.pfm smoothness=1.1,1.5 "
     "output=maps.npz engine=default",
     "interpolation files=above.txt integrand=map:file=light.pfm engine=default",
+    "light integrand=map:file=light.pfm integrand=square max-degree=2 output=light.npz "
+    "engine=default",
     "occlusion mesh=corner.obj image=4x3 reference=4 sampler=white-sphere points=4,8 "
     "image-out=image.npy engine=default",
     "occlusion mesh=corner.obj image=4x3 reference=4 files=above.txt radius=2 engine=default",

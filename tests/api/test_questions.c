@@ -185,6 +185,10 @@ static void integrands_are_measured(void **state) {
         fail_msg("%.17g instead of %.17g", found, expected);
     }
     assert_true(calls > 0);
+    pspec_question *const light = test_public_question(context, "light");
+    assert_int_equal(pspec_question_integrand(light, "x", 0.5, take_x, &calls), PSPEC_OK);
+    test_public_refuse(context, light, PSPEC_ERROR_INVALID_ARGUMENT, "caller are not known");
+    pspec_question_destroy(light);
     calls = 1000000;
     test_public_refuse(context, question, PSPEC_ERROR_INPUT, "gave no values");
     pspec_answer_destroy(answer);

@@ -34,12 +34,14 @@ tells() {
 refrains power sphere degree theta lon-lat c_lm 'Q\(l\)' 'as saved' lobe
 refrains angular ' ring' '\(2K\+1\)' 'S\(k\)' 'as saved' 'E\^2'
 refrains truncation sampler realization ring
+refrains light sampler realization ring brdf
 refrains sample 'as saved' ring
 tells power '(default 1024)' '(default 1)' 'S relative to white noise (default 1e-6)' 'S(k) = sum w' 'detected): utk-text' 'x,y,mass=xyw: xy, xyw '
 tells check '(default as saved)' '(default as saved, or 128)' '(default 2 N^(1/d))' 'on the torus)'
 tells pairs 'Q(l) over (sum |w|)^2 (default 1e-6)'
 tells quadrature 'E^2 over c (sum |w|)^2 (default 1e-10)' 'that of --brdf)' 'at most ceil(4 sqrt N))'
 tells truncation '(default 20)'
+tells light '(default 64)' 'of powers where -l is given, else of functions'
 tells variance 'a sum over a ball instead of a box'
 tells angular 'c_lm = sum w Y_lm' 'relative standard error of every degree X'
 checked=${#commands[@]}

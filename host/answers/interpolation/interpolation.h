@@ -21,8 +21,12 @@ typedef struct ps_interpolation_list {
 /* Are images of the question kept where somebody wants some? Those of the most points. */
 bool ps_interpolation_is_shown(const ps_request *request, size_t question);
 
-/* The functions, then their images. */
+/* The functions, then their images, if there are any: those of the kind `light` have none. */
 ps_make_figure ps_interpolation_figure;
+
+/* The array `light`: the functions at all pixels. */
+pspec_status ps_interpolation_add_light(ps_table *table, const ps_panorama *panorama,
+                                        ps_error *error) PS_MUST_CHECK;
 
 /* A row for every question, smoothness and function. */
 pspec_status ps_interpolation_table(ps_table **out, const ps_interpolation_list *list,

@@ -92,7 +92,8 @@ static pspec_status add_light(gallery *self, const ps_chart_part *part) {
 static size_t count(const ps_chart *chart) {
     size_t num = ps_table_find_array(chart->parts[0].table, "light")->shape[0];
     for (size_t i = 0; i < chart->num_parts; i++) {
-        num += ps_table_find_array(chart->parts[i].table, "image")->shape[0];
+        const ps_npy_array *const images = ps_table_find_array(chart->parts[i].table, "image");
+        num += images != NULL ? images->shape[0] : 0;
     }
     return num;
 }
@@ -101,15 +102,18 @@ pspec_status ps_interpolation_figure(ps_figure *out, ps_pool *memory, const ps_c
                                      ps_error *error) {
     gallery self = {.memory = memory, .error = error};
     const size_t most_columns = 3;
-    PS_TRY(PS_POOL_NEW(memory, &self.panels, count(chart), "a picture", error));
+    const size_t num = count(chart);
+    PS_TRY(PS_POOL_NEW(memory, &self.panels, num, "a picture", error));
     PS_TRY(add_light(&self, &chart->parts[0]));
-    for (size_t i = 0; i < chart->num_parts; i++) {
+    for (size_t i = 0; i < chart->num_parts && self.num < num; i++) {
         PS_TRY(add_images(&self, &chart->parts[i]));
     }
     *out = (ps_figure){.form = PS_FIGURE_POINTS,
                        .title = chart->title,
                        .num_panels = self.num,
                        .panels = self.panels,
-                       .num_columns = self.num > 4 || self.num == most_columns ? most_columns : 2};
+                       .num_columns = self.num > 4 || self.num == most_columns ? most_columns
+                                      : self.num > 1                           ? 2
+                                                                               : 1};
     return PSPEC_OK;
 }

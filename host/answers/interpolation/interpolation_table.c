@@ -152,6 +152,15 @@ static pspec_status make_images(ps_npy_array *out, const ps_panorama *panorama, 
     return ps_npy_make_array(out, sizeof shape / sizeof shape[0], shape, false, error);
 }
 
+pspec_status ps_interpolation_add_light(ps_table *table, const ps_panorama *panorama,
+                                        ps_error *error) {
+    const size_t pixels = panorama->width * panorama->height;
+    ps_npy_array array;
+    PS_TRY(make_images(&array, panorama, panorama->num, error));
+    memcpy(array.data, panorama->values, panorama->num * pixels * sizeof *panorama->values);
+    return ps_table_add_array(table, "light", false, &array, error);
+}
+
 static pspec_status add_images(ps_table *table, const ps_interpolation_list *list,
                                const ps_request *request, ps_error *error) {
     const ps_panorama *const panorama = &list->panorama;
@@ -174,9 +183,7 @@ static pspec_status add_images(ps_table *table, const ps_interpolation_list *lis
         }
     }
     PS_TRY(ps_table_add_array(table, "image", false, &array, error));
-    PS_TRY(make_images(&array, panorama, panorama->num, error));
-    memcpy(array.data, panorama->values, panorama->num * pixels * sizeof *at);
-    return ps_table_add_array(table, "light", false, &array, error);
+    return ps_interpolation_add_light(table, panorama, error);
 }
 
 pspec_status ps_interpolation_table(ps_table **out, const ps_interpolation_list *list,
