@@ -125,8 +125,14 @@ static void discard(void *computed) {
 
 /* ---- the table: a row for every degree ---------------------------------------------------- */
 
-static pspec_status add_header(ps_table *table, const ps_truncation_job *job,
-                               const ps_request *request, ps_error *error) {
+/* Series are the host's; points with the light's error are those of rules on a device. */
+static const char *name_device(const products *self) {
+    return self->device != NULL ? ps_device_get_limits(self->device)->name : "none";
+}
+
+static pspec_status add_header(ps_table *table, const products *self, const ps_request *request,
+                               ps_error *error) {
+    const ps_truncation_job *const job = &self->job;
     char check[128];
     double worst = 0;
     for (size_t l = 0; l <= job->question.max_degree; l++) {
@@ -136,7 +142,7 @@ static pspec_status add_header(ps_table *table, const ps_truncation_job *job,
              job->representer.max_degree, job->off);
     const char *const note = ps_brdf_note(job->brdf);
     const ps_meta entries[] = {
-        {"device", PS_TEXT("none")},
+        {"device", PS_TEXT(name_device(self))},
         {"engine", PS_TEXT("host")},
         {"precision", PS_TEXT("double")},
         {"tolerance", PS_NUMBER(PS_TRUNCATION_TOLERANCE)},
@@ -168,7 +174,7 @@ static pspec_status make_table(ps_table **out, const products *self, const ps_re
     const bool has_light = self->errors != NULL;
     PS_TRY(ps_table_create(out, "truncation", columns, NUM_COLUMNS - (has_light ? 0 : OF_LIGHT),
                            error));
-    PS_TRY(add_header(*out, job, request, error));
+    PS_TRY(add_header(*out, self, request, error));
     PS_TRY(has_light ? ps_light_add_header(*out, request, &self->light, error) : PSPEC_OK);
     for (size_t l = 0; l <= job->question.max_degree; l++) {
         const ps_cell cells[NUM_COLUMNS] = {
