@@ -97,19 +97,14 @@ static pspec_status write_piece(ps_device *device, const ps_buffer *buffer, size
     return PSPEC_OK;
 }
 
-/* What fits into a piece, but not into the rest of this one, is one write of the next. */
-static void skip_rest(ps_device *device, size_t bytes) {
-    const size_t at = device->staged_at % PS_STAGED_PIECE;
-    if (bytes <= PS_STAGED_PIECE && at + bytes > PS_STAGED_PIECE) {
-        device->staged_at = (device->staged_at - at + PS_STAGED_PIECE) % PS_STAGED_BYTES;
-    }
-}
-
 /* A write through pinned memory. */
 static pspec_status write_staged(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                                  const void *data, size_t bytes, ps_error *error) {
+    const size_t left = PS_STAGED_PIECE - device->staged_at % PS_STAGED_PIECE;
     size_t num = 0;
-    skip_rest(device, bytes);
+    if (bytes > left && bytes <= PS_STAGED_PIECE) { /* it is one write of the next piece */
+        device->staged_at = (device->staged_at + left) % PS_STAGED_BYTES;
+    }
     for (size_t done = 0; done < bytes; done += num) {
         const size_t at = device->staged_at % PS_STAGED_PIECE;
         const size_t rest = bytes - done;

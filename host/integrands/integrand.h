@@ -44,6 +44,7 @@ typedef struct ps_integrand_kind {
     unsigned domains;     /* bits PS_INTEGRAND_ON(ps_sampler_domain) */
     unsigned least, most; /* dimensions of the torus that it has; 0: not on the torus */
     ps_parameter parameters[PS_MAX_INTEGRAND_PARAMETERS + 1]; /* ended by key NULL */
+    bool does_without_file; /* there is such a function where its file is not named */
     /* Reads values[i] of parameters[i] and fills numbers and own. NULL: nothing to read. */
     pspec_status (*create)(ps_integrand *, const char *const *values, ps_error *);
     void (*destroy)(ps_integrand *); /* frees what own points to; NULL: nothing */

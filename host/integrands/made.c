@@ -10,12 +10,12 @@ typedef struct ps_made_integrand {
 } ps_made_integrand;
 
 static ps_integrand *find(const ps_made_integrands *made, const char *text,
-                          ps_integrand_place place) {
+                          ps_integrand_place place, uint64_t most_bytes) {
     for (size_t i = 0; i < made->num; i++) {
         const ps_made_integrand *const one = &made->all[i];
         const ps_integrand_place own = one->integrand->place;
         if (strcmp(one->text, text) == 0 && own.where == place.where &&
-            own.dimension == place.dimension) {
+            own.dimension == place.dimension && one->integrand->most_bytes == most_bytes) {
             return one->integrand;
         }
     }
@@ -26,7 +26,7 @@ pspec_status ps_integrand_take(ps_integrand **out, ps_made_integrands *made,
                                const ps_given_integrands *list, const char *text,
                                ps_integrand_place place, uint64_t most_bytes, ps_error *error) {
     void *all = made->all;
-    *out = find(made, text, place);
+    *out = find(made, text, place, most_bytes);
     if (*out != NULL) {
         return PSPEC_OK;
     }

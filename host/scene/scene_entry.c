@@ -2,6 +2,7 @@
 #include "answers/picture.h"
 #include "base/counts.h"
 #include "base/text.h"
+#include "integrands/integrand.h"
 #include "request/option_text.h"
 #include "scene/scene_file.h"
 
@@ -43,32 +44,43 @@ static pspec_status move_path(const ps_scene_file *file, const char **text, size
     return ps_text_keep(text, &file->scene->memory, &joined, file->error);
 }
 
-/* An integrand is taken without its file, as the scene's page has it then. */
+/* Is the path that of an integrand which can do without? */
+static bool is_spared(const char *text, size_t num_before, const char *key) {
+    const size_t length = strlen(key);
+    const ps_integrand_kind *kind = NULL;
+    ps_error reason = {0};
+    return num_before > length && strncmp(text + num_before - length, key, length) == 0 &&
+           ps_integrand_find(&kind, text, &reason) == PSPEC_OK && kind->does_without_file;
+}
+
+/* Such an integrand is taken without its file, as the scene's page has it then. */
 static pspec_status do_without(const ps_scene_file *file, ps_scene_value *value, size_t index,
                                const char *path, const char *after) {
     static const char key[] = "file=";
     const char *const text = value->originals[index];
     const size_t num_before = (size_t)(path - text);
-    const size_t length = sizeof key - 1;
-    if (num_before <= length || strncmp(path - length, key, length) != 0) {
+    ps_text missing = {0};
+    ps_text_append_bytes(&missing, path, (size_t)(after - path));
+    PS_TRY(ps_text_keep(&file->scene->missing, &file->scene->memory, &missing, file->error));
+    if (!is_spared(text, num_before, key)) {
         (void)ps_scene_complain(file, value->line, NULL, "cannot read \"%s\": " PS_SCENE_NO_DATA,
-                                path);
+                                file->scene->missing);
         return file->error->status = PSPEC_ERROR_IO; /* the scene may be right */
     }
     /* the mark before the key goes where nothing is behind it, else that behind the path */
     const bool is_last = *after == '\0';
-    PS_TRY(move_path(file, &value->originals[index], num_before - length - (is_last ? 1 : 0), "",
-                     is_last ? "" : after + 1));
+    PS_TRY(move_path(file, &value->originals[index], num_before - strlen(key) - (is_last ? 1 : 0),
+                     "", is_last ? "" : after + 1));
     value->texts[index] = value->originals[index];
     value->label = value->originals[0];
-    file->scene->missing = path;
     return PSPEC_OK;
 }
 
 /* "data:" stands for the folder of test data, which not every machine has. */
 static pspec_status resolve_data(const ps_scene_file *file, ps_option_input *find,
                                  ps_scene_value *value, size_t index, const char *path) {
-    const char *const folder = getenv("POINTSPEC_TEST_DATA");
+    const char *const said = getenv("POINTSPEC_TEST_DATA");
+    const char *const folder = said != NULL && said[0] != '\0' ? said : NULL;
     const size_t num_before = (size_t)(path - value->texts[index]);
     ps_text alone = {0};
     ps_text joined = {0};

@@ -63,6 +63,9 @@ grep -q 'data:sky.pfm' there/record.json || complain 'record of test data'
 POINTSPEC_TEST_DATA=$PWD/nowhere "$program" run data.yaml -o absent >/dev/null 2>err || complain 'no test data'
 says '"data:sky.pfm": it is not in the folder that POINTSPEC_TEST_DATA names; what the integrand is without a file stands in for it'
 grep -q '^# integrand_note: 64 x 32 pixels made up for want of a file' absent/*.csv || complain "no test data: $(<absent/shade-1.csv)"
+sed 's/map:width=64,file=data:sky.pfm/coefficients:file=data:lm.txt,odd/' data.yaml >others.yaml
+POINTSPEC_TEST_DATA=$PWD/nowhere "$program" run others.yaml -o others >/dev/null 2>err && complain 'coefficients of test data'
+says 'others.yaml:3: cannot read "data:lm.txt": it is not in the folder that POINTSPEC_TEST_DATA names'
 sed -i 's/data:sky.pfm/data:sky.pfm,channel=red/' data.yaml
 POINTSPEC_TEST_DATA=$PWD "$program" run data.yaml -o red --quiet >/dev/null || complain 'a parameter behind test data'
 grep -q "^# integrand: map:width=64,file=$PWD/sky.pfm,channel=red" red/*.csv || complain "red: $(<red/shade-1.csv)"

@@ -150,7 +150,12 @@ static pspec_status find_powers(map *own, size_t cutoff, ps_error *error) {
     }
     ps_torus_map_powers_free(&own->powers);
     own->powers_cutoff = cutoff > 2 * own->powers_cutoff ? cutoff : 2 * own->powers_cutoff;
-    return ps_torus_map_find_powers(&own->powers, &own->image, own->powers_cutoff, error);
+    const pspec_status status =
+        ps_torus_map_find_powers(&own->powers, &own->image, own->powers_cutoff, error);
+    if (status != PSPEC_OK) { /* the integrand may be asked again, by another question */
+        ps_torus_map_powers_free(&own->powers);
+    }
+    return status;
 }
 
 /* Linear between pixels: their transform times sinc^2 of either axis. */
@@ -227,6 +232,7 @@ const ps_integrand_kind ps_integrand_map = {
                    {"channel", "luminance", PS_MAP_CHANNELS},
                    {"clamp", "no", "yes: pixels below 0 and NaN count as 0"},
                    {"width", "1024", "pixels of a row where no file is: light made up"}},
+    .does_without_file = true,
     .create = create,
     .destroy = destroy,
     .integral = integral,
