@@ -136,6 +136,37 @@ static void boxes_and_planes(void **state) {
     free(points);
 }
 
+/* Also from far away all is seen above a plane that leans: places are as near to it as to a camera
+ * beside it. */
+static void far_cameras(void **state) {
+    enum { NUM = 64 };
+    static const double distances[] = {3, 1e3, 1e5};
+    static const double sides[2][3] = {{0, 0.1, 2}, {2, 0.2, 0}};
+    double *const points = make_points(NUM);
+    (void)state;
+    for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
+        const double far = distances[i];
+        scene asked = {.options = {.camera = {.position = {0.26 * far, 0.86 * far, 0.43 * far},
+                                              .direction = {-0.26, -0.86, -0.43},
+                                              .up = {0, 0, 1},
+                                              .width = 2.4 / far},
+                                   .width = 32,
+                                   .height = 32}};
+        ps_view view;
+        add_quad(&asked, -1, 0, -1, sides[0], sides[1]);
+        make_view(&view, &asked, 1);
+        assert_true(view.num_pixels > 32 * 32 / 2);
+        const ps_ray_set set = {points, NUM, true, SEED, 0};
+        uint32_t *const counts = count(&view, &set, NULL, 0);
+        for (size_t k = 0; k < view.num_pixels; k++) {
+            assert_int_equal(counts[k], NUM);
+        }
+        free(counts);
+        ps_view_free(&view);
+    }
+    free(points);
+}
+
 /* Hosts, CPUs and GPUs, batches, and the order of points and triangles. */
 static void same_counts(void **state) {
     enum { NUM = 333, HOST = 0, CPU = 1 };
@@ -293,9 +324,9 @@ static void cameras_that_see_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(boxes_and_planes),
-                                       cmocka_unit_test(same_counts), cmocka_unit_test(one_quad),
-                                       cmocka_unit_test(white_points),
-                                       cmocka_unit_test(cameras_that_see_nothing)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(boxes_and_planes), cmocka_unit_test(far_cameras),
+        cmocka_unit_test(same_counts),      cmocka_unit_test(one_quad),
+        cmocka_unit_test(white_points),     cmocka_unit_test(cameras_that_see_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,6 +15,15 @@
  * from the right side. */
 static const double LIFT = 0x1p-18;
 
+/* Primary rays begin so far before the middle of the mesh, outside its ball, or at the camera where
+ * that is nearer: of a far camera rounding of distances, as the cube of how far it is, would pass
+ * LIFT. */
+static const double FARTHEST = 2;
+
+typedef struct beam {
+    double from[3], ray[3];
+} beam;
+
 /* The middle of a pixel is seen along a ray. */
 typedef struct sight {
     bool is_there;
@@ -35,9 +44,10 @@ typedef struct work {
 /* ---- one ray -------------------------------------------------------------------------------- */
 
 /* 0: it does not meet the triangle. */
-static double find_distance(const work *self, size_t triangle, const double ray[3]) {
+static double find_distance(const work *self, size_t triangle, const beam *way) {
+    const double *const ray = way->ray;
     rays_cone cone;
-    if (!rays_see(&cone, self->corners + triangle * PS_CORNER_NUMBERS, self->origin, ray) ||
+    if (!rays_see(&cone, self->corners + triangle * PS_CORNER_NUMBERS, way->from, ray) ||
         !rays_meet(&cone, ray[0], ray[1], ray[2], false, 0)) {
         return 0;
     }
@@ -48,8 +58,9 @@ static double find_distance(const work *self, size_t triangle, const double ray[
     return cone.volume / sum;
 }
 
-static void make_place(const work *self, sight *out, size_t triangle, const double ray[3],
+static void make_place(const work *self, sight *out, size_t triangle, const beam *way,
                        double distance) {
+    const double *const ray = way->ray;
     const double *const corners = self->corners + triangle * PS_CORNER_NUMBERS;
     double *const normal = out->place + 3;
     double sides[2][3];
@@ -59,22 +70,31 @@ static void make_place(const work *self, sight *out, size_t triangle, const doub
     const double length = ps_vector_length(normal);
     ps_vector_scale(normal, (ps_vector_dot(normal, ray) > 0 ? -1 : 1) / length);
     for (unsigned i = 0; i < 3; i++) {
-        out->place[i] = self->origin[i] + (distance - LIFT) * ray[i] + LIFT * normal[i];
+        out->place[i] = way->from[i] + (distance - LIFT) * ray[i] + LIFT * normal[i];
     }
 }
 
-static void look(const work *self, sight *out, size_t x, size_t y) {
+static beam aim(const work *self, size_t x, size_t y) {
     const double right = ((double)x + 0.5 - (double)self->width / 2) * self->pixel;
     const double up = ((double)self->height / 2 - (double)y - 0.5) * self->pixel;
-    double ray[3];
+    beam out;
+    for (unsigned i = 0; i < 3; i++) {
+        out.ray[i] = self->axes[2][i] + right * self->axes[0][i] + up * self->axes[1][i];
+    }
+    ps_vector_scale(out.ray, 1 / ps_vector_length(out.ray));
+    const double skipped = fmax(0, -ps_vector_dot(self->origin, out.ray) - FARTHEST);
+    for (unsigned i = 0; i < 3; i++) {
+        out.from[i] = self->origin[i] + skipped * out.ray[i];
+    }
+    return out;
+}
+
+static void look(const work *self, sight *out, size_t x, size_t y) {
+    const beam way = aim(self, x, y);
     double nearest = INFINITY;
     size_t seen = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        ray[i] = self->axes[2][i] + right * self->axes[0][i] + up * self->axes[1][i];
-    }
-    ps_vector_scale(ray, 1 / ps_vector_length(ray));
     for (size_t t = 0; t < self->num_triangles; t++) {
-        const double distance = find_distance(self, t, ray);
+        const double distance = find_distance(self, t, &way);
         if (distance > 0 && distance < nearest) {
             nearest = distance;
             seen = t;
@@ -82,7 +102,7 @@ static void look(const work *self, sight *out, size_t x, size_t y) {
     }
     out->is_there = isfinite(nearest);
     if (out->is_there) {
-        make_place(self, out, seen, ray, nearest);
+        make_place(self, out, seen, &way, nearest);
     }
 }
 
