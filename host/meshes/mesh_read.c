@@ -5,8 +5,8 @@
  *     quad NAME MATERIAL X Y Z  X Y Z  X Y Z  X Y Z
  *     camera position X Y Z direction X Y Z up X Y Z focal F width W height H
  *
- * A backslash at the end continues a line, # begins a comment, and words for names, groups,
- * materials, normals and textures are passed over.
+ * A backslash at the end continues a line, but not a comment, which # begins, nor a name, which may
+ * be a path. Words for names, groups, materials, normals and textures are passed over.
  */
 #include "base/memory.h"
 #include "base/text.h"
@@ -18,9 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OTHER_WORDS                                                                                \
-    "vt|vn|vp|o|g|s|l|p|mtllib|usemtl|usemap|maplib|mg|lod|bevel|c_interp|d_interp|"               \
-    "shadow_obj|trace_obj|rgb"
+#define NAME_WORDS "o|g|mtllib|usemtl|usemap|maplib|shadow_obj|trace_obj|rgb"
+#define NUMBER_WORDS "vt|vn|vp|s|l|p|mg|lod|bevel|c_interp|d_interp"
 
 /* Squares and products of three of them are numbers still. */
 static const double MOST_COORDINATE = 1e30;
@@ -36,11 +35,21 @@ typedef struct reader {
 
 /* ---- tokens -------------------------------------------------------------------------------- */
 
-/* Does a backslash end the line at text? */
+static bool has_comment(const char *text, const char *end) {
+    for (const char *at = text; at < end; at++) {
+        if (*at == '#' && (at == text || at[-1] == ' ' || at[-1] == '\t')) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Does a backslash end the line at text, which has no comment and does not begin with a name? */
 static bool is_continued(const reader *self, const char *text) {
     const char *last = memchr(text, '\n', (size_t)(self->lines.lines_end - text));
     last -= last > text && last[-1] == '\r' ? 1 : 0;
-    return last > text && last[-1] == '\\';
+    return last > text && last[-1] == '\\' && !has_comment(text, last) &&
+           !(text == self->lines.cursor && ps_token_is_one_of(ps_skip_blanks(text), NAME_WORDS));
 }
 
 /* To the next token of the statement; false at its end. */
@@ -221,7 +230,7 @@ static const struct {
                   {"f|fo", read_face},
                   {"quad", read_quad},
                   {"camera", read_camera},
-                  {OTHER_WORDS, NULL}};
+                  {NAME_WORDS "|" NUMBER_WORDS, NULL}};
 
 static pspec_status read_statement(reader *self, ps_error *error) {
     for (size_t i = 0; i < sizeof statements / sizeof statements[0]; i++) {

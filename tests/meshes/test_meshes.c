@@ -39,8 +39,10 @@ static void faces(void **state) {
          "vn 0 0 1\r\nvt 0 0\r\nusemtl b\r\ns off\r\nf 1//1 2//1 3//1 4//1 # end\r\n"),
         "v 0 0 0\nv 2 0 0\nv 2 1.5 0\nv 0 1.5 -1e-3\nf -4/1 -3/2/1 3/1 4\n",
         "v 0 0 \\\n0\nv 2 0 0\\\n\nv 2 1.5 0\nv 0 1.5 -1e-3\nf 1 \\\r\n 2 3\\\n4",
+        ("# C:\\\nv 0 0 0 # C:\\\nmtllib C:\\\nv 2 0 0\nvn 0 \\\n0 1\nv 2 1.5 0\n \t#\\\r\n"
+         "v 0 1.5 -1e-3\nusemtl a \\\r\nf 1 2 \\\n3 4 # \\\no \\"),
         "v 9 9 9\nv 0 0 0\nv 2 0 0\nv 2 1.5 0\nf 2 3 4\nv 0 1.5 -1e-3\nfo 2 4 5\n",
-        "quad floor white 0 0 0  2 0 0  2 1.5 0  0 1.5 -1e-3\nrgb white 1 1 1\n"};
+        "quad \\\no white \\\n0 0 0  2 0 0  2 1.5 0  0 1.5 -1e-3\nrgb white 1 1 1\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         check_triangles(*state, texts[i], square, 2);
     }
