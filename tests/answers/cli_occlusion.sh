@@ -74,6 +74,21 @@ if command -v gnuplot >/dev/null; then
     [[ -s folder/occlusion-1-picture-1.svg && $(<folder/occlusion-1-mse.svg) == *slope* ]] || complain "pictures of a scene: $(ls folder)"
 fi
 
+# memory: what is planned is refused where less is allowed, and enough where it is, with a set of a file, too
+"$program" plan occlusion "${asked[@]}" --sampler white-sphere -n 5000 --format csv >planned || complain 'plan'
+bytes=$(awk -F, '$2 == "chosen" { print $4 }' planned)
+((bytes > 3 * 8 * 5000 + 120 * 28)) || complain "planned bytes: $bytes"
+"$program" sample --sampler white-sphere -n 5000 -o many.txt
+runs 0 "${asked[@]}" --sampler white-sphere -n 5000 --memory "$bytes"
+for source in '--sampler white-sphere -n 5000' many.txt; do
+    # shellcheck disable=SC2086
+    runs 1 "${asked[@]}" $source --memory $((bytes - 1))
+    says "sets of 5000 directions take $bytes bytes, more than the memory limit (--memory) of $((bytes - 1))"
+done
+runs 1 --mesh corner.obj --image 4096x4096 --sampler white-sphere -n 4 --memory 100M
+says '4096 x 4096 pixels and sets of 1024 directions take'
+runs 1 "${asked[@]}" --reference 400000 --sampler white-sphere -n 4 --memory 1M
+
 # what is refused
 refuses '--mesh FILE is needed' --sampler white-sphere
 refuses 'makes points of the torus' "${asked[@]}" --sampler white

@@ -64,6 +64,11 @@ static pspec_status check_sampler(const ps_sampler_request *sampler, const char 
                          name);
 }
 
+/* V of each question; it and its error as an array; the reference, and its array. */
+static size_t count_images(const ps_occlusion *self) {
+    return 3 * self->num + 2;
+}
+
 static ps_occlusion_question make_question(ps_occlusion *self, const ps_request *request,
                                            size_t i) {
     const ps_lift lift = request->reading.lift;
@@ -77,6 +82,8 @@ static ps_occlusion_question make_question(ps_occlusion *self, const ps_request 
         .point_options = ps_point_options_make(request),
         .is_folded = request->hemisphere || lift == PS_LIFT_TO_HEMISPHERE,
         .seed = request->seed,
+        .memory_limit = request->limits.constraints.memory_limit,
+        .num_images = count_images(self),
         .name = request->num_sources > 0 ? ps_request_name(request, i) : NULL,
         .watch = &self->watch};
     out.point_options.domain = PS_DOMAIN_SPHERE;
@@ -135,6 +142,27 @@ static ps_camera choose_camera(const ps_request *request, const ps_mesh *mesh) {
     return out;
 }
 
+static pspec_status open_device(ps_occlusion *self, const ps_request *request, ps_device *open,
+                                ps_error *error) {
+    return ps_limits_open_device(&request->limits, open, request->limits.device == NULL,
+                                 &self->device, &self->owns_device, error);
+}
+
+/* Before there is a view. Sets of files are looked at as they are read. */
+static ps_occlusion_size find_size(ps_occlusion *self, const ps_request *request) {
+    ps_occlusion_size out = {&self->view, ps_reference_points(request->num_reference),
+                             count_images(self), self->device};
+    self->view = (ps_view){.width = request->image[0],
+                           .height = request->image[1],
+                           .num_triangles = self->mesh.num_triangles};
+    for (size_t i = 0; i < self->num; i++) {
+        const ps_sampler_request *const sampler = self->questions[i].sampler;
+        const size_t num = sampler != NULL ? ps_sampler_most_points(sampler) : 0;
+        out.num_points = num > out.num_points ? num : out.num_points;
+    }
+    return out;
+}
+
 /* ---- plan ---------------------------------------------------------------------------------- */
 
 /* Of a triangle that is tried by a ray, on one core (AVX-512, PoCL 3.1: bench_occlusion), and of a
@@ -143,7 +171,8 @@ static const double try_seconds = 1.7e-10;
 static const double primary_seconds = 1e-8;
 
 static pspec_status add_plan(ps_planner *planner, const ps_occlusion *self,
-                             const ps_request *request, ps_error *error) {
+                             const ps_occlusion_size *size, const ps_request *request,
+                             ps_error *error) {
     ps_phases phases = ps_plan_table_begin_phases(planner);
     const double pixels = (double)request->image[0] * (double)request->image[1];
     const double triangles = (double)self->mesh.num_triangles;
@@ -164,20 +193,22 @@ static pspec_status add_plan(ps_planner *planner, const ps_occlusion *self,
     ps_phases_say(&phases, "rays", "%.4g rays from each of %.0f pixels, %.0f triangles", rays,
                   pixels, triangles);
     ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_host(planner, &phases, 0, "every triangle is tried by every ray",
-                                  error);
+    return ps_plan_table_add_host(planner, &phases, (double)ps_occlusion_bytes(size),
+                                  "every triangle is tried by every ray", error);
 }
 
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
     ps_occlusion *self = NULL;
+    pspec_status status = PSPEC_OK;
     PS_TRY(PS_NEW(&self, 1, "a plan", error));
-    pspec_status status = make_questions(self, request, error);
-    if (status == PSPEC_OK) {
-        status = ps_mesh_read(&self->mesh, request->mesh, error);
-    }
-    if (status == PSPEC_OK) {
-        status = add_plan(planner, self, request, error);
-    }
+    PS_TRY_OUT(status, make_questions(self, request, error));
+    PS_TRY_OUT(status, ps_mesh_read(&self->mesh, request->mesh, error));
+    PS_TRY_OUT(status, open_device(self, request, planner->device, error));
+    const ps_occlusion_size size = find_size(self, request);
+    PS_TRY_OUT(status,
+               ps_occlusion_check_memory(&size, request->limits.constraints.memory_limit, error));
+    status = add_plan(planner, self, &size, request, error);
+out:
     discard(self);
     return status;
 }
@@ -188,6 +219,8 @@ static pspec_status look(ps_occlusion *self, const ps_request *request, ps_error
     ps_view_options options = {
         .width = request->image[0], .height = request->image[1], .radius = request->radius};
     PS_TRY(ps_mesh_read(&self->mesh, request->mesh, error));
+    const ps_occlusion_size size = find_size(self, request);
+    PS_TRY(ps_occlusion_check_memory(&size, request->limits.constraints.memory_limit, error));
     options.camera = choose_camera(request, &self->mesh);
     PS_TRY(ps_view_make(&self->view, &self->mesh, &options, &self->watch, error));
     return ps_reference_make(&self->reference, &self->view, request->num_reference, request->seed,
@@ -201,8 +234,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     ps_device *open = NULL;
     PS_TRY(make_questions(self, request, error));
     ps_answer_begin_job(hooks, &self->watch, &open);
-    PS_TRY(ps_limits_open_device(&request->limits, open, request->limits.device == NULL,
-                                 &self->device, &self->owns_device, error));
+    PS_TRY(open_device(self, request, open, error));
     PS_TRY(look(self, request, error));
     for (size_t i = 0; i < self->num; i++) {
         self->questions[i].device = self->device;

@@ -22,6 +22,31 @@ typedef struct work {
     ps_neumaier seen, points;
 } work;
 
+/* ---- memory ---------------------------------------------------------------------------------- */
+
+uint64_t ps_occlusion_bytes(const ps_occlusion_size *size) {
+    const uint64_t pixels = (uint64_t)size->view->width * size->view->height;
+    const ps_view all = {.num_pixels = pixels, .num_triangles = size->view->num_triangles};
+    /* counts, and sums of two kinds for the reference */
+    const uint64_t of_pixel =
+        sizeof(uint32_t) + 2 * sizeof(double) + size->num_images * sizeof(double);
+    return pixels * of_pixel + 3 * size->num_points * sizeof(double) +
+           ps_view_bytes(pixels, all.num_triangles) +
+           ps_rays_bytes(&all, size->num_points, size->device);
+}
+
+pspec_status ps_occlusion_check_memory(const ps_occlusion_size *size, uint64_t limit,
+                                       ps_error *error) {
+    const uint64_t bytes = ps_occlusion_bytes(size);
+    return limit == 0 || bytes <= limit
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%zu x %zu pixels and sets of %zu directions take %llu bytes, more than "
+                         "the memory limit (--memory) of %llu",
+                         size->view->width, size->view->height, size->num_points,
+                         (unsigned long long)bytes, (unsigned long long)limit);
+}
+
 /* ---- sets ----------------------------------------------------------------------------------- */
 
 static bool is_folded(const ps_occlusion_question *question) {
@@ -78,6 +103,9 @@ static pspec_status make_room(work *self, ps_error *error) {
     if (self->rays != NULL && self->set.num_points <= self->most_points) {
         return PSPEC_OK;
     }
+    const ps_occlusion_size size = {question->view, self->set.num_points, question->num_images,
+                                    question->device};
+    PS_TRY(ps_occlusion_check_memory(&size, question->memory_limit, error));
     ps_rays_destroy(self->rays);
     self->rays = NULL;
     self->most_points = self->set.num_points;

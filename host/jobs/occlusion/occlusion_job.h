@@ -29,7 +29,22 @@ enum { PS_REFERENCE_SETS = 4 };
 pspec_status ps_reference_make(ps_reference *out, const ps_view *view, uint64_t num_rays,
                                uint64_t seed, ps_device *device, const ps_watch *watch,
                                ps_error *error) PS_MUST_CHECK;
+/* Of each of its sets. */
+size_t ps_reference_points(uint64_t num_rays);
 void ps_reference_free(ps_reference *reference);
+
+/* What sets of at most num_points from a view take, of which width, height and num_triangles are
+ * looked at: points, rays, the view, what is added up of pixels, and num_images of them. */
+typedef struct ps_occlusion_size {
+    const ps_view *view;
+    size_t num_points;
+    size_t num_images;
+    ps_device *device;
+} ps_occlusion_size;
+uint64_t ps_occlusion_bytes(const ps_occlusion_size *size);
+/* limit: bytes; 0: none. More is PSPEC_ERROR_MEMORY. */
+pspec_status ps_occlusion_check_memory(const ps_occlusion_size *size, uint64_t limit,
+                                       ps_error *error) PS_MUST_CHECK;
 
 typedef struct ps_occlusion_question {
     const ps_view *view;
@@ -45,6 +60,8 @@ typedef struct ps_occlusion_question {
     uint64_t seed;     /* of the turns of files; a sampler has its own */
     const char *name;  /* of files beside others, whose turns are their own; NULL: files alone */
     ps_device *device; /* NULL: the host does it */
+    uint64_t memory_limit; /* bytes; 0: none */
+    size_t num_images;     /* that are kept of all questions */
     const ps_watch *watch;
 } ps_occlusion_question;
 

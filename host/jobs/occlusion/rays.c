@@ -55,6 +55,18 @@ static size_t num_pieces(const ps_rays *self, size_t num_points) {
     return ps_divide_up(num_points, self->lanes * self->vectors);
 }
 
+uint64_t ps_rays_bytes(const ps_view *view, size_t most_points, ps_device *device) {
+    ps_rays self = {.view = view, .device = device};
+    choose_sizes(&self, most_points);
+    const uint64_t pieces = device != NULL ? num_pieces(&self, self.capacity) : 1;
+    const uint64_t both = self.batch * PS_TURN_NUMBERS * sizeof(float) +
+                          3 * self.capacity * sizeof(float) +
+                          pieces * self.batch * sizeof(uint32_t);
+    const uint64_t scene = view->num_triangles * PS_CORNER_NUMBERS * sizeof(float) +
+                           view->num_pixels * PS_PLACE_NUMBERS * sizeof(float);
+    return device != NULL ? 2 * both + scene : both;
+}
+
 static pspec_status create_buffers(ps_rays *self, ps_error *error) {
     const ps_view *const view = self->view;
     const ps_wanted_buffer wanted[] = {

@@ -21,6 +21,8 @@ typedef struct ps_ray_set {
 /* For sets of at most so many points. Borrows the view and the device; NULL: on the host. */
 pspec_status ps_rays_create(ps_rays **out, const ps_view *view, size_t most_points,
                             ps_device *device, ps_error *error) PS_MUST_CHECK;
+/* What they take there and here. Of the view only num_pixels and num_triangles are looked at. */
+uint64_t ps_rays_bytes(const ps_view *view, size_t most_points, ps_device *device);
 void ps_rays_destroy(ps_rays *rays); /* NULL is allowed */
 /* counts[num_pixels] of the view. */
 pspec_status ps_rays_count(ps_rays *rays, const ps_ray_set *set, uint32_t *counts,

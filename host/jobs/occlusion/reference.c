@@ -77,10 +77,18 @@ out:
     return status;
 }
 
+static size_t strata(uint64_t num_rays) {
+    return (size_t)ceil(sqrt((double)num_rays / PS_REFERENCE_SETS));
+}
+
+size_t ps_reference_points(uint64_t num_rays) {
+    return strata(num_rays) * strata(num_rays);
+}
+
 pspec_status ps_reference_make(ps_reference *out, const ps_view *view, uint64_t num_rays,
                                uint64_t seed, ps_device *device, const ps_watch *watch,
                                ps_error *error) {
-    const size_t n = (size_t)ceil(sqrt((double)num_rays / PS_REFERENCE_SETS));
+    const size_t n = strata(num_rays);
     const uint64_t own_seed = ps_random_seed_of(seed, PS_STREAM_TRIALS, "reference\n");
     ps_rays *rays = NULL;
     *out = (ps_reference){.num_rays = PS_REFERENCE_SETS * n * n};

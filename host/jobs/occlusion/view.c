@@ -194,6 +194,11 @@ pspec_status ps_view_make(ps_view *out, const ps_mesh *mesh, const ps_view_optio
     return status;
 }
 
+uint64_t ps_view_bytes(size_t num_pixels, size_t num_triangles) {
+    return num_pixels * (sizeof(uint32_t) + PS_PLACE_NUMBERS * sizeof(float) + sizeof(sight)) +
+           num_triangles * PS_CORNER_NUMBERS * (sizeof(float) + sizeof(double));
+}
+
 void ps_view_free(ps_view *view) {
     free(view->corners);
     free(view->pixels);

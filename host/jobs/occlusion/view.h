@@ -33,5 +33,7 @@ typedef struct ps_view {
 pspec_status ps_view_make(ps_view *out, const ps_mesh *mesh, const ps_view_options *options,
                           const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
 void ps_view_free(ps_view *view);
+/* What it takes while it is made. */
+uint64_t ps_view_bytes(size_t num_pixels, size_t num_triangles);
 
 #endif
