@@ -111,17 +111,26 @@ pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) {
     return ps_table_set_meta(planner->table, "seconds", PS_TEXT(text), error);
 }
 
-pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases, double bytes,
-                                    const char *reason, ps_error *error) {
-    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT("host"),
+pspec_status ps_plan_table_add_only(ps_planner *planner, const ps_phases *phases,
+                                    const ps_only_way *way, ps_error *error) {
+    const ps_device_limits *const limits = ps_device_get_limits(way->device);
+    const double bytes = way->bytes;
+    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(limits != NULL ? way->engine : "host"),
                                         PS_TEXT("chosen"),
                                         PS_NUMBER(ps_phases_seconds(phases)),
                                         bytes > 0 ? PS_INTEGER(bytes) : PS_MISSING,
                                         PS_MISSING,
-                                        PS_TEXT(reason)};
-    PS_TRY(ps_table_add_meta(planner->table, "device", PS_TEXT("none"), error));
+                                        PS_TEXT(way->reason)};
+    PS_TRY(ps_table_add_meta(planner->table, "device",
+                             PS_TEXT(limits != NULL ? limits->name : "none"), error));
     PS_TRY(ps_plan_table_add_phases(planner, phases, error));
     return add_row(planner, cells, error);
+}
+
+pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases, double bytes,
+                                    const char *reason, ps_error *error) {
+    const ps_only_way way = {.bytes = bytes, .reason = reason};
+    return ps_plan_table_add_only(planner, phases, &way, error);
 }
 
 /* ---- jobs ---------------------------------------------------------------------------------- */

@@ -54,8 +54,17 @@ typedef struct ps_planned {
 pspec_status ps_plan_table_add_job(ps_planner *planner, const ps_request *request,
                                    const ps_planned *job, size_t index,
                                    ps_error *error) PS_MUST_CHECK;
-/* What the host does without a choice of engines, and why: phases that were begun here, as header
- * lines and one row. bytes: 0 where they are not counted. */
+/* What is done without a choice of engines, and why: phases that were begun here, as header lines
+ * and one row. */
+typedef struct ps_only_way {
+    ps_device *device;  /* NULL: the host does it */
+    const char *engine; /* what the device's is called */
+    double bytes;       /* 0: they are not counted */
+    const char *reason;
+} ps_only_way;
+pspec_status ps_plan_table_add_only(ps_planner *planner, const ps_phases *phases,
+                                    const ps_only_way *way, ps_error *error) PS_MUST_CHECK;
+/* As the host alone does it. */
 pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases, double bytes,
                                     const char *reason, ps_error *error) PS_MUST_CHECK;
 ps_phases ps_plan_table_begin_phases(ps_planner *planner);

@@ -304,7 +304,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                       "xyz, with w if there are weights)",
                               WORD(to_columns)},
     [PS_OPTION_TOLERANCE] =
-        {NAMED("tol", 0, "T"), OF(READERS, 0),
+        {NAMED("tol", 0, "T"), OF(ENGINES | BIT(interpolation), 0),
          .help = "largest error, above 0 and at most 1, of {pairs:Q(l) over (sum "
                  "|w|)^2 (default 1e-6)}{quadrature,shade:E^2 over c (sum |w|)^2 (default "
                  "1e-10)}{interpolation:K alpha over f by conjugate gradients (default 1e-12)}{:S "

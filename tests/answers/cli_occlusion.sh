@@ -80,6 +80,7 @@ bytes=$(awk -F, '$2 == "chosen" { print $4 }' planned)
 ((bytes > 3 * 8 * 5000 + 120 * 28)) || complain "planned bytes: $bytes"
 "$program" sample --sampler white-sphere -n 5000 -o many.txt
 runs 0 "${asked[@]}" --sampler white-sphere -n 5000 --memory "$bytes"
+[[ $(<planned) == *"# device: $(key device)"*"$(key engine),chosen,"* ]] || complain "engine of the plan: $(<planned)"
 for source in '--sampler white-sphere -n 5000' many.txt; do
     # shellcheck disable=SC2086
     runs 1 "${asked[@]}" $source --memory $((bytes - 1))
@@ -90,6 +91,7 @@ says '4096 x 4096 pixels and sets of 1024 directions take'
 runs 1 "${asked[@]}" --reference 400000 --sampler white-sphere -n 4 --memory 1M
 
 # what is refused
+refuses 'is not an option of this command' "${asked[@]}" --sampler white-sphere --tol 1e-6
 refuses '--mesh FILE is needed' --sampler white-sphere
 refuses 'makes points of the torus' "${asked[@]}" --sampler white
 refuses 'morphed points are denser' "${asked[@]}" --sampler white-hemisphere:morph=diffuse

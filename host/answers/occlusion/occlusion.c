@@ -193,8 +193,9 @@ static pspec_status add_plan(ps_planner *planner, const ps_occlusion *self,
     ps_phases_say(&phases, "rays", "%.4g rays from each of %.0f pixels, %.0f triangles", rays,
                   pixels, triangles);
     ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_host(planner, &phases, (double)ps_occlusion_bytes(size),
-                                  "every triangle is tried by every ray", error);
+    const ps_only_way way = {self->device, PS_RAYS_ENGINE, (double)ps_occlusion_bytes(size),
+                             "every triangle is tried by every ray"};
+    return ps_plan_table_add_only(planner, &phases, &way, error);
 }
 
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {

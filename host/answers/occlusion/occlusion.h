@@ -6,6 +6,8 @@
 #include "jobs/occlusion/occlusion_job.h"
 #include "request/file_list.h"
 
+#define PS_RAYS_ENGINE "rays"
+
 typedef struct ps_occlusion {
     size_t num;
     ps_occlusion_question *questions; /* [num] */

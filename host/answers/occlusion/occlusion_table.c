@@ -66,7 +66,7 @@ static pspec_status begin_header(ps_table *table, const ps_occlusion *self,
         {"reference_visibility", PS_NUMBER(self->reference.mean)},
         {"reference_variance", PS_NUMBER(self->reference.variance)},
         {"device", PS_TEXT(limits != NULL ? limits->name : "none")},
-        {"engine", PS_TEXT(limits != NULL ? "rays" : "host")},
+        {"engine", PS_TEXT(limits != NULL ? PS_RAYS_ENGINE : "host")},
         {"precision", PS_TEXT("single")},
         {"skipped", PS_TEXT("none")},
     };
