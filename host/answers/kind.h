@@ -132,7 +132,8 @@ typedef struct ps_command {
     const ps_field_row *const *fields; /* lists of all that its tables have, ended by NULL */
 
     /* The question of a kind of answer. */
-    bool is_of_host; /* no device is needed, whatever is asked */
+    bool is_of_host;      /* no device is needed, whatever is asked */
+    bool may_lack_device; /* without any the host does the same work */
     bool has_images; /* its answers may have a picture, which scenes ask for by the key pictures */
     bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
     bool has_coefficients; /* or coefficients, by arrays: coefficients */
@@ -197,6 +198,11 @@ extern const ps_kind ps_kind_points;
 /* Does the option belong to the question? */
 static inline bool ps_kind_asks(const ps_kind *kind, ps_option_id id) {
     return (ps_options[id].questions & kind->takes) != 0;
+}
+/* What opening a device for it comes to: kinds that may lack one begin without, and fail themselves
+ * where that one was named. */
+static inline pspec_status ps_kind_without_device(const ps_kind *kind, pspec_status opened) {
+    return opened == PSPEC_ERROR_NO_DEVICE && kind->may_lack_device ? PSPEC_OK : opened;
 }
 /* Every command takes --help, also when the table of options does not say so. */
 static inline bool ps_command_takes(const ps_command *command, ps_option_id id) {

@@ -179,7 +179,7 @@ static pspec_status produce(ps_answer *out, const ps_command *row, pspec_questio
     }
     PS_TRY(row->check_question(request, error)); /* before a device is opened for nothing */
     if (!row->is_of_host && ps_plan_may_need_device(&request->limits.constraints)) {
-        PS_TRY(ps_context_open_device(question->context));
+        PS_TRY(ps_kind_without_device(row, ps_context_open_device(question->context)));
     }
     const ps_answer_hooks hooks = hooks_of(question);
     return ps_answer_produce(out, row, request, &hooks, error);

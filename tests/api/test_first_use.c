@@ -103,6 +103,35 @@ static void first_uses_coincide(void **state) {
     test_free_sample(&what);
 }
 
+static pspec_status answer_of(const char *words) {
+    pspec_context *const context = pspec_context_create();
+    pspec_question *const question = test_public_question(context, words);
+    pspec_answer *answer = NULL;
+    const pspec_status status = pspec_question_answer(&answer, question);
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
+    pspec_context_destroy(context);
+    return status;
+}
+
+/* Where no driver is, kinds that may lack a device have answers all the same. In a process of its
+ * own: drivers are looked for once. */
+static void some_lack_a_device(void **state) {
+    int status = 0;
+    (void)state;
+    const pid_t child = fork();
+    if (child == 0) {
+        setenv("OCL_ICD_VENDORS", "/dev/null/no-drivers", 1);
+        const pspec_status needed = answer_of("power sampler=white points=4 max-frequency=1");
+        const pspec_status lacking =
+            answer_of("interpolation integrand=diffuse sampler=fibonacci points=16");
+        _exit(needed == PSPEC_ERROR_NO_DEVICE && lacking == PSPEC_OK ? 0 : 1 + (int)lacking);
+    }
+    assert_true(child > 0 && waitpid(child, &status, 0) == child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
 /* 77: no device, nothing to test. */
 static bool has_device(void) {
     int status = 0;
@@ -120,7 +149,8 @@ static bool has_device(void) {
 
 int main(void) {
     const int skipped = 77;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(first_uses_coincide)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(first_uses_coincide),
+                                       cmocka_unit_test(some_lack_a_device)};
     if (!has_device()) {
         puts("first_use: no OpenCL device, skipped");
         return skipped;

@@ -76,6 +76,31 @@ if [[ -e $simulator && -e /etc/OpenCL/vendors/pocl.icd ]]; then
 fi
 
 export OCL_ICD_VENDORS=$PWD/empty
+# Kinds that may lack a device give the rows of their commands in a scene, too; beside one that needs it, that is refused.
+printf 'v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 5 4\n' >corner.obj
+cat >both.yaml <<'SCENE'
+scene: 1
+results:
+  - {result: occlusion, name: corner, mesh: corner.obj, image: 6x4, reference: 64, sampler: white-sphere, points: 8, plot: false}
+  - {result: interpolation, name: lobe, integrand: diffuse, sampler: fibonacci, points: 16, plot: false}
+SCENE
+"$program" plan run both.yaml >out 2>err || complain "plan of kinds that may lack a device: $(<err)"
+"$program" run both.yaml -o lacking --cache 0 --quiet >out 2>err || complain "kinds that may lack a device: $(<err)"
+"$program" occlusion --mesh corner.obj --image 6x4 --reference 64 --sampler white-sphere -n 8 -o corner.csv
+"$program" interpolation --integrand diffuse --sampler fibonacci -n 16 -o lobe.csv
+for name in corner lobe; do
+    [[ $(tail -1 lacking/$name.csv) == $(tail -1 $name.csv) ]] || complain "$name: $(tail -1 lacking/$name.csv) $(tail -1 $name.csv)"
+done
+"$program" interpolation --integrand diffuse --sampler fibonacci -n 700,701 --memory 2.5M -o large.csv 2>err ||
+    complain "two numbers of points without a matrix: $(<err)"
+grep -q '^# engine: conjugate gradients' large.csv || complain "engine: $(<large.csv)"
+code=0
+"$program" run both.yaml -o named --cache 0 --quiet --device cpu >out 2>err || code=$?
+[[ $code == 1 && $(<err) == *"no OpenCL driver found"* ]] || complain "a device was named: exit $code: $(<err)"
+printf '  - {result: power, samplers: white, points: 16, max-frequency: 4, plot: false}\n' >>both.yaml
+code=0
+"$program" run both.yaml -o needed --cache 0 --quiet >out 2>err || code=$?
+[[ $code == 1 && $(<err) == *"no OpenCL driver found"*host_direct* ]] || complain "one needs a device: exit $code: $(<err)"
 "$program" plan power --sampler white -n 16 -k 4 >out 2>err || complain "plan: $(<err)"
 [[ $(<out) == *"# no_device: no OpenCL driver found"*$'\nhost_direct:extended,chosen'* &&
     $(grep -c 'needs an OpenCL device' out) == 4 ]] || complain "plan: $(<out)"

@@ -168,8 +168,10 @@ static pspec_status open_device(ps_interpolation_list *self, const ps_request *r
         num_large += sampler != NULL && !ps_interpolation_is_dense(&self->questions[i],
                                                                    ps_sampler_most_points(sampler));
     }
-    return ps_answer_open_device(&self->device, request, &request->limits.constraints, num_large,
-                                 hooks, error);
+    return ps_kind_without_device(&ps_kind_interpolation,
+                                  ps_answer_open_device(&self->device, request,
+                                                        &request->limits.constraints, num_large,
+                                                        hooks, error));
 }
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
@@ -265,6 +267,7 @@ const ps_kind ps_kind_interpolation = {
     .takes = PS_COMMAND_BIT(interpolation),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
+    .may_lack_device = true,
     .has_images = true,
     .has_arrays = true,
     .check_arguments = check_arguments,

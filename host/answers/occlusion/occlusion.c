@@ -298,6 +298,7 @@ const ps_kind ps_kind_occlusion = {
     .takes = PS_COMMAND_BIT(occlusion),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
+    .may_lack_device = true,
     .has_images = true,
     .has_arrays = true,
     .check_question = check_question,

@@ -107,9 +107,11 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question, ps
         !ps_plan_may_need_device(constraints)) {
         return PSPEC_OK;
     }
-    run->owns_device = true;
-    return ps_figures_open_device(&run->device, run->arguments->limits.device, false,
-                                  run->arguments->limits.cache_folder, error);
+    const pspec_status opened =
+        ps_figures_open_device(&run->device, run->arguments->limits.device, false,
+                               run->arguments->limits.cache_folder, error);
+    run->owns_device = opened == PSPEC_OK;
+    return ps_kind_without_device(question->asked.result->kind, opened);
 }
 
 static pspec_status answer_one(ps_run *run, ps_run_question *question, ps_error *error) {
