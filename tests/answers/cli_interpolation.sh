@@ -25,6 +25,19 @@ runs 0 "${sky[@]}" --sampler white-sphere -n 16 -m 3
 runs 0 "${sky[@]}" --integrand coefficients:file=light.txt --sampler white-sphere -n 16 -m 3
 [[ $(grep '^16,1.5,map' out | cut -d, -f4-) == $(tail -1 both | cut -d, -f4-) ]] || complain "two functions: $(<out)"
 
+# sets that are the same are interpolated at once, unless nothing is to be skipped: the same error, in each of them
+for skip in '' --no-skip; do
+    runs 0 "${sky[@]}" --sampler fibonacci -n 16 -m 5 $skip
+    [[ $(key skipped) == "$([[ $skip ]] && echo none || echo 'all realizations but the first: they are the same')" &&
+        $(key realizations) == "$([[ $skip ]] && echo 5 || echo 1)" ]] || complain "skipped: $skip $(<out)"
+    "$program" plan interpolation "${sky[@]}" --sampler fibonacci -n 16 -m 5 $skip >planned
+    grep -q "; $([[ $skip ]] && echo 80 || echo 16) of fibonacci" planned || complain "plan: $skip $(<planned)"
+    tail -1 out | cut -d, -f3 >>skips
+    tail -1 out | cut -d, -f4 >>skips
+done
+awk 'NR == 1 { first = $1 } NR == 3 && !(sqrt(($1 / first - 1) ^ 2) < 1e-14) { exit 1 } NR == 4 && !($1 != "" && $1 < 1e-8) { exit 1 }' skips ||
+    complain "errors with and without skips: $(<skips)"
+
 # files of the same points; weights of them change nothing
 "$program" sample --sampler fibonacci -n 16 -o points.npy
 "$program" convert points.npy -o points.txt

@@ -79,6 +79,7 @@ static pspec_status fill_question(ps_interpolation_list *self, size_t index,
                                        .residual = has_tolerance ? request->accuracy.tolerance : 0,
                                        .keeps_images = wants_images(request) &&
                                                        ps_interpolation_is_shown(request, index),
+                                       .no_skip = request->accuracy.no_skip,
                                        .limits = request->limits};
     out->point_options.domain = PS_DOMAIN_SPHERE;
     out->point_options.ignore_weights = true;

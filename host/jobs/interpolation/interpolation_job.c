@@ -41,8 +41,8 @@ uint64_t ps_interpolation_bytes(const ps_interpolation_question *question, size_
 /* A set that is the same every time is interpolated at once. */
 uint64_t ps_interpolation_num_sets(const ps_interpolation_question *question) {
     const ps_sampler_request *const sampler = question->sampler;
-    const bool is_same =
-        sampler != NULL && !sampler->homogenize && ps_sampler_has_constant_power(sampler);
+    const bool is_same = sampler != NULL && !question->no_skip && !sampler->homogenize &&
+                         ps_sampler_has_constant_power(sampler);
     return is_same ? 1 : question->num_realizations;
 }
 
@@ -52,7 +52,7 @@ static pspec_status open_source(ps_interpolation_job *job, ps_error *error) {
     const ps_interpolation_question *const question = job->question;
     ps_source **const source = &job->sets.source;
     if (question->sampler != NULL) {
-        const ps_sets_options options = ps_limits_sets(&question->limits, false);
+        const ps_sets_options options = ps_limits_sets(&question->limits, question->no_skip);
         return ps_source_sampler(source, question->sampler, ps_interpolation_num_sets(question),
                                  &options, &question->watch, error);
     }

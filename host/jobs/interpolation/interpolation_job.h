@@ -31,6 +31,7 @@ typedef struct ps_interpolation_question {
     ps_point_options point_options;
     double residual; /* of conjugate gradients; 0: that of ps_kernel_options */
     bool keeps_images;
+    bool no_skip; /* sets that are the same every time are computed as often as others */
     ps_limits_spec limits;
     bool may_lack_device;   /* to be planned only: nobody has opened one */
     ps_device *open_device; /* borrowed; NULL: the one that limits.device selects is opened */

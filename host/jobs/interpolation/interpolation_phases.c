@@ -8,7 +8,7 @@
 static double add_points(const ps_interpolation_job *job, ps_phases *phases) {
     const ps_interpolation_question *const question = job->question;
     if (question->sampler != NULL) {
-        const ps_sets_options sets = ps_limits_sets(&question->limits, false);
+        const ps_sets_options sets = ps_limits_sets(&question->limits, question->no_skip);
         const double num = (double)ps_interpolation_num_sets(question);
         ps_phases_sample(phases, question->sampler, num, &sets);
         return num;
