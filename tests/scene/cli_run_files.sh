@@ -157,4 +157,22 @@ runs 0 --cache 0 scene.yaml -o broken
 scene_of a
 runs 0 --cache 0 scene.yaml -o broken
 holds broken a.csv a.summary.csv index.html record.json
+
+# A record names files from its own folder, and so do the rows of several integrands: the same bits all the same, until a
+# number is another.
+mkdir sc
+printf '1,0,1,0\n2,1,.5,.25\n' >light.txt
+cat >sc/several.yaml <<'END'
+scene: 1
+results:
+  - {result: interpolation, sampler: fibonacci, points: 16, integrands: ["coefficients:file=../light.txt", cap], plot: false}
+  - {result: variance, sampler: fibonacci, points: 16, integrand: ["coefficients:file=../light.txt", cap], max-degree: 8, plot: false}
+  - {result: light, integrands: ["coefficients:file=../light.txt", cap], max-degree: 4, plot: false}
+END
+runs 0 --cache 0 sc/several.yaml -o several
+runs 0 --cache 0 several/record.json -o again
+! cmp -s several/light.csv again/light.csv || complain "the record says the same paths: nothing is tested"
+printf '1,0,1,0\n2,1,.5,.26\n' >light.txt
+runs 3 --cache 0 several/record.json -o again
+says 'other bits'
 finish

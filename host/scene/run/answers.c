@@ -72,12 +72,20 @@ pspec_status ps_run_ask(ps_run *run, ps_error *error) {
 
 /* ---- one question ------------------------------------------------------------------------ */
 
+/* Integrands may have paths in their names, which a record says from its own folder. */
+static bool names_files(const ps_table *table, size_t column) {
+    return strcmp(ps_table_column_name(table, column), "integrand") == 0;
+}
+
 /* The header says how the rows came about, with versions and paths; the rows are the result. */
 static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], ps_error *error) {
     ps_text bytes = {0};
     const size_t num_columns = ps_table_num_columns(answer->table);
     for (size_t row = 0; row < ps_table_num_rows(answer->table); row++) {
         for (size_t column = 0; column < num_columns; column++) {
+            if (names_files(answer->table, column)) {
+                continue;
+            }
             const ps_cell cell = ps_table_cell(answer->table, row, column);
             ps_text_append_bytes(&bytes, (const char *)&cell.number, sizeof cell.number);
             ps_text_append_bytes(&bytes, (const char *)&cell.integer, sizeof cell.integer);
