@@ -54,6 +54,13 @@ pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {
         if (ps_sobolev_check(request->smoothness[i], &reason) != PSPEC_OK) {
             return ps_fail(error, reason.status, "%s: %s", said->shown, reason.message);
         }
+        for (size_t k = 0; k < i; k++) {
+            if (request->smoothness[k] == request->smoothness[i]) {
+                return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                               "%s: %g is there twice, and gives the same rows twice", said->shown,
+                               request->smoothness[i]);
+            }
+        }
     }
     return PSPEC_OK;
 }

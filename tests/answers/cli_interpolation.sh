@@ -114,6 +114,10 @@ refuses 'makes points of the torus' "${sky[@]}" --sampler white
 refuses 'makes points of the hemisphere' "${sky[@]}" --sampler fibonacci-hemisphere
 refuses 'smoothness 2 is not between 1 and 2' "${sky[@]}" --sampler fibonacci --smoothness 1.5,2
 refuses '9 numbers are more than 8' "${sky[@]}" --sampler fibonacci --smoothness 1.1,1.1,1.1,1.1,1.1,1.1,1.1,1.1,1.1
+refuses '1.1 is there twice' "${sky[@]}" --sampler fibonacci --smoothness 1.1,1.5,1.1
+echo '.25 .5' >plane.txt
+refuses '--lift hemisphere takes points to the hemisphere' "${sky[@]}" --lift hemisphere plane.txt
+runs 0 "${sky[@]}" --lift sphere plane.txt
 refuses 'are the same file' --integrand map:file=sky.pfm,channel=red --sampler fibonacci --format csv -o sky.pfm
 refuses 'nothing to interpolate at' "${sky[@]}"
 refuses 'points 1 and 3 are equal' "${sky[@]}" equal.txt

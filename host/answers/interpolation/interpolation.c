@@ -38,6 +38,11 @@ static pspec_status check_arguments(const ps_request *request, ps_error *error) 
                        "--integrand NAME is what is interpolated, as in --integrand "
                        "map:file=sky.hdr, and none was given");
     }
+    if (request->reading.lift == PS_LIFT_TO_HEMISPHERE) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--lift hemisphere takes points to the hemisphere, and functions of the "
+                       "whole sphere are interpolated; --lift sphere takes them there");
+    }
     PS_TRY(ps_sources_check(request, "nothing to interpolate at", error));
     PS_TRY(ps_point_options_check(request, error));
     return ps_option_pairs_check(request, PS_COMMAND_interpolation, error);
