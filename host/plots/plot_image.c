@@ -211,17 +211,36 @@ static double brightness(const ps_frame *frame, double mean) {
     return round(WHITE * pow(fmin(1, fmax(0, share)), 1 / gamma));
 }
 
+/* gnuplot finds the size of pixels in their distances, and draws nothing of one row or column:
+ * these are there twice. */
+static size_t times(size_t num, size_t block) {
+    return num <= block ? 2 : 1;
+}
+
+/* The place of an index: where there is one row twice, halves of a pixel. */
+static const char *place(size_t num, size_t block, bool is_row) {
+    return times(num, block) == 1 ? (is_row ? "2" : "1") : is_row ? "($2/2-.25)" : "($1/2-.25)";
+}
+
+static void print_row(ps_text *out, const ps_frame *frame, const pixels *image, size_t row) {
+    const size_t block = block_of(image);
+    for (size_t j = 0; j < image->columns; j += block) {
+        const double mean = average_block(image, (ptrdiff_t)row, (ptrdiff_t)j, block);
+        const double shown = frame->form == PS_FRAME_LIGHT ? brightness(frame, mean) : mean;
+        for (size_t i = 0; i < times(image->columns, block); i++) {
+            ps_text_append(out, " %.6g", shown);
+        }
+    }
+    ps_text_append(out, "\n");
+}
+
 void ps_script_print_pixel_data(ps_text *out, const ps_panel *panel) {
     const pixels image = pixels_of(&panel->series[0]);
     const size_t block = block_of(&image);
     for (size_t i = 0; i < image.rows; i += block) {
-        for (size_t j = 0; j < image.columns; j += block) {
-            const double mean = average_block(&image, (ptrdiff_t)i, (ptrdiff_t)j, block);
-            ps_text_append(out, " %.6g",
-                           panel->frame.form == PS_FRAME_LIGHT ? brightness(&panel->frame, mean)
-                                                               : mean);
+        for (size_t k = 0; k < times(image.rows, block); k++) {
+            print_row(out, &panel->frame, &image, i);
         }
-        ps_text_append(out, "\n");
     }
 }
 
@@ -245,9 +264,9 @@ void ps_script_print_pixels(ps_text *out, const ps_script_panel *panel, size_t n
     const ps_frame *const frame = &panel->panel.frame;
     const ps_script_box *const where = &panel->where;
     const pixels image = pixels_of(&panel->panel.series[0]);
-    const double block = (double)block_of(&image);
-    const double columns = ceil((double)image.columns / block);
-    const double rows = ceil((double)image.rows / block);
+    const size_t block = block_of(&image);
+    const double columns = ceil((double)image.columns / (double)block);
+    const double rows = ceil((double)image.rows / (double)block);
     const double width = where->right - where->left;
     const double height = where->bottom - where->top;
     const double unit = fmax(columns / width, rows / height); /* pixels of the image in one */
@@ -261,5 +280,6 @@ void ps_script_print_pixels(ps_text *out, const ps_script_panel *panel, size_t n
     const double y = (rows - 1) / 2;
     ps_text_append(out, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", x - unit * width / 2,
                    x + unit * width / 2, y + unit * height / 2, y - unit * height / 2);
-    ps_text_append(out, "plot $data%zu_0 matrix using 1:2:3 with image notitle", number);
+    ps_text_append(out, "plot $data%zu_0 matrix using %s:%s:3 with image notitle", number,
+                   place(image.columns, block, false), place(image.rows, block, true));
 }

@@ -67,13 +67,13 @@ static void asks_for_frames_and_points(void **state) {
     free(script);
 }
 
-/* Pixels are squares in the middle of the frame, row by row from the top; signed ones have white in
- * the middle of their colours. */
+/* Pixels are squares in the middle of the frame, row by row from the top, of which one alone is
+ * there twice; signed ones have white in the middle of their colours. */
 static void asks_for_pixels(void **state) {
-    static const char *const parts[] = {"$data0_0 << EOD\n 0.25 0.5 0.75\nEOD\n",
-                                        "set cbrange [-2:2]\n", ", 1 '#f4f2ee', 2 ",
-                                        "set xrange [-0.5:2.5]\nset yrange [1.5:-1.5]\n",
-                                        "plot $data0_0 matrix using 1:2:3 with image notitle\n"};
+    static const char *const parts[] = {
+        "$data0_0 << EOD\n 0.25 0.5 0.75\n 0.25 0.5 0.75\nEOD\n", "set cbrange [-2:2]\n",
+        ", 1 '#f4f2ee', 2 ", "set xrange [-0.5:2.5]\nset yrange [1.5:-1.5]\n",
+        "plot $data0_0 matrix using 1:($2/2-.25):3 with image notitle\n"};
     example data;
     (void)state;
     make_example(&data, PS_FRAME_PIXELS);
@@ -86,6 +86,24 @@ static void asks_for_pixels(void **state) {
             fail_msg("no \"%s\" in %s", parts[i], script);
         }
     }
+    free(script);
+}
+
+/* One column, and one pixel, are there twice, too. */
+static void single_columns_are_seen(void **state) {
+    static const double values[] = {1, 2, 3};
+    const ps_series series[] = {{.num = 3, .columns = 1, .y = values},
+                                {.num = 1, .columns = 1, .y = values}};
+    ps_panel panels[] = {{"", 1, &series[0], {.form = PS_FRAME_PIXELS, .last = 3}},
+                         {"", 1, &series[1], {.form = PS_FRAME_PIXELS, .last = 3}}};
+    const ps_figure figure = {
+        .form = PS_FIGURE_POINTS, .num_panels = 2, .panels = panels, .num_columns = 2};
+    (void)state;
+    char *const script = write_script(&figure, "svg");
+    assert_non_null(strstr(script, "$data0_0 << EOD\n 1 1\n 2 2\n 3 3\nEOD\n"));
+    assert_non_null(strstr(script, "plot $data0_0 matrix using ($1/2-.25):2:3 with"));
+    assert_non_null(strstr(script, "$data1_0 << EOD\n 1 1\n 1 1\nEOD\n"));
+    assert_non_null(strstr(script, "plot $data1_0 matrix using ($1/2-.25):($2/2-.25):3 with"));
     free(script);
 }
 
@@ -138,6 +156,8 @@ static void maps_are_bright(void **state) {
     assert_non_null(strstr(script, "$data0_0 << EOD\n 0 0 136\n 255 255 186\nEOD\n"));
     assert_non_null(strstr(script, "set xrange [-1:3]\nset yrange [1.5:-0.5]\n"));
     assert_non_null(strstr(script, "$data1_0 << EOD\n 0 255 0 0"));
+    assert_non_null(strstr(script, "plot $data0_0 matrix using 1:2:3 with"));
+    assert_non_null(strstr(script, "plot $data1_0 matrix using 1:($2/2-.25):3 with"));
     assert_non_null(strstr(script, "set xrange [-0.5:400.5]\nset yrange [100.25:-100.25]\n"));
     free(script);
 }
@@ -184,6 +204,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_for_frames_and_points),
         cmocka_unit_test(asks_for_pixels),
+        cmocka_unit_test(single_columns_are_seen),
         cmocka_unit_test(frames_are_square),
         cmocka_unit_test(maps_are_bright),
         cmocka_unit_test_setup_teardown(draws_every_kind, test_folder_create, test_folder_remove),
