@@ -129,7 +129,7 @@ pspec_status ps_table_add_to_npz(const ps_table *table, ps_npz *npz, ps_error *e
 pspec_status ps_table_take_npz(ps_table **out, const ps_npz_file *file,
                                ps_error *error) PS_MUST_CHECK;
 /* Is that a regular file that begins like one of those? */
-bool ps_table_is_npz(const char *path);
+pspec_status ps_table_is_npz(bool *is_one, const char *path, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_read_npz(ps_table **out, const char *path, ps_error *error) PS_MUST_CHECK;
 
 /* ---- reading: texts stay as long as the table does; indices must be below the numbers -------- */

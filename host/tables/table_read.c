@@ -283,7 +283,7 @@ pspec_status ps_table_take_npz(ps_table **out, const ps_npz_file *file, ps_error
 }
 
 /* Its first array is the header. */
-bool ps_table_is_npz(const char *path) {
+pspec_status ps_table_is_npz(bool *is_one, const char *path, ps_error *error) {
     enum { NAME = 30 }; /* where the name stands in a zip archive */
     static const char name[] = PS_TABLE_META ".npy";
     char bytes[NAME + sizeof name - 1];
@@ -291,14 +291,16 @@ bool ps_table_is_npz(const char *path) {
     size_t count = 0;
     const int descriptor = ps_descriptor_open(path);
     if (descriptor < 0) {
-        return false;
+        return ps_read_fail(path, error);
     }
-    const bool is_read =
-        fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) &&
-        ps_descriptor_read(descriptor, path, bytes, sizeof bytes, &count, NULL) == PSPEC_OK;
+    pspec_status status = fstat(descriptor, &facts) == 0 ? PSPEC_OK : ps_read_fail(path, error);
+    if (status == PSPEC_OK && S_ISREG(facts.st_mode)) {
+        status = ps_descriptor_read(descriptor, path, bytes, sizeof bytes, &count, error);
+    }
     close(descriptor);
-    return is_read && count == sizeof bytes && memcmp(bytes, "PK", 2) == 0 &&
-           memcmp(bytes + NAME, name, sizeof name - 1) == 0;
+    *is_one = status == PSPEC_OK && count == sizeof bytes && memcmp(bytes, "PK", 2) == 0 &&
+              memcmp(bytes + NAME, name, sizeof name - 1) == 0;
+    return status;
 }
 
 pspec_status ps_table_read_npz(ps_table **out, const char *path, ps_error *error) {

@@ -6,6 +6,7 @@
 #include "test_folder.h"
 
 #include <math.h>
+#include <unistd.h>
 
 static pspec_status read_text(ps_mesh *out, const test_folder *folder, const char *text,
                               size_t length, ps_error *error) {
@@ -169,11 +170,11 @@ static void cornell_box(void **state) {
     double middle[3];
     ps_mesh mesh;
     (void)state;
-    if (data == NULL) {
-        print_message("POINTSPEC_TEST_DATA is not set\n");
+    snprintf(path, sizeof path, "%s/cornell/cornell-box.txt", data != NULL ? data : "");
+    if (access(path, R_OK) != 0) {
+        print_message("POINTSPEC_TEST_DATA names no folder with the Cornell box: skipped\n");
         skip();
     }
-    snprintf(path, sizeof path, "%s/cornell/cornell-box.txt", data);
     assert_ok(ps_mesh_read(&mesh, path, error));
     assert_int_equal(mesh.num_triangles, 32);
     assert_true(fabs(mesh.camera.width - 0.025 / 0.035) < 1e-15 && mesh.camera.position[2] == -800);

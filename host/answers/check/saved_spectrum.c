@@ -297,7 +297,7 @@ pspec_status ps_saved_spectrum_find(bool *is_one, const char *path, ps_error *er
     if (stat(path, &facts) != 0) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
     }
-    *is_one = ps_table_is_npz(path);
+    PS_TRY(ps_table_is_npz(is_one, path, error));
     const pspec_status status = *is_one ? PSPEC_OK : ps_saved_result_find(is_one, path, &reason);
     return status == PSPEC_OK || status == PSPEC_ERROR_INPUT
                ? PSPEC_OK
@@ -322,8 +322,9 @@ pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path, ps
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "a saved spectrum is a file, and standard input is none");
     }
-    const pspec_status status =
-        ps_table_is_npz(path) ? read_table(out, path, error) : refuse_other(path, error);
+    bool is_one = false;
+    PS_TRY(ps_table_is_npz(&is_one, path, error));
+    const pspec_status status = is_one ? read_table(out, path, error) : refuse_other(path, error);
     if (status != PSPEC_OK) {
         ps_saved_spectrum_free(out);
     }
