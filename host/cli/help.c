@@ -120,7 +120,8 @@ static void print_parameters(FILE *stream, const ps_parameter *parameters) {
 }
 
 /* Lobes are BRDFs, and integrands where they are divided by their integrals. */
-static void print_integrands(FILE *stream, bool are_brdfs) {
+static void print_integrands(FILE *stream, bool are_brdfs, ps_domain domain) {
+    const unsigned sphere = PS_INTEGRAND_ON(PS_SAMPLES_SPHERE);
     fprintf(stream, "\n%s, with the defaults of their parameters:\n",
             are_brdfs ? "BRDFs" : "Integrands");
     for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
@@ -128,7 +129,8 @@ static void print_integrands(FILE *stream, bool are_brdfs) {
         char text[TEXT_BYTES];
         snprintf(text, sizeof text, "%s%s", kind->summary,
                  kind->lobe != NULL && !are_brdfs ? "; divided by its integral" : "");
-        if (kind->lobe != NULL || !are_brdfs) {
+        if ((kind->lobe != NULL || !are_brdfs) &&
+            (domain != PS_DOMAIN_SPHERE || (kind->domains & sphere) != 0)) {
             print_item(stream, kind->name, text);
             print_parameters(stream, kind->parameters);
         }
@@ -150,10 +152,10 @@ void ps_help_command(FILE *stream, const ps_command *command) {
         print_samplers(stream, command->samples);
     }
     if (ps_command_takes(command, PS_OPTION_BRDF)) {
-        print_integrands(stream, true);
+        print_integrands(stream, true, command->samples);
     }
     if (ps_command_takes(command, PS_OPTION_INTEGRAND)) {
-        print_integrands(stream, false);
+        print_integrands(stream, false, command->samples);
     }
     fputs("\nExamples:\n", stream);
     for (size_t i = 0; i < sizeof command->examples / sizeof command->examples[0]; i++) {

@@ -258,6 +258,7 @@ const ps_kind ps_kind_light = {
                  "pointspec light --integrand cap:angle=0.5 -l 200 --format json"},
     .takes = PS_COMMAND_BIT(light),
     .counted = "degrees",
+    .samples = PS_DOMAIN_SPHERE,
     .is_of_host = true,
     .has_images = true,
     .has_arrays = true,

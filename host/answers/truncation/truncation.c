@@ -250,6 +250,7 @@ const ps_kind ps_kind_truncation = {
          "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},
     .takes = PS_COMMAND_BIT(truncation),
     .counted = "degrees",
+    .samples = PS_DOMAIN_SPHERE,
     .is_of_host = true,
     .check_arguments = check_question,
     .check_question = check_question,
