@@ -1,5 +1,5 @@
 /* Rays of ambient occlusion a second (host/jobs/occlusion) beside a plain C loop of one thread
- * (plain.c): a picture of 64 x 64 pixels, sets of 192, 1024 and 4096 points of the sphere.
+ * (plain.c): a picture of 256 x 256 pixels, sets of 192, 1024 and 4096 points of the sphere.
  *
  *     bench_occlusion [MESH]                        default docs/scenes/p15/box.obj, 16 quadrilaterals
  *
@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { REPEATS = 9, SIDE = 64 };
+enum { REPEATS = 9, SIDE = 256 };
 
 typedef struct given {
     ps_view view;
