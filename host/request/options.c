@@ -34,9 +34,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "{power:ring}{:degree} X (above --floor; at least 16); -m is then the most "
                  "(default 1e6)",
          SHARE(accuracy.standard_error)},
-    [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
-                             OF(BIT(power) | BIT(check) | BIT(variance) | BIT(sample),
-                                BIT(convert)),
+    [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"), OF(PLANE | BIT(sample), BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
     [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), .source = PS_OF_SAMPLERS,
@@ -128,8 +126,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_IMAGE_OUT] = {NAMED("image-out", 0, "FILE"), OF(0, BIT(occlusion)),
                              .help = "write the image of the first realization too: .npy or .pfm",
                              FILE_OUT(image_out)},
-    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"),
-                                 OF(BIT(power) | BIT(check) | BIT(variance), 0),
+    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(PLANE, 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
                                          "{check:2 N^(1/d)}{:ceil(5 N^(1/d)) for d <= 3})",
                                  .set = ps_set_max_frequency, .minimum = 1,
@@ -254,8 +251,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "where the points lie (default: {check:on the torus}"
                                   "{variance:where there are the integrands}{:found out})",
                           .set = ps_set_domain},
-    [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES,
-                        OF(BIT(power) | BIT(check) | BIT(variance), BIT(convert)),
+    [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES, OF(PLANE, BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(reading.wrap)},
     [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1[,Y0,Y1,...]"), .source = PS_OF_FILES,
@@ -265,16 +261,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                "those in [0,1)",
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
-                                     OF(SPHERES | RULES | BIT(check) | BIT(variance) |
-                                            BIT(interpolation) | BIT(occlusion),
-                                        BIT(convert)),
+                                     OF(ROUND, BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
-                        OF(SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation) |
-                               BIT(occlusion),
-                           BIT(convert)),
+                        OF(ROUND, BIT(convert)),
                         .help = "points (x, y) of the plane become points of the sphere, z = 2x - "
                                 "1 or z = x, phi = 2 pi y, as by lift= of samplers",
                         .set = ps_set_lift},

@@ -7,18 +7,6 @@
 
 /* ---- header -------------------------------------------------------------------------------- */
 
-static pspec_status add_function(ps_table *table, const char *text, const ps_integrand *integrand,
-                                 ps_error *error) {
-    const char *const note = ps_integrand_note(integrand);
-    const ps_meta entries[] = {
-        {"integrand", PS_TEXT(text)},
-        {"integral", PS_NUMBER(ps_integrand_integral(integrand))},
-    };
-    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
-    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
-                        : PSPEC_OK;
-}
-
 /* What all questions have in common. */
 static pspec_status begin(ps_table *table, const ps_interpolation_list *list,
                           const ps_request *request, ps_error *error) {
@@ -30,7 +18,8 @@ static pspec_status begin(ps_table *table, const ps_interpolation_list *list,
         table, "seed", ps_request_has_samplers(request) ? PS_INTEGER(request->seed) : PS_MISSING,
         error));
     for (size_t f = 0; f < panorama->num; f++) {
-        PS_TRY(add_function(table, request->integrands[f], panorama->integrands[f], error));
+        PS_TRY(
+            ps_header_add_integrand(table, request->integrands[f], panorama->integrands[f], error));
     }
     return ps_table_add_meta(table, "pixels", PS_TEXT(pixels), error);
 }

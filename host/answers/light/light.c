@@ -117,7 +117,6 @@ static pspec_status add_function(ps_table *table, const ps_request *request,
     const ps_integrand *const integrand = panorama->integrands[f];
     const size_t num = panorama->width * panorama->height;
     const double *const values = panorama->values + f * num;
-    const char *const note = ps_integrand_note(integrand);
     double least = INFINITY;
     double largest = -INFINITY;
     for (size_t i = 0; i < num; i++) {
@@ -125,16 +124,13 @@ static pspec_status add_function(ps_table *table, const ps_request *request,
         largest = fmax(largest, values[i]);
     }
     const ps_meta entries[] = {
-        {"integrand", PS_TEXT(request->integrands[f])},
-        {"integral", PS_NUMBER(ps_integrand_integral(integrand))},
         {"mean", PS_NUMBER(ps_integrand_integral(integrand) / PS_FOUR_PI)},
         {"energy", PS_NUMBER(ps_integrand_energy(integrand))},
         {"least", PS_NUMBER(least)},
         {"largest", PS_NUMBER(largest)},
     };
-    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
-    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
-                        : PSPEC_OK;
+    PS_TRY(ps_header_add_integrand(table, request->integrands[f], integrand, error));
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 static pspec_status add_header(ps_table *table, const ps_request *request,

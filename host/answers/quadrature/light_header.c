@@ -1,4 +1,5 @@
 #include "answers/quadrature/light_header.h"
+#include "answers/spectra/spectrum_header.h"
 
 #include "request/options.h"
 
@@ -14,16 +15,12 @@ pspec_status ps_light_check(const ps_request *request, bool is_needed, ps_error 
 
 pspec_status ps_light_add_header(ps_table *table, const ps_request *request, const ps_light *light,
                                  ps_error *error) {
-    const char *const note = ps_integrand_note(light->integrand);
     const ps_meta entries[] = {
-        {"integrand", PS_TEXT(request->integrands[0])},
-        {"integral", PS_NUMBER(ps_integrand_integral(light->integrand))},
         {"light_degree", PS_INTEGER(light->max_degree)},
         {"shading_bound", PS_NUMBER(light->shading_bound)},
     };
-    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
-    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
-                        : PSPEC_OK;
+    PS_TRY(ps_header_add_integrand(table, request->integrands[0], light->integrand, error));
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 const ps_field_row ps_fields_light[] = {

@@ -13,6 +13,16 @@ ps_cell ps_number_or_missing(double value) {
     return isnan(value) ? PS_MISSING : PS_NUMBER(value);
 }
 
+pspec_status ps_header_add_integrand(ps_table *table, const char *text,
+                                     const ps_integrand *integrand, ps_error *error) {
+    const char *const note = ps_integrand_note(integrand);
+    const ps_meta entries[] = {{"integrand", PS_TEXT(text)},
+                               {"integral", PS_NUMBER(ps_integrand_integral(integrand))}};
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
+                        : PSPEC_OK;
+}
+
 pspec_status ps_header_add_box(ps_table *table, const ps_box *box, ps_error *error) {
     char text[2 * PS_MAX_DIMENSION * PS_DECIMAL_BYTES];
     size_t length = 0;

@@ -2,6 +2,7 @@
 #ifndef PS_ANSWERS_SPECTRA_SPECTRUM_HEADER_H
 #define PS_ANSWERS_SPECTRA_SPECTRUM_HEADER_H
 
+#include "integrands/integrand.h"
 #include "answers/spectra/measured.h"
 #include "tables/table.h"
 
@@ -34,6 +35,11 @@ pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points
 /* "2 files, 200 realizations, one average", where files are several; are_for: these realizations. */
 pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num_realizations,
                                  const char *are_for, ps_error *error) PS_MUST_CHECK;
+
+/* integrand, integral and, where there is something to say, integrand_note; text: as it was asked
+ * for. */
+pspec_status ps_header_add_integrand(ps_table *table, const char *text,
+                                     const ps_integrand *integrand, ps_error *error) PS_MUST_CHECK;
 
 /* nan is a missing number. */
 ps_cell ps_number_or_missing(double value);

@@ -92,18 +92,6 @@ static pspec_status begin(ps_table *table, const ps_request *request, const ps_v
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
-static pspec_status add_integrand(ps_table *table, const ps_request *request,
-                                  const ps_integrand *integrand, size_t index, ps_error *error) {
-    const char *const note = ps_integrand_note(integrand);
-    const ps_meta entries[] = {
-        {"integrand", PS_TEXT(request->integrands[index])},
-        {"integral", PS_NUMBER(ps_integrand_integral(integrand))},
-    };
-    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
-    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
-                        : PSPEC_OK;
-}
-
 /* Of files: how many sets are measured, beside those that predict, and what their weights cost. */
 static pspec_status add_files(ps_table *table, const ps_variance_job *job, ps_error *error) {
     const ps_meta entries[] = {
@@ -173,7 +161,8 @@ static pspec_status add_choices(ps_table *table, const ps_request *request,
 static pspec_status fill(ps_table *table, const ps_request *request, ps_variance_job *const *jobs,
                          const ps_measured *spectra, size_t num, ps_error *error) {
     for (size_t i = 0; i < request->num_integrands; i++) {
-        PS_TRY(add_integrand(table, request, jobs[0]->integrands[i], i, error));
+        PS_TRY(
+            ps_header_add_integrand(table, request->integrands[i], jobs[0]->integrands[i], error));
     }
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_header_add(table, request, spectra, num, i, error));
