@@ -339,7 +339,7 @@ static void what_differs_is_not_merged(void **state) {
 static void hostile_state_is_refused(void **state) {
     (void)state;
     static const char *const lines[] = {WHITE " --full f.npy", WHITE " --per-ring 2 -k 9",
-                                        "pairs" SPHERE};
+                                        ("pairs" SPHERE)};
     static const char *const names[] = {"state_question", "state_frequencies", "state_rings"};
     static const double numbers[] = {NAN, -1e9, 0.5, 1e9, 1e300, INFINITY};
     for (size_t l = 0; l < sizeof lines / sizeof lines[0]; l++) {
