@@ -6,7 +6,7 @@
 
 /* What is no option, or one value of an option: the keys of scenes that ask for arrays, and what an
  * answer has several of. */
-enum { ARRAYS = PS_NUM_OPTIONS, COEFFICIENTS, WEIGHTS_OF_COLUMN, SEVERAL, SPACES };
+enum { ARRAYS = PS_NUM_OPTIONS, COEFFICIENTS, WEIGHTS_OF_COLUMN, OPTIMAL_WEIGHTS, SEVERAL, SPACES };
 
 /* The first pair that was given is the one that is named, as it stands here: a, then b. */
 typedef struct option_pair {
@@ -46,6 +46,7 @@ static const option_pair pairs[] = {
     {PS_OPTION_COEFFICIENTS, SEVERAL, "one array has one file", 0},
     {WEIGHTS_OF_COLUMN, PS_OPTION_SAMPLER, "samplers make points only", ~BIT(variance)},
 
+    {OPTIMAL_WEIGHTS, PS_OPTION_VIEW, "they are made for a whole lobe", 0},
     {SPACES, PS_OPTION_BRDF, "an error is that of one space", 0},
     {PS_OPTION_SHIFTS, PS_OPTION_IN_PLACE, "sets are moved, or they are not", 0},
     {PS_OPTION_WEIGHTS, PS_OPTION_SAMPLER, "all of its points count the same", BIT(variance)},
@@ -85,6 +86,8 @@ static bool is_there(const ps_request *request, int id) {
         return request->wants_coefficients;
     case WEIGHTS_OF_COLUMN:
         return request->weights.kind == PS_WEIGHTS_COLUMN;
+    case OPTIMAL_WEIGHTS:
+        return request->weights.kind == PS_WEIGHTS_OPTIMAL;
     case SEVERAL:
         return ps_request_num_questions(request) > 1;
     case SPACES:
@@ -103,8 +106,10 @@ static ps_shown_option show(const ps_request *request, int id) {
     case COEFFICIENTS:
         return (ps_shown_option){"arrays: coefficients"};
     case WEIGHTS_OF_COLUMN:
-        snprintf(out.text, sizeof out.text, "%.20s column",
-                 ps_option_show(request, PS_OPTION_WEIGHTS).text);
+    case OPTIMAL_WEIGHTS:
+        snprintf(out.text, sizeof out.text, "%.20s %s",
+                 ps_option_show(request, PS_OPTION_WEIGHTS).text,
+                 id == OPTIMAL_WEIGHTS ? "optimal" : "column");
         return out;
     case SPACES:
         return (ps_shown_option){"several numbers of smoothness"};

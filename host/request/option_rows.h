@@ -1,5 +1,5 @@
-/* How the rows of options.c are written: fields of their setters, and sets of commands. Private to
- * host/request. */
+/* How the rows of options.c are written: fields of their setters, limits, and sets of commands.
+ * Private to host/request. */
 #ifndef PS_REQUEST_OPTION_ROWS_H
 #define PS_REQUEST_OPTION_ROWS_H
 
@@ -20,6 +20,16 @@
 #define POSITIVE(field) .set = ps_set_positive, .offset = offsetof(ps_request, field)
 #define SHARE(field) .set = ps_set_share, .offset = offsetof(ps_request, field)
 #define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
+
+#define QUARTER_TURN(field) .set = ps_set_quarter_turn, .offset = offsetof(ps_request, field)
+
+/* 10^10 points of the plane are 160 GB. */
+#define MOST_POINTS UINT64_C(10000000000)
+/* A set has so many trials at most: their moves are in memory. */
+#define MOST_SHIFTS UINT64_C(1000000)
+#define MOST_REALIZATIONS UINT64_C(1000000000000)
+/* Of a pixel: a quarter of these points is in memory. */
+#define MOST_REFERENCE UINT64_C(4000000)
 
 /* Sets of commands that many options have: kinds of spectra, those of them on the sphere, kinds
  * that look at point sets, those that have engines, all that read sets from files, kinds without

@@ -139,6 +139,10 @@ pspec_status ps_set_share(const ps_said *said, ps_error *error) {
     return parse_positive(said->shown, said->text, 1, " and at most 1", find_field(said), error);
 }
 
+pspec_status ps_set_quarter_turn(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, 90, " and at most 90", find_field(said), error);
+}
+
 pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {
     PS_TRY(parse_positive(said->shown, said->text, DBL_MAX, " and below 1",
                           &said->request->false_alarm_rate, error));

@@ -4,14 +4,6 @@
 #include "points/points.h"
 #include "request/option_rows.h"
 
-/* 10^10 points of the plane are 160 GB. */
-#define MOST_POINTS UINT64_C(10000000000)
-/* A set has so many trials at most: their moves are in memory. */
-#define MOST_SHIFTS UINT64_C(1000000)
-#define MOST_REALIZATIONS UINT64_C(1000000000000)
-/* Of a pixel: a quarter of these points is in memory. */
-#define MOST_REFERENCE UINT64_C(4000000)
-
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
  * one counts, but for --sampler, --set, --integrand and --bounds. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
@@ -101,6 +93,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
                         .help = "lobe of reflection, see BRDFs", TEXT(brdf),
                         .input = ps_input_of_named},
+    [PS_OPTION_VIEW] = {NAMED("view", 0, "DEGREES"), OF(BIT(shade), 0),
+                        .help = "angle between the normal and the view: the lobe is about the "
+                                "mirror direction, and what of it is below the horizon of the "
+                                "normal counts for nothing (default: it is about the normal)",
+                        QUARTER_TURN(view_angle)},
     [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES | BIT(interpolation), 0),
                               .help = "of the {interpolation:kernel of}{:integrands, functions of} "
                                       "the Sobolev space H^S, 1 < S < 2 (default 1.5){"

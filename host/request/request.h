@@ -49,6 +49,7 @@ typedef enum ps_option_id {
     PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
     PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
+    PS_OPTION_VIEW,              /* --view DEGREES */
     PS_OPTION_SMOOTHNESS,        /* --smoothness S */
     PS_OPTION_MESH,              /* --mesh FILE */
     PS_OPTION_CAMERA,            /* --camera X,Y,Z,X,Y,Z[,ANGLE[,X,Y,Z]] */
@@ -165,6 +166,7 @@ typedef struct ps_request {
     const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
         *output, *format, *plot, *plot_points; /* NULL unless given */
     ps_text_view view;                         /* of a table on a terminal; {0} elsewhere */
+    double view_angle;                         /* degrees from the normal; 0 unless given */
     /* How point files are read. What is of samplers or engines, too (dimension, number of points,
      * memory), stands in it no sooner than ps_point_options_make hands it on. */
     ps_point_options reading;

@@ -177,33 +177,62 @@ static void closed_forms(void **state) {
     forget(&job);
 }
 
-/* A set alone, and several; weights that do not add up to 1, too. */
+/* A set alone, and several; weights that do not add up to 1, too; normals aside of the lobe. */
 static void predictions_hold(void **state) {
     static const struct {
         const char *lobe, *integrand, *sampler;
         size_t num_points;
         uint64_t num_realizations;
         bool is_optimal;
+        double view;
     } cases[] = {
-        {"diffuse", "map:file=map.pfm", "fibonacci-hemisphere", 48, 1, false},
-        {"diffuse", "map:file=map.pfm", "fibonacci-hemisphere", 48, 1, true},
-        {"glossy:n=30", "map:file=map.pfm", "white-hemisphere", 32, 40, false},
-        {"glossy:n=30", "coefficients:file=light.txt", "white-hemisphere", 8, 40, true},
-        {"phong:n=5", "coefficients:file=light.txt", "white-hemisphere", 16, 40, false},
+        {"diffuse", "map:file=map.pfm", "fibonacci-hemisphere", 48, 1, false, 0},
+        {"diffuse", "map:file=map.pfm", "fibonacci-hemisphere", 48, 1, true, 0},
+        {"diffuse", "coefficients:file=light.txt", "fibonacci-hemisphere", 48, 1, false, 60},
+        {"glossy:n=30", "map:file=map.pfm", "white-hemisphere", 32, 40, false, 0},
+        {"glossy:n=30", "coefficients:file=light.txt", "white-hemisphere", 8, 40, true, 0},
+        {"phong:n=5", "coefficients:file=light.txt", "white-hemisphere", 16, 40, false, 0},
+        {"phong:n=20", "coefficients:file=light.txt", "white-hemisphere", 16, 1, false, 85},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         asked job;
+        ps_horizon horizon;
         ask(&job, cases[i].lobe, cases[i].integrand, cases[i].sampler, cases[i].num_points,
             cases[i].num_realizations);
+        assert_ok(ps_horizon_make(&horizon, job.brdf, cases[i].view, error));
+        job.question.horizon = cases[i].view > 0 ? &horizon : NULL;
         job.num_orientations = cases[i].num_realizations > 1 ? 50 : 2000;
         job.question.weights.kind = cases[i].is_optimal ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_EQUAL;
         const ps_shade_job found = answer(&job, NULL);
         const double error = hypot(found.measured.standard_error, found.predicted.standard_error);
         assert_true(fabs(found.measured.mean - found.predicted.mean) < 3.5 * error);
         assert_true(error < 0.35 * found.predicted.mean);
+        ps_horizon_free(&horizon);
         forget(&job);
     }
+}
+
+/* Of constant light what is above the horizon counts: points there, less the lobe there. */
+static void lobes_are_cut(void **state) {
+    enum { NUM = 40 };
+    asked job;
+    ps_horizon horizon;
+    (void)state;
+    ask(&job, "diffuse", "coefficients:file=constant.txt", "fibonacci-hemisphere", NUM, 1);
+    assert_ok(ps_horizon_make(&horizon, job.brdf, 50, error));
+    job.question.horizon = &horizon;
+    job.question.max_degree = 1;
+    const ps_shade_job found = answer(&job, NULL);
+    const double light = 2 / sqrt(PS_FOUR_PI); /* F_00 = 2 */
+    const double points = sqrt(found.measured.mean) / light;
+    const double above = (1 + cos(50 * PS_PI / 180)) / 2;
+    const double whole = NUM * (above + points);
+    const double other = NUM * (above - points);
+    assert_true(fabs(whole - round(whole)) < 1e-9 || fabs(other - round(other)) < 1e-9);
+    assert_true(fabs(found.predicted.mean / found.measured.mean - 1) < 1e-9);
+    ps_horizon_free(&horizon);
+    forget(&job);
 }
 
 /* Norm in the Sobolev space of s = 1.5, squared: sum_lm |F_lm|^2/a_l. */
@@ -319,7 +348,7 @@ int main(void) {
         cmocka_unit_test(exact_integrals),     cmocka_unit_test(closed_forms),
         cmocka_unit_test(predictions_hold),    cmocka_unit_test(batches),
         cmocka_unit_test(light_about_an_axis), cmocka_unit_test(points_of_equal_error),
-        cmocka_unit_test(worst_case_holds),
+        cmocka_unit_test(worst_case_holds),    cmocka_unit_test(lobes_are_cut),
     };
     return cmocka_run_group_tests_name("shade_job", tests, make_files, remove_files);
 }

@@ -14,6 +14,7 @@
 typedef struct work {
     ps_rule_list list;
     ps_light light;
+    ps_horizon horizon;
     ps_shade_job *shade_jobs; /* [list.num] */
 } work;
 
@@ -23,6 +24,7 @@ static void release(work *self) {
     }
     free(self->shade_jobs);
     ps_rule_list_free(&self->list);
+    ps_horizon_free(&self->horizon);
     ps_light_free(&self->light);
 }
 
@@ -40,9 +42,11 @@ static pspec_status ask(work *self, const ps_request *request, ps_error *error) 
     PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
     PS_TRY(ps_light_check(request, true, error));
     PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
+    PS_TRY(ps_horizon_make(&self->horizon, list->brdf, request->view_angle, error));
     PS_TRY(PS_NEW(&self->shade_jobs, list->num, "questions", error));
     for (size_t i = 0; i < list->num; i++) {
         ps_quadrature_question *const rules = &list->questions[i];
+        rules->horizon = request->is_given[PS_OPTION_VIEW] ? &self->horizon : NULL;
         if (rules->max_degree == 0) { /* degrees of E^2 are no guide: light is less smooth */
             rules->max_degree = self->light.max_degree;
         }
@@ -127,6 +131,12 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     PS_TRY(ps_lead_create_table(&out->table, "shade", &first, columns, NUM_COLUMNS, error));
     PS_TRY(ps_quadrature_begin_header(out->table, request, &self->list.questions[0], error));
     PS_TRY(ps_light_add_header(out->table, request, &self->light, error));
+    if (request->is_given[PS_OPTION_VIEW]) {
+        const ps_meta entries[] = {{"view", PS_NUMBER(request->view_angle)},
+                                   {"below_horizon", PS_NUMBER(self->horizon.share)},
+                                   {"horizon_points", PS_INTEGER(self->horizon.num)}};
+        PS_TRY(ps_table_add_metas(out->table, entries, sizeof entries / sizeof entries[0], error));
+    }
     PS_TRY(ps_table_add_meta(out->table, "z_score_is",
                              PS_TEXT("of squares: (rmse^2 - predicted^2) over its standard error"),
                              error));
@@ -157,6 +167,11 @@ static const ps_picture_kind pictures[] = {
     {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
+    {"view", "degrees", PS_ENTRY, 0, "--view", "angle between normal and view"},
+    {"below_horizon", "", PS_ENTRY, 0, "--view",
+     "the share of the lobe that is below the horizon of the normal"},
+    {"horizon_points", "", PS_ENTRY, 0, "--view",
+     "directions that stand for that share in the exact integral and in spectra"},
     {"z_score_is", "", PS_ENTRY, 0, "", "what the column of that name is"},
     {"orientations", "", PS_ENTRIES, 0, "", "random orientations of every rule"},
     {"rmse", "", PS_ENTRIES, 0, "", "as the column"},

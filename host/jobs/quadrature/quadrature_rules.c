@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- the source ---------------------------------------------------------------------------- */
 
@@ -36,6 +37,11 @@ static pspec_status read_ahead(ps_rules *rules, bool *is_last, ps_error *error) 
                    : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to integrate with");
 }
 
+/* Directions that every rule has beside its points. */
+static size_t num_cut(const ps_quadrature_question *question) {
+    return question->horizon != NULL ? question->horizon->num : 0;
+}
+
 pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *error) {
     const ps_quadrature_question *const question = rules->question;
     const ps_sampler_request *const sampler = question->sampler;
@@ -50,10 +56,13 @@ pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *erro
         /* A set alone has ways of its own in some engines, wherever it came from. */
         *shape = (ps_rule_shape){num, num, is_last ? 1 : question->num_realizations};
     }
-    return question->weights.path == NULL
-               ? PSPEC_OK
-               : ps_power_sets_read_weights(&rules->sets, question->weights.path, shape->num_points,
-                                            error);
+    if (question->weights.path != NULL) {
+        PS_TRY(ps_power_sets_read_weights(&rules->sets, question->weights.path, shape->num_points,
+                                          error));
+    }
+    shape->num_points += num_cut(question);
+    shape->most_points += num_cut(question);
+    return PSPEC_OK;
 }
 
 static void free_batch(ps_rules *rules) {
@@ -106,6 +115,13 @@ static pspec_status refuse(const ps_rules *rules, size_t j, double z, ps_error *
                    j + 1, (unsigned long long)rules->num_read + 1, z);
 }
 
+static pspec_status check_left(const ps_rules *rules, size_t kept, ps_error *error) {
+    return kept > 0 ? PSPEC_OK
+                    : ps_fail(error, PSPEC_ERROR_INPUT,
+                              "no point of set %llu is above the horizon, where this BRDF is not 0",
+                              (unsigned long long)rules->num_read + 1);
+}
+
 /* Leaves those that count, with weights [num_points] where they have any. */
 static pspec_status accept_points(ps_rules *rules, ps_point_set *set, double *weights,
                                   ps_error *error) {
@@ -131,10 +147,27 @@ static pspec_status accept_points(ps_rules *rules, ps_point_set *set, double *we
     }
     rules->facts.num_dropped += set->num_points - kept;
     set->num_points = kept;
-    return kept > 0 ? PSPEC_OK
-                    : ps_fail(error, PSPEC_ERROR_INPUT,
-                              "no point of set %llu is above the horizon, where this BRDF is not 0",
-                              (unsigned long long)rules->num_read + 1);
+    return check_left(rules, kept, error);
+}
+
+/* Puts the part of the lobe that is below the horizon of the normal in the place of the points
+ * there. */
+static pspec_status cut_at_horizon(const ps_rules *rules, ps_point_set *set, double *weights,
+                                   ps_error *error) {
+    size_t kept = 0;
+    const ps_horizon *const horizon = rules->question->horizon;
+    PS_TRY(ps_points_reserve(set, set->num_points + horizon->num, error));
+    double *const points = set->points;
+    for (size_t j = 0; j < set->num_points; j++) {
+        if (ps_horizon_is_above(horizon, points + 3 * j)) {
+            memmove(points + 3 * kept, points + 3 * j, 3 * sizeof *points);
+            weights[kept++] = weights[j];
+        }
+    }
+    memcpy(points + 3 * kept, horizon->points, 3 * horizon->num * sizeof *points);
+    memcpy(weights + kept, horizon->weights, horizon->num * sizeof *weights);
+    set->num_points = kept + horizon->num;
+    return check_left(rules, set->num_points, error);
 }
 
 /* ---- weights and kernel form --------------------------------------------------------------- */
@@ -224,7 +257,7 @@ static pspec_status begin_rule(ps_rules *rules, size_t r, ps_error *error) {
     const bool are_equal = kind == PS_WEIGHTS_EQUAL || pattern->weights == NULL;
     count_points(&rules->facts, set->num_points);
     PS_TRY(reserve_places(rules, set->num_points, error));
-    PS_TRY(reserve(&rules->batch[r], set->num_points, error));
+    PS_TRY(reserve(&rules->batch[r], set->num_points + num_cut(rules->question), error));
     double *const weights = rules->batch[r].weights;
     for (size_t j = 0; j < set->num_points; j++) {
         weights[j] = are_equal ? 1 : pattern->weights[j];
@@ -233,7 +266,11 @@ static pspec_status begin_rule(ps_rules *rules, size_t r, ps_error *error) {
     for (size_t j = 0; are_equal && j < set->num_points; j++) {
         weights[j] = 1 / (double)set->num_points;
     }
+    if (rules->question->horizon != NULL) {
+        PS_TRY(cut_at_horizon(rules, set, weights, error));
+    }
     pattern->num_points = set->num_points;
+    pattern->points = set->points;
     pattern->weights = weights;
     return kind == PS_WEIGHTS_OPTIMAL
                ? PSPEC_OK

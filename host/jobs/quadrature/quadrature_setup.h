@@ -8,6 +8,7 @@
 #include "plan/phases.h"
 #include "points/points.h"
 #include "points/weights_spec.h"
+#include "rules/horizon.h"
 #include "rules/kernel/kernel_system.h"
 #include "rules/worst_case_error.h"
 
@@ -40,6 +41,9 @@ typedef struct ps_quadrature_question {
     ps_point_options point_options;
     /* Points of files for a lobe that ends there; else they are refused */
     bool drops_below_horizon;
+    /* Of a normal that is not the axis of the lobe: what is below it counts for nothing. NULL: the
+     * axis is the normal. Weights are not optimal then, and are not kept. */
+    const ps_horizon *horizon;
     /* 0: where the bound of what is beyond meets the tolerance, at most ceil(4 sqrt N) */
     size_t max_degree;
     /* The tolerance is of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum
