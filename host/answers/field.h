@@ -6,7 +6,7 @@
 #define PS_ANSWERS_FIELD_H
 
 #include "request/options.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 typedef enum ps_field_group {
     PS_FIELD_ENTRY = 0, /* of the header */

@@ -8,7 +8,7 @@
 #include "jobs/variance/rates.h"
 #include "plots/plot.h"
 #include "request/request.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 typedef struct ps_picture_kind ps_picture_kind;
 

@@ -17,7 +17,7 @@
 #include "device/device.h"
 #include "plan/choose.h"
 #include "request/options.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls
  * may be NULL. */

@@ -4,7 +4,7 @@
 #define PS_ANSWERS_LEAD_H
 
 #include "request/request.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* Variances may have 9 columns and those of all parts, others have fewer. */
 enum { PS_MOST_COLUMNS_AFTER_LEAD = 48 };

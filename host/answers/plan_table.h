@@ -8,7 +8,7 @@
 #include "plan/needs.h"
 #include "plan/phases.h"
 #include "request/request.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 typedef struct ps_planner {
     ps_table *table;

@@ -2,7 +2,7 @@
 #include "api/public_objects.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "tables/table_vector.h"
+#include "fields/table_vector.h"
 
 #include <math.h>
 #include <stdlib.h>

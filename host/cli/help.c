@@ -4,7 +4,7 @@
 #include "request/option_help.h"
 #include "request/options.h"
 #include "samplers/sampler.h"
-#include "tables/table_cells.h"
+#include "fields/table_cells.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 #include "cli/command.h"
-#include "tables/table_cells.h"
+#include "fields/table_cells.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -13,7 +13,7 @@
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
 #include "spectra/shape/bound.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include <stdbool.h>
 #include <stddef.h>

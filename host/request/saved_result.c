@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "files/input_file.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Sums of a spectrum as state of a table (tables/table.h): arrays from which every number of an
+/* Sums of a spectrum as state of a table (fields/table.h): arrays from which every number of an
  * answer follows, and which answers are merged by.
  *
  * Of the first question of an answer they have these names, of the second "state_bins_2", and so
@@ -17,7 +17,7 @@
 #define PS_SPECTRA_SPECTRUM_STATE_H
 
 #include "spectra/spectrum_sums.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* Adds the state of question number `question`, from 0, to a table that has none of it. */
 pspec_status ps_spectrum_state_add(ps_table *table, size_t question, const ps_spectrum_sums *sums,

@@ -5,7 +5,7 @@
 #include "device/precision.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include "pointspec_version.h"
 

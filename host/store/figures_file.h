@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "device/device.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* What the figures of this host are found by: the name of its processors, "unknown" where the system
  * does not say, and their number. */

@@ -7,7 +7,7 @@
 #include "files/packed/npz_records.h"
 #include "fuzz.h"
 #include "store/figures_file.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include <math.h>
 #include <stdio.h>

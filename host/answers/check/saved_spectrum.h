@@ -6,7 +6,7 @@
 #include "base/status.h"
 #include "frequencies/bin_rule.h"
 #include "spectra/spectrum.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include <stdbool.h>
 #include <stddef.h>

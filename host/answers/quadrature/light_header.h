@@ -5,7 +5,7 @@
 #include "answers/field.h"
 #include "jobs/shade/light.h"
 #include "request/request.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* One integrand, or none where it is not needed; not one of the caller, whose coefficients nobody
  * knows. */

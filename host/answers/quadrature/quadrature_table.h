@@ -5,7 +5,7 @@
 #include "answers/field.h"
 #include "jobs/quadrature/quadrature_job.h"
 #include "request/request.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* jobs[num] */
 pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,

@@ -4,7 +4,7 @@
 
 #include "answers/lead.h"
 #include "answers/spectra/question.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* Of one question. All is borrowed. */
 typedef struct ps_measured {

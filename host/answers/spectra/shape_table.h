@@ -4,7 +4,7 @@
 
 #include "request/request.h"
 #include "spectra/shape/shape.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* Columns of rows: the profile below, the one above, and up to where it goes the fit. */
 enum { PS_SHAPE_COLUMNS = 3 };

@@ -4,7 +4,7 @@
 
 #include "integrands/integrand.h"
 #include "answers/spectra/measured.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* A header that is being written. */
 typedef struct ps_header {

@@ -5,7 +5,7 @@
 
 #include "jobs/variance/variance_job.h"
 #include "request/request.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* In the order of their columns. */
 #define PS_VARIANCE_PARTS(PART) PART(bounds) PART(rates) PART(rank) PART(paper)

@@ -5,7 +5,7 @@
 #include "answers/figure.h"
 #include "jobs/variance/variance_job.h"
 #include "request/file_list.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* One question for each sampler or set and number of points, as the request counts them. The
  * questions borrow from it, and from here. */

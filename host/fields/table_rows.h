@@ -1,8 +1,8 @@
-/* What a table holds, for the files that build it and write it. Private to host/tables. */
-#ifndef PS_TABLES_TABLE_ROWS_H
-#define PS_TABLES_TABLE_ROWS_H
+/* What a table holds, for the files that build it and write it. Private to host/fields. */
+#ifndef PS_FIELDS_TABLE_ROWS_H
+#define PS_FIELDS_TABLE_ROWS_H
 
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
  * of cells, and a vector for each column. */
 #include "base/memory.h"
 #include "base/text.h"
-#include "tables/table_rows.h"
-#include "tables/table_vector.h"
+#include "fields/table_rows.h"
+#include "fields/table_vector.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-#include "tables/table_vector.h"
+#include "fields/table_vector.h"
 
 #include "base/memory.h"
-#include "tables/table_rows.h"
+#include "fields/table_rows.h"
 
 #include <inttypes.h>
 #include <stdio.h>

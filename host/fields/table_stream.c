@@ -1,6 +1,6 @@
 #include "base/memory.h"
 #include "files/output_file.h"
-#include "tables/table_rows.h"
+#include "fields/table_rows.h"
 
 #include <stdlib.h>
 #include <string.h>

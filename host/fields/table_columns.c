@@ -3,8 +3,8 @@
  * still comes in parts, one below the other, each of which begins with the columns that say what
  * the rows are. */
 #include "base/memory.h"
-#include "tables/table_cells.h"
-#include "tables/table_rows.h"
+#include "fields/table_cells.h"
+#include "fields/table_rows.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "tables/table_cells.h"
+#include "fields/table_cells.h"
 
 #include <inttypes.h>
 #include <math.h>

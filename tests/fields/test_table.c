@@ -1,7 +1,7 @@
 /* Result tables in their formats. */
 #include "base/text.h"
 #include "files/input_file.h"
-#include "tables/table.h"
+#include "fields/table.h"
 #include "test_folder.h"
 
 #include <cJSON.h>

@@ -1,10 +1,10 @@
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/npy.h"
 #include "files/output_file.h"
-#include "tables/table_rows.h"
+#include "fields/table_rows.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * JSON lines. */
 #include "base/text.h"
 #include "files/decimal.h"
-#include "tables/table_rows.h"
+#include "fields/table_rows.h"
 
 #include <inttypes.h>
 #include <math.h>

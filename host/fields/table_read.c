@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "files/decimal.h"
 #include "files/descriptor.h"
-#include "tables/table_rows.h"
+#include "fields/table_rows.h"
 
 #include <math.h>
 #include <stdlib.h>

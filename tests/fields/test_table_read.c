@@ -1,5 +1,5 @@
 /* Tables in NPZ files and back, reading them cell by cell, and files that are no table. */
-#include "tables/table.h"
+#include "fields/table.h"
 #include "test_folder.h"
 
 #include <float.h>

@@ -1,5 +1,6 @@
-/* Result tables: header lines, named columns, rows; written as CSV, JSON, JSON lines, NPY, NPZ or
- * text. Arrays of any shape beside them are in NPZ alone, and in files of their own.
+/* Result tables, the named fields of an answer: header lines, columns, rows; written as CSV, JSON,
+ * JSON lines, NPY, NPZ or text. Arrays of any shape beside them are in NPZ alone, and in files of
+ * their own.
  *
  * CSV: "# key: value" header lines, one line of column names, one line per row, shortest digits; a
  * missing number is an empty field. JSON: {"schema": 3, "command", "meta", "columns", "rows"}, each
@@ -12,8 +13,8 @@
  * that is nan counts as missing. JSON has no infinities: null. Text is for
  * people (table_text.c): few digits, units for seconds and bytes.
  */
-#ifndef PS_TABLES_TABLE_H
-#define PS_TABLES_TABLE_H
+#ifndef PS_FIELDS_TABLE_H
+#define PS_FIELDS_TABLE_H
 
 #include "base/status.h"
 #include "files/npy_array.h"

@@ -1,9 +1,9 @@
 /* Columns of a table as vectors of one type: what NPZ files and the library have. */
-#ifndef PS_TABLES_TABLE_VECTOR_H
-#define PS_TABLES_TABLE_VECTOR_H
+#ifndef PS_FIELDS_TABLE_VECTOR_H
+#define PS_FIELDS_TABLE_VECTOR_H
 
 #include "files/decimal.h"
-#include "tables/table.h"
+#include "fields/table.h"
 
 /* Integers where all cells are integers, and there are some; texts where one of them is, or an
  * integer that is none of the doubles beside it, "" of what is missing; else doubles, nan of what is

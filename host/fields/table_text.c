@@ -3,8 +3,8 @@
  * at a glance, or each row as a block of lines, where there are many columns and few rows. A view
  * makes it fit a terminal. What programs read is CSV or JSON. */
 #include "base/text.h"
-#include "tables/table_cells.h"
-#include "tables/table_rows.h"
+#include "fields/table_cells.h"
+#include "fields/table_rows.h"
 
 #include <math.h>
 #include <stdlib.h>

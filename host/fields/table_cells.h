@@ -1,8 +1,8 @@
 /* Cells and lines of tables for people, and of their help. */
-#ifndef PS_TABLES_TABLE_CELLS_H
-#define PS_TABLES_TABLE_CELLS_H
+#ifndef PS_FIELDS_TABLE_CELLS_H
+#define PS_FIELDS_TABLE_CELLS_H
 
-#include "tables/table.h"
+#include "fields/table.h"
 
 #include <stdio.h>
 
