@@ -5,10 +5,22 @@ rooms=(
     base math math/random math/linear device files fields store points plots images meshes
     samplers samplers/torus samplers/sphere samplers/darts samplers/optimized samplers/ccvt samplers/forces sets integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
-    engines/pairs trials plan spectra rules jobs jobs/spectrum jobs/quadrature jobs/variance jobs/shade jobs/interpolation jobs/occlusion request verify verify/bench
-    answers answers/points answers/spectra answers/quadrature answers/truncation answers/homogeneity answers/check answers/variance answers/shade answers/interpolation answers/occlusion answers/light
-    scene scene/run commands api cli cli/commands
+    engines/pairs trials plan spectra rules
 )
+
+# Adds a room, those of its folders that are named, which others use, and then the rest, which use none of each other.
+add_room() { # ROOM FOLDER...
+    local room=$1 folder
+    rooms+=("$room" "${@:2}")
+    for folder in host/"$room"/*/; do
+        folder=${folder#host/}
+        [[ " ${rooms[*]} " == *" ${folder%/} "* ]] || rooms+=("${folder%/}")
+    done
+}
+add_room jobs jobs/spectrum jobs/quadrature
+rooms+=(request verify verify/bench)
+add_room answers answers/points answers/spectra answers/quadrature answers/homogeneity answers/interpolation
+rooms+=(scene scene/run commands api cli cli/commands)
 
 # A room's table names what is in its folders, which are rooms above it: these sources alone look up.
 tables=(answers/kinds.c engines/engines.c samplers/samplers.c)
