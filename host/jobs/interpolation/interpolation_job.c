@@ -18,9 +18,9 @@ bool ps_interpolation_is_dense(const ps_interpolation_question *question, size_t
            ps_kernel_system_is_dense(num_points, question->limits.constraints.memory_limit);
 }
 
-/* Values, solutions and what is found at the points. */
+/* Values and solutions. */
 static size_t numbers_of_point(const ps_interpolation_question *question) {
-    return 3 * question->panorama->num;
+    return 2 * question->panorama->num;
 }
 
 static size_t pixels_of(const ps_interpolation_question *question) {
@@ -152,7 +152,6 @@ static pspec_status make_room(ps_interpolation_job *job, size_t num_points, ps_e
                            numbers_of_point(job->question) * sizeof(double), "values", error));
     job->values = job->block;
     job->alpha = job->values + panorama->num * num_points;
-    job->found = job->alpha + panorama->num * num_points;
     PS_TRY(PS_NEW(&job->directions, job->rows_of_block * panorama->width * (3 + panorama->num),
                   "pixels", error));
     job->pixels = job->directions + job->rows_of_block * panorama->width * 3;
@@ -200,22 +199,39 @@ static void evaluate(const interpolant *self, size_t num, const double *at, doub
                           self->job->alpha, num, at, values);
 }
 
-/* What is left of the equations, by sums that solved none of them. */
-static void check_points(const interpolant *self) {
-    const size_t num = self->set->num_points;
-    evaluate(self, num, self->set->points, self->job->found);
+/* Adds the largest differences at some of the points to those of each function. */
+static void compare_points(const interpolant *self, size_t first, size_t num, double *off) {
     for (size_t i = 0; i < num_functions(self); i++) {
-        const double *const f = self->job->values + i * num;
-        const double *const found = self->job->found + i * num;
-        double off = 0;
+        const double *const f = self->job->values + i * self->set->num_points + first;
+        const double *const found = self->job->pixels + i * num;
+        for (size_t j = 0; j < num; j++) {
+            off[i] = fmax(off[i], fabs(found[j] - f[j]));
+        }
+    }
+}
+
+/* What is left of the equations, by sums that solved none of them. */
+static pspec_status check_points(const interpolant *self) {
+    const ps_interpolation_job *const job = self->job;
+    const size_t num = self->set->num_points;
+    const size_t at_a_time = job->rows_of_block * job->question->panorama->width;
+    double off[PS_SOBOLEV_MOST_SUMS] = {0};
+    for (size_t first = 0; first < num; first += at_a_time) {
+        const size_t some = num - first < at_a_time ? num - first : at_a_time;
+        PS_TRY(ps_watch_tell(&job->question->watch, "interpolation: points", first, num, NULL,
+                             self->error));
+        evaluate(self, some, self->set->points + 3 * first, job->pixels);
+        compare_points(self, first, some, off);
+    }
+    for (size_t i = 0; i < num_functions(self); i++) {
         double most = 0;
         for (size_t j = 0; j < num; j++) {
-            off = fmax(off, fabs(found[j] - f[j]));
-            most = fmax(most, fabs(f[j]));
+            most = fmax(most, fabs(job->values[i * num + j]));
         }
         ps_interpolation_row *const row = row_of(self, i);
-        row->residual = fmax(row->residual, most > 0 ? off / most : off);
+        row->residual = fmax(row->residual, most > 0 ? off[i] / most : off[i]);
     }
+    return PSPEC_OK;
 }
 
 /* Returns the part of the mean square that a line of pixels has. */
@@ -303,7 +319,7 @@ static pspec_status interpolate(const interpolant *self) {
     }
     ps_kernel_system_destroy(system);
     PS_TRY(status);
-    check_points(self);
+    PS_TRY(check_points(self));
     return compare(self);
 }
 
