@@ -92,11 +92,13 @@ static double error_of_root(ps_mean square) {
     return square.standard_error / (2 * sqrt(square.mean));
 }
 
-/* Light that any rule integrates exactly has none: both errors are rounding. */
+/* Light that any rule integrates exactly has none: both errors are rounding of its mean. */
 static double score(const ps_shade_job *result) {
+    const double rounding = 1e-28 * result->light->powers[0];
     const double error = hypot(result->measured.standard_error, result->predicted.standard_error);
-    return result->predicted.mean > 0 ? (result->measured.mean - result->predicted.mean) / error
-                                      : NAN;
+    return result->predicted.mean > rounding
+               ? (result->measured.mean - result->predicted.mean) / error
+               : NAN;
 }
 
 static pspec_status add_one(ps_table *table, const ps_request *request, const work *self, size_t i,
