@@ -63,6 +63,16 @@ static pspec_status take_set(asking *self, size_t i, ps_error *error) {
         return PSPEC_OK;
     }
     const char *const word = ps_text_string(&set->word);
+    if (set->count > 0) {
+        return set->count < request->num_counts
+                   ? PSPEC_OK
+                   : ps_fail(
+                         error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "the set %.*s has points of more than the %zu number%s that the option "
+                         "%s names",
+                         (int)strcspn(name, "="), name, request->num_counts,
+                         request->num_counts > 1 ? "s" : "", ps_options[PS_OPTION_POINTS].name);
+    }
     ps_option_append(&self->command, PS_OPTION_SET, word);
     return ps_option_apply(request, PS_OPTION_SET, ps_options[PS_OPTION_SET].metavar, word, error);
 }

@@ -4,14 +4,26 @@
 
 #include <string.h>
 
+/* Sets of one name are one curve, of several numbers of points. */
+static size_t count_before(const pspec_question *self, const char *name) {
+    size_t count = 0;
+    for (size_t i = 0; i < self->num_sets; i++) {
+        const char *const known = ps_text_string(&self->sets[i].name);
+        const size_t length = strcspn(known, "=");
+        count += strlen(name) == length && strncmp(known, name, length) == 0;
+    }
+    return count;
+}
+
 static pspec_status begin_set(pspec_question *self, const char *name, ps_error *error) {
     void *sets = self->sets;
+    const size_t count = count_before(self, name);
     PS_TRY(ps_grow(&sets, &self->sets_capacity, self->num_sets + 1, sizeof *self->sets, "sets",
                    error));
     self->sets = sets;
     ps_caller_set *const set = &self->sets[self->num_sets++];
-    *set = (ps_caller_set){.num = 0};
-    ps_text_append(&set->name, "%s", name);
+    *set = (ps_caller_set){.count = count};
+    ps_given_name(&set->name, name, count);
     ps_text_append(&set->word, "%s=%s", name, name);
     return ps_text_check(set->word.failed ? &set->word : &set->name, error);
 }
@@ -66,36 +78,43 @@ static pspec_status check_memory(const pspec_question *self, const pspec_pattern
                          ps_size_show(needed, bytes), ps_size_show(allowed, (double)limit));
 }
 
-/* Copies num patterns of the shape of the first, one behind the other. */
-static pspec_status keep(ps_caller_set *set, const pspec_pattern *first, size_t num,
-                         ps_error *error) {
-    static const char what[] = "patterns in memory";
+static const char what[] = "patterns in memory";
+
+/* Keeps views of num patterns of the shape of the first, one behind the other. */
+static pspec_status keep_views(ps_caller_set *set, const pspec_pattern *first, size_t num,
+                               ps_error *error) {
     const size_t coordinates = first->num_points * first->dimension;
-    const size_t size = count_numbers(first, num);
     void *kept = set->kept;
-    double *numbers = NULL;
-    if (size > SIZE_MAX - 1 - set->num_numbers) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "there is no memory for so many %s", what);
-    }
     PS_TRY(ps_grow(&kept, &set->capacity, set->num_kept + num, sizeof *set->kept, what, error));
     set->kept = kept;
-    PS_TRY(PS_POOL_NEW(&set->memory, &numbers, size, what, error));
-    double *const weights = numbers + num * coordinates;
-    memcpy(numbers, first->points, num * coordinates * sizeof *numbers);
-    if (first->weights != NULL) {
-        memcpy(weights, first->weights, num * first->num_points * sizeof *weights);
-    }
     for (size_t i = 0; i < num; i++) {
         set->kept[set->num_kept++] =
-            (pspec_pattern){first->dimension, first->num_points, numbers + i * coordinates,
-                            first->weights != NULL ? weights + i * first->num_points : NULL};
+            (pspec_pattern){first->dimension, first->num_points, first->points + i * coordinates,
+                            first->weights != NULL ? first->weights + i * first->num_points : NULL};
     }
+    return PSPEC_OK;
+}
+
+/* Copies them before. */
+static pspec_status keep_copies(ps_caller_set *set, const pspec_pattern *first, size_t num,
+                                ps_error *error) {
+    const size_t coordinates = first->num_points * first->dimension;
+    const size_t size = count_numbers(first, num);
+    double *numbers = NULL;
+    PS_TRY(PS_POOL_NEW(&set->memory, &numbers, size, what, error));
+    double *const weights = first->weights != NULL ? numbers + num * coordinates : NULL;
+    memcpy(numbers, first->points, num * coordinates * sizeof *numbers);
+    if (weights != NULL) {
+        memcpy(weights, first->weights, num * first->num_points * sizeof *weights);
+    }
+    const pspec_pattern copy = {first->dimension, first->num_points, numbers, weights};
+    PS_TRY(keep_views(set, &copy, num, error));
     set->num_numbers += size;
     return PSPEC_OK;
 }
 
 static pspec_status add(pspec_question *self, const pspec_pattern *first, size_t num,
-                        ps_error *error) {
+                        bool is_copied, ps_error *error) {
     ps_caller_set *set = NULL;
     if (first->num_points == 0 || first->points == NULL || first->dimension == 0 ||
         first->dimension > PS_MAX_DIMENSION) {
@@ -105,20 +124,32 @@ static pspec_status add(pspec_question *self, const pspec_pattern *first, size_t
                        PS_MAX_DIMENSION, first->num_points, first->dimension,
                        first->points == NULL ? " at the address NULL" : "");
     }
-    PS_TRY(check_memory(self, first, num, error));
+    PS_TRY(is_copied ? check_memory(self, first, num, error) : PSPEC_OK);
     PS_TRY(last_set(self, &set, error));
+    if (count_numbers(first, num) > SIZE_MAX / sizeof(double) - set->num_numbers) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "there is no memory for so many %s", what);
+    }
     return set->give != NULL
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "the patterns of the set \"%s\" are those that a function gives",
                          ps_text_string(&set->name))
-               : keep(set, first, num, error);
+           : is_copied ? keep_copies(set, first, num, error)
+                       : keep_views(set, first, num, error);
 }
 
 pspec_status pspec_question_add(pspec_question *question, size_t num_patterns, size_t num_points,
                                 unsigned dimension, const double *points, const double *weights) {
     const pspec_pattern first = {dimension, num_points, points, weights};
     return question == NULL ? PSPEC_ERROR_INVALID_ARGUMENT
-                            : add(question, &first, num_patterns, &question->context->error);
+                            : add(question, &first, num_patterns, true, &question->context->error);
+}
+
+pspec_status pspec_question_borrow(pspec_question *question, size_t num_patterns, size_t num_points,
+                                   unsigned dimension, const double *points,
+                                   const double *weights) {
+    const pspec_pattern first = {dimension, num_points, points, weights};
+    return question == NULL ? PSPEC_ERROR_INVALID_ARGUMENT
+                            : add(question, &first, num_patterns, false, &question->context->error);
 }
 
 pspec_status pspec_question_give(pspec_question *question, uint64_t num, pspec_give give,

@@ -10,7 +10,8 @@
 /* Patterns of one average: kept ones, or those that a function of the caller gives. */
 typedef struct ps_caller_set {
     ps_text name; /* PS_CALLER_POINTS: they are the points of the question, as files are */
-    ps_text word; /* NAME=NAME, as --set has it */
+    ps_text word; /* NAME=NAME, as --set has it, of the first of its name */
+    size_t count; /* sets of its name before it: which number of points it has */
     size_t num_kept, capacity;
     pspec_pattern *kept; /* with copies of their numbers in memory */
     ps_pool memory;

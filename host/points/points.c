@@ -198,6 +198,13 @@ static pspec_status check_names(const ps_point_reader *reader, ps_error *error) 
                          reader->input.name, reader->format->name);
 }
 
+void ps_given_name(ps_text *out, const char *curve, size_t count) {
+    ps_text_append(out, "%s", curve);
+    if (count > 0) {
+        ps_text_append(out, "=%zu", count + 1);
+    }
+}
+
 ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path) {
     size_t i = 0;
     while (i < given->num && strcmp(given->sets[i].name, path) != 0) {

@@ -12,6 +12,7 @@
 #define PS_POINTS_POINTS_H
 
 #include "base/status.h"
+#include "base/text.h"
 #include "math/lift.h"
 #include "math/morph.h"
 #include "points/box.h"
@@ -87,6 +88,9 @@ typedef struct ps_given_sets {
     size_t num;
 } ps_given_sets;
 
+/* The name of the set of a curve with its number `count` of points, from 0: NAME, NAME=2, NAME=3.
+ * No name of a set has =. */
+void ps_given_name(ps_text *out, const char *curve, size_t count);
 /* NULL: a path is that of a file. */
 ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path);
 /* All paths are those of given sets. */

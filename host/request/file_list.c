@@ -114,6 +114,27 @@ void ps_file_list_free(ps_file_list *list) {
 
 /* ---- of questions -------------------------------------------------------------------------- */
 
+/* What a caller gives of several numbers of points is a set for each of them. */
+static pspec_status find_given(ps_file_list *out, const ps_request *request,
+                               const ps_source_words *source, size_t count, ps_error *error) {
+    ps_text name = {0};
+    ps_given_name(&name, source->files, count);
+    pspec_status status = ps_text_check(&name, error);
+    if (status == PSPEC_OK) {
+        const ps_given_set *const set =
+            ps_given_sets_find(&request->reading.given, ps_text_string(&name));
+        status = set != NULL
+                     ? PSPEC_OK
+                     : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                               "the set %s has points of %zu number%s, and %s names %zu",
+                               source->name, count, count > 1 ? "s" : "",
+                               ps_option_show(request, PS_OPTION_POINTS).text, request->num_counts);
+        *out = (ps_file_list){.num = 1, .paths = set != NULL ? &set->name : NULL};
+    }
+    ps_text_free(&name);
+    return status;
+}
+
 pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *request, size_t question,
                                       ps_error *error) {
     enum { BYTES = PS_SET_NAME_BYTES + 32 };
@@ -126,6 +147,9 @@ pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *reque
     if (source->files == NULL) {
         *out = (ps_file_list){0};
         return PSPEC_OK;
+    }
+    if (ps_given_sets_find(&request->reading.given, source->files) != NULL) {
+        return find_given(out, request, source, question % request->num_counts, error);
     }
     snprintf(shown, sizeof shown, "%s %s", ps_option_show(request, PS_OPTION_SET).text,
              source->name);

@@ -66,9 +66,20 @@ pspec_status ps_sources_check(const ps_request *arguments, const char *what, ps_
                          arguments->files[0]);
 }
 
+/* Points of files have; a caller gives those that are asked for. */
+static bool has_own_counts(const ps_request *arguments) {
+    size_t i = 0;
+    while (i < arguments->num_sources &&
+           (arguments->sources[i].files == NULL ||
+            ps_given_sets_find(&arguments->reading.given, arguments->sources[i].files) != NULL)) {
+        i++;
+    }
+    return i < arguments->num_sources || arguments->num_sources == 0;
+}
+
 pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_other_source(arguments, error));
-    if (ps_request_has_files(arguments) || arguments->num_sources == 0) {
+    if (has_own_counts(arguments)) {
         PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
     }
     return check_lift(arguments, error);

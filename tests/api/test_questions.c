@@ -64,8 +64,8 @@ static int give(uint64_t realization, pspec_pattern *out, void *payload) {
     return 1;
 }
 
-/* Files, one call, calls of one, and a function have the same bits, and so has the question that is
- * asked again. */
+/* Files, one call, calls of one, views and a function have the same bits, and so has a question
+ * that is asked again. */
 static void kinds_take_points_of_the_caller(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
@@ -75,12 +75,17 @@ static void kinds_take_points_of_the_caller(void **state) {
         pspec_question *const whole = make(i, "");
         pspec_question *const single = make(i, "");
         pspec_question *const given = make(i, "");
+        pspec_question *const borrowed = make(i, "");
+        const double *const points = on_sphere ? &sphere[0][0][0] : &plane[0][0][0];
+        assert_int_equal(
+            pspec_question_borrow(borrowed, SETS, N, on_sphere ? SPHERE : PLANE, points, weights),
+            PSPEC_OK);
         add(whole, 0, SETS, on_sphere);
         for (size_t r = 0; r < SETS; r++) {
             add(single, r, 1, on_sphere);
         }
         assert_int_equal(pspec_question_give(given, 0, give, &on_sphere), PSPEC_OK);
-        pspec_question *const all[] = {whole, single, given, whole};
+        pspec_question *const all[] = {whole, single, given, borrowed, whole};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
             pspec_answer *const answer = test_public_answer(context, all[k]);
             if (!test_public_same(answer, expected)) {
@@ -93,6 +98,7 @@ static void kinds_take_points_of_the_caller(void **state) {
         pspec_question_destroy(whole);
         pspec_question_destroy(single);
         pspec_question_destroy(given);
+        pspec_question_destroy(borrowed);
         pspec_answer_destroy(expected);
     }
 }

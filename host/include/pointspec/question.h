@@ -103,7 +103,8 @@ PSPEC_EXPORT pspec_status pspec_question_set_array(pspec_question *question, con
                                                    const pspec_field *array);
 
 /** Patterns that are added from now on are realizations of another average, a curve of that name
- * beside those of samplers and files, as for --set of the program. */
+ * beside those of samplers and files, as for --set of the program. A name that comes again is that
+ * curve with the next of several numbers of points, as the option "points" names them. */
 PSPEC_EXPORT pspec_status pspec_question_begin_set(pspec_question *question, const char *name);
 
 /** Adds realizations: points [num_patterns][num_points][dimension], each coordinate in [0,1), or
@@ -117,6 +118,12 @@ PSPEC_EXPORT pspec_status pspec_question_begin_set(pspec_question *question, con
 PSPEC_EXPORT pspec_status pspec_question_add(pspec_question *question, size_t num_patterns,
                                              size_t num_points, unsigned dimension,
                                              const double *points, const double *weights);
+
+/** The same without a copy: points and weights stay where they are and as they are until
+ * pspec_question_reset() or pspec_question_destroy(), and no limit counts them. */
+PSPEC_EXPORT pspec_status pspec_question_borrow(pspec_question *question, size_t num_patterns,
+                                                size_t num_points, unsigned dimension,
+                                                const double *points, const double *weights);
 
 /** Makes *out a view of pattern number `realization`, from 0 on, that stays as it is until the next
  * call, and returns 1; or returns 0 where there are no more; or anything below 0, which ends the
