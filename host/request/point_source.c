@@ -88,8 +88,9 @@ pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error
 ps_point_options ps_point_options_make(const ps_request *arguments) {
     ps_point_options options = arguments->reading;
     options.dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0;
-    options.points_per_set =
-        arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->counts[0] : 0;
+    options.points_per_set = arguments->is_given[PS_OPTION_POINTS] && arguments->num_counts == 1
+                                 ? (size_t)arguments->counts[0]
+                                 : 0;
     options.points_vary = ps_request_has_samplers(arguments);
     options.memory_limit = arguments->limits.constraints.memory_limit;
     return options;
