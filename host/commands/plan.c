@@ -124,6 +124,8 @@ static const ps_field_row own_fields[] = {
     {"degrees", "", PS_ENTRIES, 0, "on the sphere", "how many"},
     {"tolerance", "", PS_ENTRIES, 0, "", "largest numerical error that is allowed (--tol)"},
     {"degrees_note", "", PS_ENTRIES, 0, "quadrature", "why there are so many degrees"},
+    {"horizon_points", "", PS_ENTRIES, 0, "shade --view",
+     "directions below the horizon, which points count, too"},
     {"weights", "", PS_ENTRIES, 0, "quadrature", "how weights are made"},
     {"skip", "", PS_ENTRIES, 0, "", "what is not done; why; share of work"},
     {"phase", "", PS_ENTRIES, 0, "", "name; seconds; what is done"},

@@ -5,7 +5,8 @@
 #include "request/options.h"
 
 /* These set the field at option->offset: a bool, a text, one more of several texts, a uint64_t
- * within limits, a ps_point_range, one of words, a number above 0 (and at most 1, or 90). */
+ * within limits, a ps_point_range, one of words, a number above 0 (and at most 1), or one from 0 to
+ * 90. */
 ps_option_setter ps_set_flag, ps_set_text, ps_add_text, ps_set_count, ps_set_points, ps_set_size,
     ps_set_range, ps_set_word, ps_set_positive, ps_set_share, ps_set_quarter_turn;
 

@@ -17,25 +17,22 @@ typedef struct span {
 /* A lobe falls below this share of its top, and the rest is left out. */
 static const double NOTHING = 1e-17;
 
-/* The angle from its axis at which a lobe has ended. Lobes whose points can be morphed fall all the
- * way from the axis; of tables nobody knows. */
+/* The angle from its axis at which a lobe has ended, which falls all the way from there. */
 static double find_end(const ps_brdf *brdf) {
     const double step = 0.9;
     const double least = NOTHING * ps_brdf_density(brdf, 1);
     double end = ps_brdf_is_below_horizon(brdf) ? PS_PI : PS_PI / 2;
-    if (ps_brdf_morph(brdf).kind != PS_MORPH_NONE) {
-        while (ps_brdf_density(brdf, cos(step * end)) < least) {
-            end *= step;
-        }
+    while (ps_brdf_density(brdf, cos(step * end)) < least) {
+        end *= step;
     }
     return end;
 }
 
-/* 48 nodes a radian have degree 90; from the axis to the end of a lobe 48 have its shape to 1e-13
- * (test_horizon). */
-static size_t choose_nodes(span range, double end) {
-    enum { LEAST = 8, DENSITY = 48 };
-    return LEAST + (size_t)ceil((range.end - range.begin) * DENSITY / fmin(end, 1));
+/* A rule of num nodes has the waves of num periods in all of its range, and a few more. */
+static size_t choose_nodes(span range, double end, size_t max_degree) {
+    enum { LEAST = 12, OF_SHAPE = 24 }; /* test_horizon: rounding is left */
+    const double waves = (double)max_degree / 2 + OF_SHAPE / fmin(end, 1);
+    return LEAST + (size_t)ceil((range.end - range.begin) * waves);
 }
 
 static pspec_status fill(ps_horizon *out, const ps_brdf *brdf, span b, span t, const size_t *nums,
@@ -68,16 +65,24 @@ static pspec_status fill(ps_horizon *out, const ps_brdf *brdf, span b, span t, c
 }
 
 pspec_status ps_horizon_make(ps_horizon *out, const ps_brdf *brdf, double degrees,
-                             ps_error *error) {
+                             size_t max_degree, ps_error *error) {
     const double angle = degrees * PS_PI / 180;
+    *out = (ps_horizon){.normal = {sin(angle), 0, cos(angle)}};
+    if (ps_brdf_morph(brdf).kind == PS_MORPH_NONE) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "a lobe from a table has kinks, and the part of it below a horizon is not "
+                       "found exactly; other lobes can be looked at from aside");
+    }
     const double end = find_end(brdf);
     const double side = fmin(end, PS_PI / 2);
     const double least = ps_brdf_is_below_horizon(brdf) ? angle - 3 * PS_PI / 2 : -PS_PI / 2;
     const span b = {PS_PI / 2 - side, PS_PI / 2 + side};
     const span t = {fmax(least, -end), angle - PS_PI / 2};
-    const size_t nums[] = {choose_nodes(b, end), choose_nodes(t, end)};
-    *out = (ps_horizon){.normal = {sin(angle), 0, cos(angle)}};
-    return t.begin < t.end ? fill(out, brdf, b, t, nums, error) : PSPEC_OK;
+    if (!(t.begin < t.end)) {
+        return PSPEC_OK;
+    }
+    const size_t nums[] = {choose_nodes(b, end, max_degree), choose_nodes(t, end, max_degree)};
+    return fill(out, brdf, b, t, nums, error);
 }
 
 void ps_horizon_free(ps_horizon *horizon) {

@@ -21,10 +21,10 @@ typedef struct ps_horizon {
     double share;             /* sum of the weights: how much of the lobe is below */
 } ps_horizon;
 
-/* degrees: 0 .. PS_MOST_VIEW. The error of the integral of a polynomial of degree 90 is rounding,
- * where the lobe itself is smooth. *out is freed by ps_horizon_free, also after an error. */
+/* degrees: 0 .. PS_MOST_VIEW. Integrals of polynomials up to max_degree are right to rounding;
+ * lobes from tables are refused. *out is freed by ps_horizon_free, also after an error. */
 pspec_status ps_horizon_make(ps_horizon *out, const ps_brdf *brdf, double degrees,
-                             ps_error *error) PS_MUST_CHECK;
+                             size_t max_degree, ps_error *error) PS_MUST_CHECK;
 void ps_horizon_free(ps_horizon *horizon);
 
 /* Is a direction on the side of the normal? */

@@ -40,14 +40,17 @@ runs 0 --brdf diffuse --integrand constant --sampler fibonacci-hemisphere -n 16
 awk -F, 'END { exit !($1 < 1e-14 && $3 == 0 && $5 == "") }' out || complain "constant light: $(tail -1 out)"
 
 # a normal aside of the lobe: near it nothing changes, far from it measurement and prediction agree
-runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32
+runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --shifts 100
 whole=$(tail -1 out)
-runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --view 5
+runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --shifts 100 --view 5
 [[ $(tail -1 out) == "$whole" && $(key horizon_points) == 0 && $(key view) == 5 ]] || complain "view of 5 degrees: $(<out)"
-runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --view 88
+runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --shifts 100 --view 88
 awk -F, 'END { exit !(sqrt($5 ^ 2) < 4 && $1 > 0) }' out || complain "view of 88 degrees: $(tail -1 out)"
 [[ $(tail -1 out) != "$whole" && $(key points) == 32 && $(key below_horizon) == 0.4* ]] || complain "view of 88 degrees: $(<out)"
 "$program" plan shade --brdf diffuse "${light[@]}" --view 80 --sampler fibonacci-hemisphere -n 8 >planned || complain 'plan with a view'
+grep -q '^# horizon_points: [1-9]' planned || complain "plan with a view: $(<planned)"
+runs 0 --brdf phong:n=40 --integrand map:file=sky.pfm --sampler fibonacci-hemisphere -n 32 --shifts 100 --view 0
+[[ $(tail -1 out) == "$whole" ]] || complain "view of 0 degrees: $(<out)"
 printf '%s\n' x,y,z -.8,0,.6 >aside.csv # the only point is below the horizon, and the lobe is all above
 runs 2 --brdf phong:n=4000 --integrand map:file=sky.pfm --view 60 aside.csv
 says 'no point of set 1 is above the horizon'
@@ -100,6 +103,8 @@ refuses 'one --integrand is the light' --brdf diffuse --integrand cap --integran
 refuses 'integrand disk: there is none on the sphere' --brdf diffuse --integrand disk --sampler fibonacci-hemisphere
 refuses '--brdf NAME is needed' "${light[@]}" --sampler fibonacci-hemisphere
 refuses '--weights optimal does not go with --view: they are made for a whole lobe' --brdf diffuse "${light[@]}" --view 60 --weights optimal --sampler fibonacci-hemisphere
+printf '1 1\n0.9 0\n' >lobe.txt
+refuses 'a lobe from a table has kinks' --brdf zonal:file=lobe.txt "${light[@]}" --view 60 --sampler fibonacci-hemisphere
 refuses '--view: 91' --brdf diffuse "${light[@]}" --view 91 --sampler fibonacci-hemisphere
 refuses 'makes points of the torus' --brdf diffuse "${light[@]}" --sampler white
 refuses 'below the horizon' --brdf diffuse "${light[@]}" --sampler white-sphere

@@ -48,7 +48,7 @@ static const char *const questions[] = {
     "truncation brdf=glossy:n=4 max-degree=2 integrand=map:file=light.pfm",
     "shade sampler=white-hemisphere sampler=fibonacci-hemisphere points=4,8 brdf=diffuse "
     "integrand=coefficients:file=light.txt shifts=3",
-    "shade files=above.txt brdf=diffuse integrand=map:file=light.pfm shifts=3 view=60 max-degree=8",
+    "shade files=above.txt brdf=diffuse integrand=coefficients:file=light.txt shifts=3 view=60",
     "interpolation sampler=white-sphere sampler=fibonacci points=4,8 "
     "integrand=coefficients:file=light.txt integrand=map:file=light.pfm smoothness=1.1,1.5 "
     "output=maps.npz engine=default",
@@ -65,6 +65,7 @@ static const char *const questions[] = {
     "plan power sampler=white sampler=jittered points=4,9 max-frequency=2",
     "plan angular sampler=white-sphere points=4 max-degree=2",
     "plan quadrature sampler=fibonacci-hemisphere points=8 brdf=diffuse weights=optimal",
+    "plan shade files=above.txt brdf=diffuse integrand=coefficients:file=light.txt view=80",
     "plan run files=scene.yaml engine=default",
     "devices engine=default",
 };

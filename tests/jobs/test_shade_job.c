@@ -200,7 +200,7 @@ static void predictions_hold(void **state) {
         ps_horizon horizon;
         ask(&job, cases[i].lobe, cases[i].integrand, cases[i].sampler, cases[i].num_points,
             cases[i].num_realizations);
-        assert_ok(ps_horizon_make(&horizon, job.brdf, cases[i].view, error));
+        assert_ok(ps_horizon_make(&horizon, job.brdf, cases[i].view, job.light.max_degree, error));
         job.question.horizon = cases[i].view > 0 ? &horizon : NULL;
         job.num_orientations = cases[i].num_realizations > 1 ? 50 : 2000;
         job.question.weights.kind = cases[i].is_optimal ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_EQUAL;
@@ -220,7 +220,7 @@ static void lobes_are_cut(void **state) {
     ps_horizon horizon;
     (void)state;
     ask(&job, "diffuse", "coefficients:file=constant.txt", "fibonacci-hemisphere", NUM, 1);
-    assert_ok(ps_horizon_make(&horizon, job.brdf, 50, error));
+    assert_ok(ps_horizon_make(&horizon, job.brdf, 50, 1, error));
     job.question.horizon = &horizon;
     job.question.max_degree = 1;
     const ps_shade_job found = answer(&job, NULL);

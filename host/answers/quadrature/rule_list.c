@@ -138,7 +138,7 @@ static pspec_status add_plan(ps_planner *planner, const ps_request *request,
     const ps_quadrature_setup *const setup = &job->setup;
     ps_phases phases = ps_plan_table_begin_phases(planner);
     const double repeats = ps_quadrature_job_phases(job, &phases);
-    ps_meta notes[2];
+    ps_meta notes[3];
     ps_planned planned = {.problem = &setup->problem,
                           .needs = &setup->needs,
                           .limits = ps_device_get_limits(setup->device),
@@ -149,6 +149,10 @@ static pspec_status add_plan(ps_planner *planner, const ps_request *request,
     ps_plan_table_add_picture(&phases, request);
     if (setup->degrees_note[0] != '\0') {
         notes[planned.num_notes++] = (ps_meta){"degrees_note", PS_TEXT(setup->degrees_note)};
+    }
+    if (job->question->horizon != NULL) {
+        notes[planned.num_notes++] =
+            (ps_meta){"horizon_points", PS_INTEGER(job->question->horizon->num)};
     }
     if (setup->weights_note[0] != '\0') {
         notes[planned.num_notes++] = (ps_meta){"weights", PS_TEXT(setup->weights_note)};

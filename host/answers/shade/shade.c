@@ -7,6 +7,7 @@
 #include "answers/spectra/spectrum_header.h"
 #include "base/memory.h"
 #include "jobs/shade/shade_job.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,11 +43,14 @@ static pspec_status ask(work *self, const ps_request *request, ps_error *error) 
     PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
     PS_TRY(ps_light_check(request, true, error));
     PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
-    PS_TRY(ps_horizon_make(&self->horizon, list->brdf, request->view_angle, error));
+    if (request->view_angle > 0) {
+        PS_TRY(ps_horizon_make(&self->horizon, list->brdf, request->view_angle,
+                               self->light.max_degree, error));
+    }
     PS_TRY(PS_NEW(&self->shade_jobs, list->num, "questions", error));
     for (size_t i = 0; i < list->num; i++) {
         ps_quadrature_question *const rules = &list->questions[i];
-        rules->horizon = request->is_given[PS_OPTION_VIEW] ? &self->horizon : NULL;
+        rules->horizon = request->view_angle > 0 ? &self->horizon : NULL;
         if (rules->max_degree == 0) { /* degrees of E^2 are no guide: light is less smooth */
             rules->max_degree = self->light.max_degree;
         }
@@ -92,13 +96,22 @@ static double error_of_root(ps_mean square) {
     return square.standard_error / (2 * sqrt(square.mean));
 }
 
-/* Light that any rule integrates exactly has none: both errors are rounding of its mean. */
+/* Light that any rule integrates exactly has none: both errors are rounding of its mean. Nor have
+ * rules that are so good that most of their prediction is what they are taken to have beyond. */
 static double score(const ps_shade_job *result) {
-    const double rounding = 1e-28 * result->light->powers[0];
+    const double rounding = fmax(1e-28 * result->light->powers[0], 2 * result->beyond);
     const double error = hypot(result->measured.standard_error, result->predicted.standard_error);
     return result->predicted.mean > rounding
                ? (result->measured.mean - result->predicted.mean) / error
                : NAN;
+}
+
+/* Directions below the horizon have what light has up to its last degree; beyond they are as good
+ * as random ones with their weights. */
+static double horizon_error(const work *self) {
+    const ps_rule rule = {self->horizon.num, self->horizon.points, self->horizon.weights};
+    const double square = rule.num_points > 0 ? ps_rule_weight_sums(&rule).square : 0;
+    return sqrt(square / PS_FOUR_PI * ps_light_beyond(&self->light, self->light.max_degree));
 }
 
 static pspec_status add_one(ps_table *table, const ps_request *request, const work *self, size_t i,
@@ -136,7 +149,8 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     if (request->is_given[PS_OPTION_VIEW]) {
         const ps_meta entries[] = {{"view", PS_NUMBER(request->view_angle)},
                                    {"below_horizon", PS_NUMBER(self->horizon.share)},
-                                   {"horizon_points", PS_INTEGER(self->horizon.num)}};
+                                   {"horizon_points", PS_INTEGER(self->horizon.num)},
+                                   {"horizon_error", PS_NUMBER(horizon_error(self))}};
         PS_TRY(ps_table_add_metas(out->table, entries, sizeof entries / sizeof entries[0], error));
     }
     PS_TRY(ps_table_add_meta(out->table, "z_score_is",
@@ -174,6 +188,10 @@ static const ps_field_row own_fields[] = {
      "the share of the lobe that is below the horizon of the normal"},
     {"horizon_points", "", PS_ENTRY, 0, "--view",
      "directions that stand for that share in the exact integral and in spectra"},
+    {"horizon_error", "", PS_ENTRY, 0, "--view",
+     "what these are off by, root mean square over orientations: light beyond light_degree as "
+     "random "
+     "directions have it; a part of rmse_beyond"},
     {"z_score_is", "", PS_ENTRY, 0, "", "what the column of that name is"},
     {"orientations", "", PS_ENTRIES, 0, "", "random orientations of every rule"},
     {"rmse", "", PS_ENTRIES, 0, "", "as the column"},
@@ -187,7 +205,8 @@ static const ps_field_row own_fields[] = {
      "its standard error, over realizations; of one over orientations"},
     {"predicted", "", PS_COLUMN, 0, "", "the same from the spectra of rule and light"},
     {"predicted_error", "", PS_COLUMN, 0, "", "its standard error, over realizations"},
-    {"z_score", "", PS_COLUMN, 0, "", "what measurement and prediction are apart"},
+    {"z_score", "", PS_COLUMN, 0, "",
+     "what measurement and prediction are apart; missing where rmse_beyond is most of predicted"},
     {.name = NULL}};
 
 static const ps_field_row *const fields[] = {ps_fields_asked,
