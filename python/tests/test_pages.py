@@ -1,0 +1,27 @@
+"""The programs of docs/user/python.md run as they stand, one after the other."""
+
+from __future__ import annotations
+
+import doctest
+import re
+from pathlib import Path
+
+import pytest
+
+import pointspec
+
+PAGE = Path(__file__).parents[2] / "docs" / "user" / "python.md"
+
+
+def test_programs_of_the_page(capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, object] = {}
+    programs = re.findall(r"^```python\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE)
+    assert len(programs) == 2
+    for program in programs:
+        exec(program, names)
+    shown = capsys.readouterr().out
+    assert "normalized_frequency" in shown and "own has the least variance" in shown or "jittered has the least" in shown
+
+
+def test_docstrings() -> None:
+    assert doctest.testmod(pointspec).failed == 0
