@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # carry.sh [--cufinufft VERSION]: downloads what bench/gpu/run.sh needs on a machine without network into
 # build/carry: the Debian packages of the groups build and test (scripts/packages.txt) and what they
-# depend on, but no compiler; with --cufinufft the wheel of that version for PYTHON (default 3.12) in the
-# place of CMake, since with the sources everything stays below 64 MiB. Debian or Ubuntu, no older than
-# this one, can use the packages.
+# depend on, but no compiler and no Python; with --cufinufft the wheel of that version for PYTHON (default
+# 3.12) in the place of CMake, since with the sources everything stays below 64 MiB. Debian or Ubuntu, no
+# older than this one, can use the packages.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 peer=
@@ -25,7 +25,7 @@ download() { # FOLDER PACKAGE...
 }
 
 mapfile -t wanted < <(awk '$1 == "build" || $1 == "test" { print $2 }' scripts/packages.txt |
-    grep -vx -e build-essential -e cmake)
+    grep -vx -e build-essential -e cmake -e python3-numpy)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 # There is a compiler, hence what compilers need; but the link to zlib is to its very version.

@@ -63,8 +63,9 @@ fi
 
 # images of the largest number of points, smoothness by smoothness: the errors again, by weights that differ in form
 "$program" interpolation "${sky[@]}" --integrand coefficients:file=light.txt --sampler white-sphere -n 8,16 -m 1 --smoothness 1.1,1.5 -o images.npz
-if python3 -c 'import numpy' 2>err; then
-    python3 - images.npz <<'END' || complain "arrays"
+python=$(numpy_python)
+if [[ -n $python ]]; then
+    "$python" - images.npz <<'END' || complain "arrays"
 import sys
 import numpy as np
 table = np.load(sys.argv[1])

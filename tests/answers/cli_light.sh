@@ -71,8 +71,9 @@ runs 0 --integrand map:file=sky.pfm --integrand square --integrand map:file=turn
 [[ $(grep '^map:file=sky' out | cut -d, -f2-) == "$(<alone)" ]] || complain "beside others: $(<out)"
 [[ $(sed -n 's/^# integrand: //p' out | tr '\n' ' ') == 'map:file=sky.pfm square map:file=turn.pfm ' && $(grep -c '^# largest:' out) == 3 ]] || complain "header: $(<out)"
 "$program" light --integrand map:file=sky.pfm --integrand square -l 2 -o light.npz
-if python3 -c 'import numpy' 2>err; then
-    python3 - light.npz <<'END' || complain "arrays"
+python=$(numpy_python)
+if [[ -n $python ]]; then
+    "$python" - light.npz <<'END' || complain "arrays"
 import sys
 import numpy as np
 light = np.load(sys.argv[1])["light"]

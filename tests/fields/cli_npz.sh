@@ -38,19 +38,24 @@ export POINTSPEC_CACHE_DIR=$PWD/cache
 printf 'scene: 1\nresults:\n  - {result: power, sampler: bnot, points: 512, realizations: 2}\n' >kept.yaml
 "$program" run kept.yaml -o page >out 2>err || complain "run: $(<err)"
 [[ -n $(find cache/results -name '*.result') && -n $(find cache/sets -name '*.result') ]] || complain "nothing is kept: $(find cache)"
+# and figures of the device
+"$program" bench --calibrate --case list --quick -o /dev/null 2>err || complain "bench: $(<err)"
+[[ -n $(find cache/devices -name '*.result') ]] || complain "no figures are kept: $(find cache)"
 
-if ! python3 -c 'import numpy' 2>err; then
+python=$(numpy_python)
+if [[ -z $python ]]; then
     echo "cli_npz: no numpy: it does not read the archives"
     finish
 fi
-python3 - "${#lines[@]}" <<'PYTHON' 2>err || complain "$(<err)"
+"$python" - "${#lines[@]}" <<'PYTHON' 2>err || complain "$(<err)"
 import csv, glob, json, sys
 import numpy as np
 for i in range(int(sys.argv[1])):
     archive = np.load(f"{i}.npz", allow_pickle=False)
     with open(f"{i}.csv") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
-    assert json.loads(str(archive["meta"]))["columns"] == rows[0] == archive.files[3:-1]
+    assert json.loads(str(archive["meta"]))["columns"] == rows[0] == archive.files[3 : 3 + len(rows[0])]
+    assert all(name.startswith("state_") for name in archive.files[3 + len(rows[0]) : -1])
     assert archive.files[:3] + archive.files[-1:] == ["meta", "fields", "cell_kinds", "file_digest"]
     for column, name in enumerate(rows[0]):
         array = archive[name]
@@ -71,6 +76,6 @@ arrays = np.load("arrays.npz", allow_pickle=False)
 for name, path in ("full", "f"), ("full_standard_error", "f.standard_error"), ("coefficients", "c"):
     assert np.array_equal(arrays[name], np.load(path + ".npy"), equal_nan=True), name
 PYTHON
-python3 "$source_dir/docs/examples/npz.py" 0.npz >out 2>err || complain "npz.py: $(<err)"
+"$python" "$source_dir/docs/examples/npz.py" 0.npz >out 2>err || complain "npz.py: $(<err)"
 grep -q '^largest power' out || complain "npz.py prints $(<out)"
 finish

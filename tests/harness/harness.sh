@@ -40,6 +40,14 @@ refuses() { # PART ARGS...: one line of standard error with that part, nothing o
 key() { # NAME: of the header
     sed -n "s/^# $1: //p" out
 }
+numpy_python() { # the first Python that has NumPy, that of the path or Debian's; nothing where none has it
+    local python
+    for python in python3 /usr/bin/python3; do
+        "$python" -c 'import numpy' 2>/dev/null || continue
+        echo "$python"
+        break
+    done
+}
 finish() {
     echo "cli_$command: $checked command lines"
     exit $bad

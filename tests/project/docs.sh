@@ -5,19 +5,16 @@
 # relative links of all pages are looked up, lists of pages are compared with those of --help, and every
 # scene is planned.
 set -euo pipefail
-program=$(realpath "$1")
 source_dir=$(realpath "$2")
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" docs "$1"
 PATH=$(dirname "$program"):$PATH
 [[ $(basename "$program") == pointspec ]] || { echo "the program must be called pointspec" >&2; exit 1; }
 # Leaks are other tests' business; the leak sanitizer trips over threads of PoCL in short runs.
-export POINTSPEC_CACHE_DIR=$scratch/cache # neither figures nor results of who runs the tests
 export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
-bad=0
 
-has_numpy=no
-if python3 -c 'import numpy' 2>/dev/null; then has_numpy=yes; else echo "no numpy: python blocks are not run"; fi
+python=$(numpy_python)
+[[ -n $python ]] || echo "no numpy: python blocks are not run"
 
 # Blocks of a page as files block-001.sh, block-002.python, ... in the current folder, and what they print as
 # block-001.sh.printed.
@@ -41,8 +38,8 @@ run_page() { # PAGE
         [[ -f $block ]] || { echo "$page: no block to run" >&2; bad=1; break; }
         runner=(bash -euo pipefail)
         if [[ $block == *.python ]]; then
-            [[ $has_numpy == yes ]] || continue
-            runner=(python3)
+            [[ -n $python ]] || continue
+            runner=("$python")
         fi
         if ! "${runner[@]}" "$block" </dev/null >output 2>&1; then
             printf '%s, %s failed:\n%s\n---- it printed\n%s\n' "$page" "$block" "$(<"$block")" "$(<output)" >&2
