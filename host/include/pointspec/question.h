@@ -129,7 +129,8 @@ PSPEC_EXPORT pspec_status pspec_question_borrow(pspec_question *question, size_t
  * call, and returns 1; or returns 0 where there are no more; or anything below 0, which ends the
  * work with #PSPEC_ERROR_INPUT. *out has only zeros before. It is called by the thread that asks,
  * one at a time, in the order of the realizations, from 0 on whenever they are read again, and has
- * to answer alike then. It must not use the context or the question. */
+ * to answer alike then. A seed of its own stands in the payload: the option "seed" is not passed
+ * on. It must not use the context or the question. */
 typedef int (*pspec_give)(uint64_t realization, pspec_pattern *out, void *payload);
 
 /** The patterns of the set are those that give makes, at most num of them; 0: until there are no
