@@ -3,6 +3,7 @@
 #define PS_JOBS_PATTERN_CHECK_H
 
 #include "frequencies/frequencies.h"
+#include "spectra/normalization.h"
 
 #include <stddef.h>
 #include <stdint.h>

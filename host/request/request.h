@@ -12,6 +12,7 @@
 #include "points/points.h"
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
+#include "spectra/normalization.h"
 #include "spectra/shape/bound.h"
 #include "fields/table.h"
 

@@ -16,6 +16,7 @@
 #define PS_SPECTRA_COMPARE_H
 
 #include "frequencies/frequencies.h"
+#include "spectra/normalization.h"
 
 #include <stdbool.h>
 #include <stddef.h>

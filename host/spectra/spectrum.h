@@ -4,6 +4,7 @@
 
 #include "spectra/accumulate/accumulate.h"
 #include "spectra/bins.h"
+#include "spectra/normalization.h"
 
 typedef struct ps_spectrum_bin {
     int64_t key;                  /* ring number, |k|^2 of a shell, or degree */

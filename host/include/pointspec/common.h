@@ -1,6 +1,5 @@
 /** @file
- * What everything else has to do with: statuses, patterns, normalizations, means. Included by
- * pointspec.h.
+ * What everything else has to do with: statuses, the version, patterns. Included by pointspec.h.
  */
 #ifndef POINTSPEC_COMMON_H
 #define POINTSPEC_COMMON_H
@@ -46,19 +45,6 @@ typedef struct pspec_pattern {
     const double *points;
     const double *weights; /**< [num_points], real, finite, of either sign; NULL: all 1 */
 } pspec_pattern;
-
-/** Which power; see the conventions at the beginning. */
-typedef enum pspec_normalization {
-    /** P = N |S|^2 / W^2, N and W of each set; needs W != 0 */
-    PSPEC_NORMALIZATION_POWER = 0,
-    PSPEC_NORMALIZATION_EFFECTIVE = 1, /**< P = |S|^2 / V */
-    /** on the sphere Q(l) itself, weights 1/N where there are none; the tolerance then is of Q(l),
-     * in units of (sum |w|)^2 */
-    PSPEC_NORMALIZATION_PAIRS = 2,
-    /** mean(N) mean(|S|^2 / W^2), what the variance of an integral is made of: where all sets have
-     * one N the powers of #PSPEC_NORMALIZATION_POWER */
-    PSPEC_NORMALIZATION_INTEGRAL = 3
-} pspec_normalization;
 
 #ifdef __cplusplus
 }

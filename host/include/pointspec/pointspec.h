@@ -9,8 +9,8 @@
  *     power, effective normalization:  P(k) = |S(k)|^2 / V
  *     power, for integrals:            P(k) = mean(N) |S(k)|^2 / W^2
  *
- * The last differs from the first where realizations have different N: the first counts each with
- * its own N.
+ * The option "normalize" chooses. The last is what variances of integrals are made of, and differs
+ * from the first where realizations have different N: the first counts each with its own N.
  *
  * Weights are not all 0, and |w_j| sum to at most 1e290. Sums over pairs and quadrature, whose
  * results have the units of weights, take sets whose largest |w_j| is between 1e-60 and 1e60.
@@ -25,6 +25,9 @@
  *     Q(l) = 4 pi / (2l + 1) sum_m |sum_j w_j Y_lm(u_j)|^2 = sum_ij w_i w_j P_l(u_i.u_j)
  *     power, default normalization:    P(l) = N Q(l) / W^2
  *     power, effective normalization:  P(l) = Q(l) / V
+ *
+ * Sums over pairs are Q(l) itself, with weights 1/N where there are none, and their tolerance is of
+ * Q(l), in units of (sum |w|)^2.
  *
  * White noise has mean power 1 at every l >= 1. On the hemisphere, which is the projective plane, a
  * point stands for its direction and the opposite one, and only even degrees are there.
