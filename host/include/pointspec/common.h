@@ -36,8 +36,9 @@ typedef enum pspec_status {
 /** The version of the library, "1.2.3"; static storage. */
 PSPEC_EXPORT const char *pspec_version(void);
 
-/** A point set of the caller, as a pspec_give() shows it. Made by the library, so that members may
- * be added at its end. */
+/** A point set of the caller, as a pspec_give() shows it. Made by the library alone, which passes
+ * it with only zeros for the callback to fill: members are added at its end, 0 in them means what
+ * there was without them, and programs that know fewer of them stay right. */
 typedef struct pspec_pattern {
     unsigned dimension; /**< d, or 3 on the sphere */
     size_t num_points;  /**< N, at least 1 */

@@ -38,7 +38,8 @@ PSPEC_EXPORT pspec_status pspec_context_set_device(pspec_context *context, const
  * on this limit alone. */
 PSPEC_EXPORT void pspec_context_set_memory_limit(pspec_context *context, uint64_t bytes);
 
-/** What is being done, and how far it is. */
+/** What is being done, and how far it is. Made by the library alone, which shows a pointer to it:
+ * members are added at its end, and programs that know fewer of them stay right. */
 typedef struct pspec_progress_report {
     /** What is counted: "realizations" that are in the averages, or the name of another
      * long phase, such as "weights: iterations of conjugate gradients". */
