@@ -116,8 +116,11 @@ typedef struct ps_command {
     /* What it takes, and how it is run. */
     ps_command_set takes; /* whose options: its bit in their table; those that belong to a question
                              are the same on every device */
-    /* Words of --format, the default first, and of --weights; NULL: those of the table */
+    /* Words of --format of points, the default first, and of --weights; NULL: formats of tables,
+     * and words of the table of options */
     const char *formats, *weights;
+    bool has_words;      /* its rows always have some, so that its tables are no NPY */
+    bool has_late_rows;  /* they come over minutes, so that its tables are no text */
     ps_domain samples;   /* which samplers it takes */
     const char *counted; /* what its work counts: "realizations" */
     const char *speaker; /* who says its warnings; NULL: "pointspec" */
@@ -137,7 +140,6 @@ typedef struct ps_command {
     bool has_images; /* its answers may have a picture, which scenes ask for by the key pictures */
     bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
     bool has_coefficients; /* or coefficients, by arrays: coefficients */
-    bool has_verdict;      /* whose rows are words, too: no NPY */
 
     /* Does a scene's default of this option say nothing to it? NULL: all are taken. */
     bool (*leaves_default)(ps_option_id id);

@@ -15,6 +15,9 @@ const char *ps_command_words(const ps_command *command, ps_option_id id) {
     const char *const own = id == PS_OPTION_FORMAT    ? command->formats
                             : id == PS_OPTION_WEIGHTS ? command->weights
                                                       : NULL;
+    if (id == PS_OPTION_FORMAT && own == NULL) {
+        return ps_table_formats(command->has_words, command->has_late_rows);
+    }
     return own != NULL ? own : ps_options[id].metavar;
 }
 
@@ -42,7 +45,7 @@ static pspec_status check(ps_table_format *format, const ps_kind *kind, const ps
     PS_TRY(ps_picture_check(request, ps_picture_is_all(request, true), hooks, error));
     PS_TRY(ps_outputs_check(request, true, error));
     PS_TRY(ps_table_choose_format(format, request->format, request->output, error));
-    if (kind->has_verdict && *format == PS_FORMAT_NPY) {
+    if (kind->has_words && *format == PS_FORMAT_NPY) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "verdicts are no numbers: .csv, .json and .npz, not .npy");
     }

@@ -144,7 +144,7 @@ const ps_command ps_command_devices = {
         "device, and its peaks per second: see pointspec bench --calibrate.",
     .takes = PS_COMMAND_BIT(devices),
     .fields = fields,
-    .formats = "csv|json|npz|jsonl|text",
+    .has_words = true,
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
     .speaker = "pointspec devices",
     .run = run,

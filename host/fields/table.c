@@ -250,10 +250,22 @@ const ps_npy_array *ps_table_find_array(const ps_table *table, const char *name)
 
 /* ---- choosing ---- */
 
-static const char *const format_names[] = {
-    [PS_FORMAT_CSV] = "csv",     [PS_FORMAT_JSON] = "json", [PS_FORMAT_NPY] = "npy",
-    [PS_FORMAT_JSONL] = "jsonl", [PS_FORMAT_TEXT] = "text", [PS_FORMAT_NPZ] = "npz"};
+/* All formats, the default first: of any table, of numbers alone, of tables that are whole. */
+#define FORMATS(any, numbers, whole)                                                               \
+    any(CSV, "csv") any(JSON, "json") numbers(NPY, "npy") any(NPZ, "npz") any(JSONL, "jsonl")      \
+        whole(TEXT, "text")
+#define NAME(id, name) [PS_FORMAT_##id] = (name),
+#define WORD(id, name) "|" name
+#define NONE(id, name)
+
+static const char *const format_names[] = {FORMATS(NAME, NAME, NAME)};
 enum { NUM_FORMATS = sizeof format_names / sizeof format_names[0] };
+
+const char *ps_table_formats(bool has_words, bool has_late_rows) {
+    static const char *const words[2][2] = {{FORMATS(WORD, WORD, WORD), FORMATS(WORD, WORD, NONE)},
+                                            {FORMATS(WORD, NONE, WORD), FORMATS(WORD, NONE, NONE)}};
+    return words[has_words][has_late_rows] + 1; /* behind the first bar */
+}
 
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
                                     ps_error *error) {

@@ -94,8 +94,11 @@ typedef struct ps_text_view {
     const char *rest; /* what shows the other lines, for a last line that counts them */
 } ps_text_view;
 void ps_table_set_view(ps_table *table, const ps_text_view *view);
-/* Format by its name (csv, json, jsonl, npy, npz, text) or, with name NULL, by the ending of path
- * (none: CSV). Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
+/* The names of the formats, "one|two", the default first: without NPY where rows have words, and
+ * without text where they come over minutes. */
+const char *ps_table_formats(bool has_words, bool has_late_rows);
+/* Format by its name or, with name NULL, by the ending of path (none: CSV). Another ending is
+ * PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 /* Writes to path, "-" for standard output (NPY to standard output is refused: it needs two files).

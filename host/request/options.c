@@ -351,8 +351,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "scene)}{:write there, in the format of its ending (default: "
                                   "standard output)}",
                           FILE_OUT(output)},
-    [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy|npz|jsonl|text"),
-                          OF(0, TABLES | BIT(sample) | BIT(convert)),
+    [PS_OPTION_FORMAT] = {NAMED("format", 0, "FORMAT"), OF(0, TABLES | BIT(sample) | BIT(convert)),
                           .help = "format of the output (default: by the ending of FILE, else the "
                                   "first of these)",
                           WORD(format)},

@@ -105,7 +105,7 @@ typedef enum ps_option_id {
     PS_OPTION_NO_SKIP,           /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
     PS_OPTION_OUTPUT,            /* -o, --output FILE */
-    PS_OPTION_FORMAT,            /* --format csv|json|npy|npz|jsonl|text, or a format of points */
+    PS_OPTION_FORMAT,            /* --format of a table or of points */
     PS_OPTION_PLOT,              /* --plot FILE */
     PS_OPTION_PLOT_LOG,          /* --plot-log x|y|xy|none */
     PS_OPTION_PLOT_RANGE,        /* --plot-range X0..X1,Y0..Y1 */

@@ -336,7 +336,8 @@ const ps_command ps_command_bench = {
         "run takes about three minutes.",
     .takes = PS_COMMAND_BIT(bench),
     .fields = fields,
-    .formats = "csv|json|npz|jsonl",
+    .has_words = true,
+    .has_late_rows = true,
     .examples = {"pointspec bench --case plane-many --precision single --quick -o bench.csv --plot "
                  "bench.svg",
                  "pointspec bench --case pairs --engine pairs_direct --precision single --quick "

@@ -64,7 +64,7 @@ PSPEC_EXPORT const pspec_field *pspec_answer_find(const pspec_answer *answer, co
 PSPEC_EXPORT const char *pspec_answer_verdict(const pspec_answer *answer);
 
 /** Writes the answer to a file that appears when it is complete, byte for byte as the program does.
- * format: "csv", "json", "jsonl", "npy", "npz", "text", or NULL: by the ending of path, else csv.
+ * format: a word of the option "format", such as "json", or NULL: by the ending of path, else csv.
  * NPY is float64 [rows][columns], with a JSON file of names and header beside it; NPZ has all
  * fields, and alone of all has arrays. The context is for the sentence of an error:
  * #PSPEC_ERROR_INVALID_ARGUMENT where there is no such format, for "-" (the library writes no
