@@ -29,6 +29,7 @@ class Context:
         self.progress: ProgressCallback | None = None
         self.raised: BaseException | None = None
         self.warned: list[str] = []
+        self.kept: Any = None  # the question of the last call
         # The library calls them as long as it has them: they must not be collected.
         self._report = _library.Progress(self._hear)
         self._warn = _library.Sentence(self._hear_warning)
@@ -38,7 +39,10 @@ class Context:
             self.check(library.context_set_device(self.handle, device.encode()))
 
     def __del__(self) -> None:
-        if getattr(self, "handle", None) is not None and self.process == os.getpid():
+        # Names of modules are None when the interpreter ends.
+        if getattr(self, "handle", None) is not None and library is not None and self.process == os.getpid():
+            if self.kept is not None:
+                self.kept.close()
             library.context_destroy(self.handle)
 
     def _hear(self, report: Any, _payload: Any) -> int:

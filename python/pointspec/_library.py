@@ -83,6 +83,7 @@ _FUNCTIONS = {
     "options_table": (c_int, [_OUT, c_void_p, c_char_p]),
     "fields_table": (c_int, [_OUT, c_void_p, c_char_p]),
     "question_create": (c_int, [_OUT, c_void_p, c_char_p]),
+    "question_reset": (None, [c_void_p]),
     "question_destroy": (None, [c_void_p]),
     "question_set": (c_int, [c_void_p, c_char_p, c_char_p]),
     "question_set_number": (c_int, [c_void_p, c_char_p, c_double]),

@@ -87,6 +87,7 @@ class Question:
 
     def __init__(self, context: _context.Context, kind: str) -> None:
         self.context, self.kind = context, kind
+        self.key: Any = None  # of questions that the next call may go on with
         self.alive: list[Any] = []  # what the library points to
         self.files: list[Path] = []  # that answers were written to
         self.handle = ctypes.c_void_p()
@@ -316,6 +317,33 @@ class Question:
         return _answer._owned(self.context, call(ctypes.byref(out), self.handle), out)
 
 
+def _key(kind: str, options: Mapping[str, Any], patterns: Any) -> Any:
+    """What questions have alike that differ in their patterns alone; None where an option is an object or a file's."""
+    plain = (str, int, float, type(None))
+    values = tuple(tuple(value) if isinstance(value, list) else value for value in options.values())
+    is_plain = all(isinstance(one, plain) for value in values for one in (value if isinstance(value, tuple) else (value,)))
+    return (kind, *options, *values) if is_plain and isinstance(patterns, np.ndarray) else None
+
+
+def _begin(context: _context.Context, kind: str, options: Mapping[str, Any], patterns: Any) -> Question:
+    """A question with its options: that of the last call, whose plan and buffers stay, where it is the same."""
+    key = _key(kind, options, patterns)
+    kept, context.kept = context.kept, None
+    if isinstance(kept, Question):
+        if key is not None and kept.key == key:
+            library.question_reset(kept.handle)
+            return kept
+        kept.close()
+    question = Question(context, kind)
+    question.key = key
+    try:
+        question.set_all(options, patterns)
+    except BaseException:
+        question.close()
+        raise
+    return question
+
+
 def ask(
     kind: str,
     patterns: Any,
@@ -328,11 +356,17 @@ def ask(
 ) -> _answer.Answer:
     """Asks one question, whose patterns are borrowed for the call."""
     context = _context.get(device)
-    question = Question(context, kind)
+    question = _begin(context, kind, options, patterns)
     try:
-        question.set_all(options, patterns)
         question.take(patterns, weights)
         with _context.listening(context, progress):
-            return question.answer(is_planned)
-    finally:
+            answer = question.answer(is_planned)
+    except BaseException:
         question.close()
+        raise
+    question.alive.clear()
+    if question.key is not None and weights is None and not is_planned:
+        context.kept = question
+    else:
+        question.close()
+    return answer

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import pointspec
+import pointspec.testing
 
 PAGE = Path(__file__).parents[2] / "docs" / "user" / "python.md"
 
@@ -24,4 +25,5 @@ def test_programs_of_the_page(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_docstrings() -> None:
-    assert doctest.testmod(pointspec).failed == 0
+    for module in (pointspec, pointspec.testing):
+        assert doctest.testmod(module, optionflags=doctest.ELLIPSIS).failed == 0

@@ -126,6 +126,21 @@ def test_weights() -> None:
     assert same["weight_sum"] == pytest.approx(weights[0].sum())
 
 
+def test_calls_after_another_have_its_plan_and_no_more() -> None:
+    other = np.random.default_rng(5).random(POINTS.shape)
+    weights = np.random.default_rng(2).random(POINTS.shape[:2])
+    expected = [pointspec.power([*one], max_frequency=4) for one in (POINTS, other)]
+    for _ in range(2):
+        for points, answer in zip((POINTS, other), expected):
+            assert_same(pointspec.power(points, max_frequency=4), answer)
+        weighted = pointspec.power(POINTS, max_frequency=4, weights=weights)
+        assert_same(weighted, pointspec.power([*POINTS], max_frequency=4, weights=[*weights]))
+        with pytest.raises(pointspec.InputError):
+            pointspec.power(POINTS + 1, max_frequency=4)
+        assert len(pointspec.power(POINTS, max_frequency=3)) == 3
+        assert pointspec.plan("power", POINTS, max_frequency=4).columns[0] == "engine"
+
+
 def test_arrays_are_options() -> None:
     frequencies = np.array([[1, 0], [2, -3]])
     answer = pointspec.power(POINTS, frequencies=frequencies)
