@@ -26,6 +26,12 @@ runs 0 --integrand constant:value=3 -l 2
 printf '%s\n' "0 $(awk "BEGIN { printf \"%.17g\", 36 * $pi }")" '1 0' '2 0' | is_near 2
 [[ $(rows | cut -d, -f3 | tr -d '\n') == '' && $(key least) == 3 && $(key largest) == 3 && $(key energy) == 0 ]] || complain "constant: $(<out)"
 holds "($(key mean) - 3) ^ 2 < 1e-30"
+# a map of one value, or of none, has no share either, though its second degree has what rounding leaves
+for value in '\0\0\100\100' '\0\0\0\0'; do # 3, 0
+    printf 'Pf 2 1 -1\n%b' "$value$value" >flat.pfm
+    runs 0 --integrand map:file=flat.pfm -l 3
+    [[ $(rows | cut -d, -f3 | tr -d '\n') == '' ]] || complain "a flat map: $(<out)"
+done
 runs 0 --integrand square -l 3
 awk "BEGIN { printf \"0 %.17g\n1 0\n2 %.17g\n3 0\n\", 4 * $pi / 9, 16 * $pi / 225 }" | is_near 2
 printf '%s\n' '0 0' '1 0' '2 1' '3 1' | is_near 3

@@ -154,12 +154,13 @@ static pspec_status add_rows(ps_table *table, const functions *self, const ps_re
                              size_t f, size_t first, ps_error *error) {
     const double *const powers = self->powers + f * (self->max_degree + 1);
     const double energy = ps_integrand_energy(self->panorama.integrands[f]);
+    const double rounding = 1e-28 * powers[0]; /* of the mean: what a constant has */
     double held = 0;
     for (size_t l = 0; l <= self->max_degree; l++) {
         held += l > 0 ? powers[l] : 0;
         const ps_cell cells[] = {PS_TEXT(request->integrands[f]), PS_INTEGER(l),
                                  PS_NUMBER(powers[l] / (2 * (double)l + 1)),
-                                 ps_number_or_missing(held / energy)};
+                                 ps_number_or_missing(energy > rounding ? held / energy : NAN)};
         PS_TRY(ps_table_add_row(table, cells + first, error));
     }
     return PSPEC_OK;
