@@ -164,7 +164,8 @@ static const ps_field_row own_fields[] = {
      "mean square of estimate minus integral over other realizations and their moves"},
     {"measured_error", "", PS_COLUMN, 0, "", "its standard error"},
     {"z_score", "", PS_COLUMN, 0, "",
-     "measured minus predicted over both errors; missing with --in-place and where nothing varies"},
+     "measured minus predicted over both errors; missing with --in-place and where nothing varies "
+     "but by rounding"},
     {"white", "", PS_COLUMN, 0, "", "variance of as many independent points"},
     {"best_bound", "", PS_COLUMN, 0, "--bounds", "variance by the profile below the power"},
     {"worst_bound", "", PS_COLUMN, 0, "--bounds", "variance by the profile above the power"},

@@ -187,9 +187,16 @@ void ps_variance_job_destroy(ps_variance_job *job) {
 
 /* ---- run ----------------------------------------------------------------------------------- */
 
-static double z_score(const ps_variance_row *row, bool is_moved) {
+/* None where both sides are but rounding: the variance of an error of 1e-14 of the mean, as that of
+ * a constant map, or what the energy is not known to. */
+static double z_score(const ps_variance_row *row, const ps_integrand *integrand, bool is_moved) {
+    const double integral = ps_integrand_integral(integrand);
+    const double energy = ps_integrand_factor(integrand) * ps_integrand_energy(integrand);
+    const double rounding = 1e-28 * integral * integral + PS_BEYOND_REACH * energy;
     const double error = hypot(row->prediction.standard_error, row->measured_error);
-    return is_moved && error > 0 ? (row->measured - row->prediction.variance) / error : NAN;
+    return is_moved && error > 0 && fmax(row->measured, row->prediction.variance) > rounding
+               ? (row->measured - row->prediction.variance) / error
+               : NAN;
 }
 
 /* A single set has at most N (sum |w|)^2/W^2 at any frequency. */
@@ -260,7 +267,7 @@ static pspec_status fill_rows(ps_variance_job *job, ps_error *error) {
         }
         row->measured = job->measured[i].mean;
         row->measured_error = job->measured[i].standard_error;
-        row->z_score = z_score(row, question->is_moved);
+        row->z_score = z_score(row, job->integrands[i], question->is_moved);
     }
     return PSPEC_OK;
 }

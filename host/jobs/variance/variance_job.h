@@ -41,7 +41,7 @@ typedef struct ps_variance_row {
     double best_bound, worst_bound;  /* by the profiles below and above; nan unless asked for */
     double paper;                    /* (E-13); nan unless it was asked for */
     double measured, measured_error; /* about the known integral; error over sets */
-    double z_score;                  /* nan where sets are not moved, or nothing varies */
+    double z_score;                  /* nan: sets are not moved, or what varies is rounding */
     double pairwise;                 /* of a single set, exactly: (V2), (S1'), (H1'); nan: none */
 } ps_variance_row;
 

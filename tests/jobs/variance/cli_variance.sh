@@ -115,6 +115,13 @@ runs 0 --sampler white -n 16 -m 1 "${few[@]}" --integrand disk
 is standard_error 'none: one realization'
 runs 0 --sampler white -n 10 -m 4 "${few[@]}" --integrand constant:value=0.1
 [[ $(table | sed 1d) == 10,0,0,0,0,0,0,,0 ]] || complain "constant: $(table)"
+# of a map of one value rounding is left, and of a wave that a grid integrates, which has no z-score
+printf 'Pf 2 1 -1\n\0\0\100\100\0\0\100\100' >flat.pfm # 3, 3
+for asked in 'white-sphere map:file=flat.pfm' 'regular wave:k=1x0' 'regular gaussian:sigma=0.25'; do
+    runs 0 --sampler "${asked% *}" -n 64 -m 20 --integrand "${asked#* }"
+    awk -v p="$(column predicted)" 'BEGIN { exit !(p > 0 && p < 1e-16) }' || complain "$asked varies: $(table)"
+    [[ $(column z_score) == '' ]] || complain "$asked: $(table)"
+done
 # no device is needed for the engines of the host
 POINTSPEC_DEVICE=none-such runs 0 --engine host_direct --sampler white -n 10 -m 4 "${few[@]}" --integrand disk
 head_is $columns
