@@ -102,6 +102,8 @@ refuses 'is not WIDTHxHEIGHT' --mesh corner.obj --image 4097x1 --sampler white-s
 refuses 'has 5 numbers; a camera has 6' "${asked[@]}" --camera 1,2,3,4,5 --sampler white-sphere
 refuses 'a field of view of 180 degrees' "${asked[@]}" --camera 3,3,3,0,0,0,180 --sampler white-sphere
 refuses 'sees nothing of the mesh' "${asked[@]}" --camera 3,3,3,6,6,6 --sampler white-sphere
+refuses 'looks at the point where it is' "${asked[@]}" --camera 3,3,3,3,3,3 --sampler white-sphere
+refuses 'looks at the point where it is' "${asked[@]}" --camera 0,0,0,0,0,0,40,0,1,0 --sampler white-sphere
 refuses 'looks along the direction that is to be up' "${asked[@]}" --camera 3,3,3,3,0,3 --sampler white-sphere
 runs 1 --mesh nothing.obj --sampler white-sphere
 says 'nothing.obj'

@@ -154,6 +154,10 @@ static pspec_status begin(ps_view *out, work *self, const ps_mesh *mesh,
     const double unit = ps_mesh_extent(mesh, middle);
     const size_t num = options->width * options->height;
     const size_t numbers = mesh->num_triangles * PS_CORNER_NUMBERS;
+    if (!(ps_vector_length(options->camera.direction) > 0)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "the camera looks at the point where it is");
+    }
     if (!ps_camera_axes(&options->camera, self->axes)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "the camera looks along the direction that is to be up");
