@@ -79,9 +79,9 @@ spectrum() { # NAME COMMAND SAMPLER...
     shift 2
     for sampler; do samplers+=(--sampler "$sampler"); done
     echo "figures: $name.png" >&2
-    local size=(-n 1024 -k 128)
-    [[ $what == power ]] || size=(-n 3072 -l 222)
-    "$pointspec" "$what" "${samplers[@]}" "${size[@]}" -m 200 --quiet -o "$scratch/rows.csv" --plot "$folder/$name.png"
+    local size=(-n 1024 -k 128 -m 200)
+    [[ $what == power ]] || size=(-n 3072 -l 222 -m 100)
+    "$pointspec" "$what" "${samplers[@]}" "${size[@]}" --quiet -o "$scratch/rows.csv" --plot "$folder/$name.png"
 }
 spectrum p15/figure4 power jittered poisson-disk fpo bnot step
 spectrum p15/figure5 angular white-sphere healpix-jittered poisson-disk-sphere ccvt-sphere
