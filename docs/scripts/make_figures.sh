@@ -40,6 +40,10 @@ echo "figures: p15/figure6f.png" >&2
     --sampler healpix-jittered --sampler poisson-disk-sphere --sampler ccvt-sphere --sampler healpix -n 48,192,768,3072 -m 8 \
     --quiet -o occlusion.csv --plot "$images/p15/figure6f.png"
 
+echo "figures: occlusion.png" >&2
+"$pointspec" occlusion --mesh "$docs/scenes/p15/box.obj" --camera 2.75,2.75,-8,2.75,2.75,0,40 --image 112x112 --sampler white-sphere \
+    --sampler ccvt-sphere -n 48 --quiet -o occlusion.csv --plot "$images/occlusion.png"
+
 # Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"
 
