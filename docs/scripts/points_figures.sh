@@ -67,9 +67,22 @@ do for [panel in "gaussian disk"] {
          bound("step", panel) using 2:11 with linespoints pointtype 7 linecolor "#cc79a7" title "step"
 }
 GNUPLOT
+panels() { # NAME SCENE PICTURE...: pictures of a scene, two in a row
+    local name=$1 page=$scratch/$2/page.svg i=0 picture
+    shift 2
+    {
+        echo "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"2000\" height=\"$(((($# + 1) >> 1) * 700))\">"
+        for picture; do
+            echo "<image x=\"$((i % 2 * 1000))\" y=\"$(((i >> 1) * 700))\" width=\"1000\" height=\"700\" href=\"$picture.svg\"/>"
+            i=$((i + 1))
+        done
+        echo '</svg>'
+    } >"$page"
+    rsvg-convert -w 1100 "$page" -o "$folder/$name.png"
+}
 scene m18/figure7 # with the map of POINTSPEC_TEST_DATA
-rsvg-convert -w 900 "$scratch/m18/figure7/diffuse-rmse-1.svg" -o "$folder/m18/figure7.png"
-rsvg-convert -w 900 "$scratch/m18/figure7/truncation-rmse.svg" -o "$folder/m18/figure8.png"
+panels m18/figure7 m18/figure7 {diffuse,glossy}-rmse-{1,2}
+panels m18/figure8 m18/figure7 truncation-rmse truncation-rmse_points
 echo "figures: p15/figure3.png" >&2
 "$pointspec" sample --sampler healpix --sampler healpix-jittered --sampler ccvt-sphere --sampler poisson-disk-sphere --sampler white-sphere \
     -n 768 --plot "$folder/p15/figure3.png"
