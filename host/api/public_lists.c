@@ -1,4 +1,5 @@
 /* The public library: which kinds of answers there are, what they take, and what they have. */
+#include "answers/figure.h"
 #include "api/public_objects.h"
 #include "base/text.h"
 #include "commands/plan.h"
@@ -146,5 +147,54 @@ pspec_status pspec_fields_table(pspec_answer **out, pspec_context *context, cons
     *out = NULL;
     PS_TRY(ps_public_find(&row, ps_with_fields, kind, "kind of answer", error));
     return tell(out, "fields", columns, sizeof columns / sizeof columns[0], fill_fields, row,
+                error);
+}
+
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+/* As ps_look has them; those behind are of painters. */
+static const char *const looks[] = {"line",  "line",  "curve",     "marks", "signs",
+                                    "bound", "cloud", "reference", "front"};
+enum { NUM_LOOKS = sizeof looks / sizeof looks[0] };
+
+static pspec_status add_line(ps_table *table, const ps_picture_kind *picture, size_t number,
+                             const ps_picture_line *line, ps_error *error) {
+    const ps_cell cells[] = {PS_INTEGER(number),
+                             text_or_missing(picture->panels),
+                             PS_TEXT(picture->x),
+                             PS_TEXT(line->y),
+                             text_or_missing(line->error),
+                             text_or_missing(line->low),
+                             text_or_missing(line->high),
+                             PS_TEXT(looks[(size_t)line->look < NUM_LOOKS ? line->look : 0]),
+                             text_or_missing(line->name),
+                             PS_TEXT(picture->is_of_entries ? "yes" : "no"),
+                             PS_TEXT(picture->is_log_x ? "yes" : "no"),
+                             PS_TEXT(picture->is_log_y ? "yes" : "no")};
+    return ps_table_add_row(table, cells, error);
+}
+
+/* Pictures of lines; others are images. */
+static pspec_status fill_pictures(const ps_command *row, ps_table *table, ps_error *error) {
+    for (size_t i = 0; row->pictures != NULL && row->pictures[i].make != NULL; i++) {
+        const ps_picture_kind *const picture = &row->pictures[i];
+        for (size_t k = 0; picture->x != NULL && picture->lines[k].y != NULL; k++) {
+            PS_TRY(add_line(table, picture, i, &picture->lines[k], error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+pspec_status pspec_pictures_table(pspec_answer **out, pspec_context *context, const char *kind) {
+    static const char *const columns[] = {"picture", "panels", "x",    "y",       "error", "low",
+                                          "high",    "look",   "name", "entries", "log_x", "log_y"};
+    const ps_command *row = NULL;
+    if (out == NULL || context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    *out = NULL;
+    PS_TRY(ps_public_find(&row, ps_with_fields, kind, "kind of answer", error));
+    return tell(out, "pictures", columns, sizeof columns / sizeof columns[0], fill_pictures, row,
                 error);
 }

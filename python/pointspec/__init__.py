@@ -38,6 +38,7 @@ from ._errors import (
     ToleranceError,
 )
 from ._library import library as _c
+from ._plot import plot
 from ._question import Integrand, Patterns
 
 __version__: str = _c.version().decode()
@@ -102,7 +103,7 @@ def plan(kind: str, patterns: Any = None, /, **options: Any) -> Answer:
 __all__ = [
     *_kinds(),
     *_COMMANDS,
-    "plan", "load", "merge", "Answer", "Integrand", "Patterns",
+    "plan", "load", "merge", "plot", "Answer", "Integrand", "Patterns",
     "PointspecError", "InvalidArgumentError", "InputError", "FileError", "NoMemoryError", "NoDeviceError", "DeviceError",
     "BuildError", "ToleranceError", "CancelledError", "CheckError", "PointspecWarning",
 ]  # fmt: skip

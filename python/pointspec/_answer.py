@@ -15,6 +15,7 @@ from . import _context, _library
 from ._library import library
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import pandas
 
 # Rows that are shown of a table.
@@ -135,6 +136,12 @@ class Answer:
         frame.attrs = self.header
         return frame
 
+    def plot(self, ax: "matplotlib.axes.Axes | None" = None) -> Any:
+        """The picture of the answer by Matplotlib, which must be there, into ax or new axes, which it returns."""
+        from . import _plot
+
+        return _plot.plot(self, ax=ax)
+
     def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
         """Writes the file that the program writes: csv, json, jsonl, npy, npz or text, by the ending of path."""
         context = _context.get()
@@ -190,10 +197,10 @@ def merge(*answers: Answer) -> Answer:
 
 
 def table(kind: str, what: str) -> Answer:
-    """The table of options, or of fields, of a kind of answer or a command."""
+    """The table of options, fields or pictures of a kind of answer or a command."""
     context = _context.get()
     out = ctypes.c_void_p()
-    call = library.options_table if what == "options" else library.fields_table
+    call = getattr(library, what + "_table")
     return _owned(context, call(ctypes.byref(out), context.handle, kind.encode()), out)
 
 

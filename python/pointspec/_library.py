@@ -82,6 +82,7 @@ _FUNCTIONS = {
     "answer_kind": (c_char_p, [c_size_t]),
     "options_table": (c_int, [_OUT, c_void_p, c_char_p]),
     "fields_table": (c_int, [_OUT, c_void_p, c_char_p]),
+    "pictures_table": (c_int, [_OUT, c_void_p, c_char_p]),
     "question_create": (c_int, [_OUT, c_void_p, c_char_p]),
     "question_reset": (None, [c_void_p]),
     "question_destroy": (None, [c_void_p]),

@@ -343,3 +343,32 @@ def test_pandas() -> None:
     frame = answer.to_pandas()
     assert isinstance(frame, pandas.DataFrame) and frame.attrs["realizations"] == 6
     np.testing.assert_array_equal(frame["power"], answer.power)
+
+
+def test_pictures() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    one = pointspec.power(POINTS, max_frequency=4)
+    two = pointspec.power(sampler="jittered", points=36, realizations=4, max_frequency=4)
+    axes = pointspec.plot(one, two, labels=["mine", "theirs"])
+    lines = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
+    assert list(lines) == ["mine", "theirs"] and len(axes.containers) == 2
+    np.testing.assert_array_equal(lines["mine"].get_xdata(), one.normalized_frequency)
+    np.testing.assert_array_equal(lines["theirs"].get_ydata(), two.power)
+    assert axes.get_xlabel() == "normalized frequency" and axes.get_yscale() == "linear"
+
+    options = dict(QUESTIONS["variance"], sampler=["jittered", "white"], integrand=["disk", "gaussian"])
+    answer = pointspec.variance(**options)
+    left, right = answer.plot()
+    assert [text.get_text() for text in left.get_legend().get_texts()] == ["jittered", "white noise", "white"]
+    assert left.get_yscale() == right.get_yscale() == "log" and "gaussian" in right.get_ylabel()
+    drawn = next(line for line in right.get_lines() if line.get_label() == "white")
+    own = (answer.integrand == "gaussian") & (answer.sampler == "white")
+    np.testing.assert_array_equal(drawn.get_ydata(), answer.predicted[own])
+
+    errors = pointspec.shade(**dict(QUESTIONS["shade"], points=[16, 32]))
+    assert [line.get_label() for line in errors.plot().get_lines()][0] == "fibonacci-hemisphere"
+    with pytest.raises(ValueError, match="no picture of lines"):
+        pointspec.occlusion(mesh="quad.obj", **QUESTIONS["occlusion"]).plot()
+    with pytest.raises(ValueError, match="there is no answer"):
+        pointspec.plot()

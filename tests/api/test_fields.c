@@ -303,11 +303,44 @@ static void fields_are_declared(void **state) {
     assert_int_equal(num_wrong, 0);
 }
 
+/* What pictures are made of is declared, too. */
+static void pictures_are_of_fields(void **state) {
+    static const char *const parts[] = {"x", "y", "error", "low", "high", "panels"};
+    size_t num = 0;
+    (void)state;
+    pspec_context *const context = test_public_context();
+    for (size_t i = 0; pspec_answer_kind(i) != NULL; i++) {
+        const char *const kind = pspec_answer_kind(i);
+        pspec_answer *pictures = NULL;
+        num_fields = 0;
+        declare(kind);
+        assert_int_equal(pspec_pictures_table(&pictures, context, kind), PSPEC_OK);
+        for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++) {
+            const pspec_field *const column = pspec_answer_find(pictures, parts[k]);
+            for (size_t row = 0; column->type == PSPEC_TEXT && row < column->num; row++) {
+                const char *const name = ((const char *const *)column->data)[row];
+                size_t j = 0;
+                while (j < num_fields && strcmp(fields[j].name, name) != 0) {
+                    j++;
+                }
+                num += name[0] != '\0';
+                assert_true(name[0] == '\0' || j < num_fields);
+            }
+        }
+        pspec_answer_destroy(pictures);
+    }
+    assert_true(num > 40);
+    pspec_context_destroy(context);
+}
+
 static void kinds_are_named(void **state) {
     (void)state;
     pspec_context *const context = test_public_context();
     pspec_answer *table = NULL;
     assert_int_equal(pspec_fields_table(&table, context, "powers"), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(pspec_context_message(context), "did you mean power?"));
+    assert_null(table);
+    assert_int_equal(pspec_pictures_table(&table, context, "powers"), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(pspec_context_message(context), "did you mean power?"));
     assert_null(table);
     pspec_context_destroy(context);
@@ -319,6 +352,7 @@ int main(void) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_are_declared),
+        cmocka_unit_test(pictures_are_of_fields),
         cmocka_unit_test(kinds_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,6 +35,17 @@ PSPEC_EXPORT pspec_status pspec_options_table(pspec_answer **out, pspec_context 
 PSPEC_EXPORT pspec_status pspec_fields_table(pspec_answer **out, pspec_context *context,
                                              const char *kind);
 
+/** What pictures of answers of a kind have, for who draws them by other means: a row for every line
+ * of a picture (number from 0 on), with the fields that it is made of: x, y, error (bars up and
+ * down), low and high (a band), panels (a panel for each of its values; these missing where there
+ * are none), entries ("yes" where x and y are header entries of several questions, else "no"), look
+ * ("line", "curve", "marks", "signs", "bound", "cloud", "reference" or "front"), name (in the key,
+ * beside that of the curve; missing: that alone), and log_x and log_y ("yes" or "no"). A curve is
+ * that of a sampler, or of what else the columns before x tell apart. Images are not among them.
+ * kind: as for pspec_fields_table(). */
+PSPEC_EXPORT pspec_status pspec_pictures_table(pspec_answer **out, pspec_context *context,
+                                               const char *kind);
+
 /** @}
  * @name Questions
  *
