@@ -46,8 +46,9 @@ class Answer:
 
     def __init__(self, handle: int) -> None:
         self._handle = handle
+        # Views of the library's; no arrays, which would keep the answer that keeps them: the collector of cycles does not
+        # look into arrays.
         self._fields: dict[str, list[Any]] | None = None
-        self._values: dict[str, Any] = {}
 
     def __del__(self) -> None:
         if library is not None:  # the interpreter ends
@@ -70,12 +71,9 @@ class Answer:
         return values if field.group != _library.ENTRY else values.tolist()[0]
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._values:
-            same = self._all()[name]
-            first = same[0]
-            read = [self._read(field) for field in same if field.group == first.group]
-            self._values[name] = read[0] if len(read) == 1 else read
-        return self._values[name]
+        same = self._all()[name]
+        read = [self._read(field) for field in same if field.group == same[0].group]
+        return read[0] if len(read) == 1 else read
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._all():

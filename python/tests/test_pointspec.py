@@ -166,6 +166,19 @@ def test_memory_is_shared_and_outlives_the_answer() -> None:
     np.testing.assert_array_equal(power, copy)
 
 
+def test_nothing_is_left_behind() -> None:
+    def ask() -> None:
+        answer = pointspec.power(POINTS, max_frequency=4, full=True)
+        assert answer.full.shape == (9, 9) and answer.header and repr(answer)
+
+    before = []
+    for turn in range(3):
+        for _ in range(100):
+            ask()
+        before.append(int(Path("/proc/self/statm").read_text().split()[1]))
+    assert before[2] - before[1] < 100  # pages; an answer that stays has five
+
+
 def test_save_load_merge_check() -> None:
     first, second = (pointspec.power(POINTS[i::2], max_frequency=4, state=True) for i in (0, 1))
     both = pointspec.merge(first, second)

@@ -55,8 +55,8 @@ typedef struct ps_interpolation_job {
     bool owns_device;
     double *block; /* what the next ones lie in, for sets of up to most_points */
     size_t most_points;
-    double *values, *alpha; /* each [functions][points of the set] */
-    double *directions, *pixels;    /* of the rows of the panorama that are done at a time */
+    double *values, *alpha;      /* each [functions][points of the set] */
+    double *directions, *pixels; /* of the rows of the panorama that are done at a time */
     size_t rows_of_block;
     uint64_t num_realizations;
     uint64_t num_points, smallest_points, largest_points; /* in all; of the smallest set, .. */
