@@ -1,8 +1,9 @@
-"""The programs of docs/user/python.md run as they stand, one after the other."""
+"""The programs of docs/user/python.md and the notebooks run as they stand, one after the other."""
 
 from __future__ import annotations
 
 import doctest
+import json
 import re
 from pathlib import Path
 
@@ -11,7 +12,9 @@ import pytest
 import pointspec
 import pointspec.testing
 
-PAGE = Path(__file__).parents[2] / "docs" / "user" / "python.md"
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = DOCS / "user" / "python.md"
+NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.ipynb"))
 
 
 def test_programs_of_the_page(
@@ -27,6 +30,22 @@ def test_programs_of_the_page(
     assert Path("own.png").stat().st_size > 10000
     shown = capsys.readouterr().out
     assert "normalized_frequency" in shown and "own has the least variance" in shown or "jittered has the least" in shown
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebooks(
+    notebook: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Cells are run, and what they print is what the notebook shows, but for digits."""
+    pytest.importorskip("matplotlib").use("Agg")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    cells = [cell for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
+    for cell in cells:
+        program = "".join(line for line in cell["source"] if not line.startswith("%"))
+        exec(program, names)
+        shown = "".join(text for out in cell["outputs"] if out["output_type"] == "stream" for text in out["text"])
+        assert re.sub(r"[\d.e+-]+", "", capsys.readouterr().out) == re.sub(r"[\d.e+-]+", "", shown)
 
 
 def test_docstrings() -> None:
