@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -15,7 +16,10 @@ import numpy.typing as npt
 from . import _answer, _context, _library
 from ._library import library
 
-Sampler = Callable[[int, int, int], npt.ArrayLike]
+# Bytes of a generator's points that are kept for a second plan, as the program keeps those of standard input.
+_MOST_KEPT = 64 << 20
+
+Sampler = Callable[[int, int, int], Any]
 PathLike = Union[str, "os.PathLike[str]"]
 Patterns = Union[
     npt.ArrayLike,
@@ -80,6 +84,11 @@ def _is_array(value: object) -> bool:
         return False
     first = value[0]
     return isinstance(first, (list, tuple)) and len(first) > 0 and np.ndim(first[0]) == 0
+
+
+def _has_weights(patterns: object) -> bool:
+    """May weights stand beside such patterns, as an array or arrays?"""
+    return _is_path(patterns) or _is_array(patterns) or isinstance(patterns, (list, tuple))
 
 
 class Question:
@@ -201,6 +210,8 @@ class Question:
         if patterns is None:
             if weights is not None:
                 self.set("weights", weights)
+        elif weights is not None and not _is_path(weights) and not _has_weights(patterns):
+            raise ValueError("weights: functions and generators give tuples of points and weights, curves by names none")
         elif isinstance(patterns, Mapping):
             for name, own in patterns.items():
                 self._begin(str(name), own)
@@ -275,21 +286,31 @@ class Question:
         self._give(lambda realization: sampler(num, seed, realization), self.sampler["realizations"])
 
     def _kept(self, sets: Iterator[Any]) -> Callable[[int], Any]:
-        """A generator comes once: what was read of it is kept only where the library reads it again."""
+        """A generator comes once. Its sets are kept for a second plan as long as they are few."""
         read: list[Any] = []
+        num, num_bytes = 0, 0
 
         def get(realization: int) -> Any:
-            while len(read) <= realization:
-                try:
-                    read.append(next(sets))
-                except StopIteration:
-                    return None
-            return read[realization]
+            nonlocal num, num_bytes
+            if realization < num:
+                if num_bytes > _MOST_KEPT:
+                    raise ValueError(
+                        "points: a generator comes once, and this question reads its sets again, of which no more than "
+                        f"{_MOST_KEPT} bytes are kept; a list, or a function f(n, seed, realization), can be read again"
+                    )
+                return read[realization]
+            made = next(sets, None)
+            if made is not None:
+                num, num_bytes = num + 1, num_bytes + np.asarray(made[0] if isinstance(made, tuple) else made).nbytes
+                read.append(made)
+                if num_bytes > _MOST_KEPT:
+                    read.clear()
+            return made
 
         return get
 
     def _give(self, get: Callable[[int], Any], num: int) -> None:
-        """Realizations that a function makes, one at a time."""
+        """Realizations that a function makes, one at a time: points, or a tuple of points and weights."""
         shown: list[Any] = [None]
 
         def give(realization: int, out: Any, _payload: Any) -> int:
@@ -297,11 +318,16 @@ class Question:
                 made = get(realization)
                 if made is None:
                     return 0
-                points = shown[0] = _points(made, f"points of realization {realization}")
+                what = f"points of realization {realization}"
+                array, weights = made if isinstance(made, tuple) else (made, None)
+                points = _points(array, what)
                 if len(points) != 1:
-                    raise ValueError(f"points of realization {realization}: an array of shape {points.shape} is several")
+                    raise ValueError(f"{what}: an array of shape {points.shape} is several")
+                own = None if weights is None else _weights(weights, points, what.replace("points", "weights"))
+                shown[0] = points, own  # until the next is asked for
                 view = out.contents
                 view.dimension, view.num_points, view.points = points.shape[2], points.shape[1], points.ctypes.data
+                view.weights = None if own is None else own.ctypes.data
             except BaseException as error:
                 self.context.raised = error
                 return -1
@@ -317,12 +343,25 @@ class Question:
         return _answer._owned(self.context, call(ctypes.byref(out), self.handle), out)
 
 
+@functools.cache
+def _files(kind: str) -> frozenset[str]:
+    """Options whose values may name files, which change."""
+    table = _answer.table(kind, "options")
+    named = zip(table["option"].tolist(), table["file"].tolist())
+    return frozenset(option.replace("-", "_") for option, file in named if isinstance(file, str) and file)
+
+
 def _key(kind: str, options: Mapping[str, Any], patterns: Any) -> Any:
-    """What questions have alike that differ in their patterns alone; None where an option is an object or a file's."""
-    plain = (str, int, float, type(None))
-    values = tuple(tuple(value) if isinstance(value, list) else value for value in options.values())
-    is_plain = all(isinstance(one, plain) for value in values for one in (value if isinstance(value, tuple) else (value,)))
-    return (kind, *options, *values) if is_plain and isinstance(patterns, np.ndarray) else None
+    """What questions have alike that differ in their patterns alone; None where an option is an object or names a file."""
+    if not isinstance(patterns, np.ndarray) or not _files(kind).isdisjoint(options):
+        return None
+    key: list[Any] = [kind]
+    for name, value in options.items():
+        several = value if isinstance(value, (list, tuple)) else [value]
+        if not all(isinstance(one, (str, int, float, type(None))) for one in several):
+            return None
+        key += [name, *((type(one), one) for one in several)]
+    return key
 
 
 def _begin(context: _context.Context, kind: str, options: Mapping[str, Any], patterns: Any) -> Question:

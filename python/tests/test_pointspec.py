@@ -141,6 +141,39 @@ def test_calls_after_another_have_its_plan_and_no_more() -> None:
         assert pointspec.plan("power", POINTS, max_frequency=4).columns[0] == "engine"
 
 
+def test_weights_of_functions_and_generators() -> None:
+    weights = np.random.default_rng(2).random(POINTS.shape[:2])
+    expected = pointspec.power(POINTS, weights=weights, max_frequency=4)
+    assert_same(pointspec.power(zip(POINTS, weights), max_frequency=4), expected)
+    made = pointspec.power(lambda n, seed, r: (POINTS[r], weights[r]), realizations=6, max_frequency=4)
+    assert_same(made, expected)
+    for patterns in ({"mine": POINTS}, iter(POINTS), lambda n, seed, r: POINTS[r]):
+        with pytest.raises(ValueError, match="weights: functions and generators give tuples"):
+            pointspec.power(patterns, weights=weights, max_frequency=4)
+
+
+def test_generators_are_not_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    def cluster() -> Any:
+        """Powers near N, which need a second plan."""
+        for r in range(4):
+            yield np.full((300, 2), 0.5) + 1e-5 * np.random.default_rng(r).random((300, 2))
+
+    expected = pointspec.power([*cluster()], max_frequency=8)
+    assert "planned_twice" in expected
+    assert_same(pointspec.power(cluster(), max_frequency=8), expected)
+    monkeypatch.setattr("pointspec._question._MOST_KEPT", 5000)
+    with pytest.raises(ValueError, match="a generator comes once"):
+        pointspec.power(cluster(), max_frequency=8)
+    assert_same(pointspec.power(iter(POINTS), max_frequency=4), pointspec.power(POINTS, max_frequency=4))
+
+
+def test_files_are_read_again() -> None:
+    Path("list.txt").write_text("1 0\n")
+    assert len(pointspec.power(POINTS, frequencies="list.txt")) == 1
+    Path("list.txt").write_text("1 0\n2 0\n")
+    assert len(pointspec.power(POINTS, frequencies="list.txt")) == 2
+
+
 def test_arrays_are_options() -> None:
     frequencies = np.array([[1, 0], [2, -3]])
     answer = pointspec.power(POINTS, frequencies=frequencies)
