@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import json
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -98,7 +99,7 @@ class Question:
         self.context, self.kind = context, kind
         self.key: Any = None  # of questions that the next call may go on with
         self.alive: list[Any] = []  # what the library points to
-        self.files: list[Path] = []  # that answers were written to
+        self.files: list[Path] = []  # that answers and scenes were written to
         self.handle = ctypes.c_void_p()
         self.sampler: dict[str, Any] = {"points": 1024, "seed": 1, "realizations": 1}  # of the caller's functions
         context.check(library.question_create(ctypes.byref(self.handle), context.handle, kind.encode()))
@@ -182,6 +183,14 @@ class Question:
         answer.save(path)
         return path
 
+    def _write_scene(self, scene: Mapping[str, Any]) -> str:
+        """A scene of dicts and lists as a file, where the files that it names are looked for: YAML reads JSON."""
+        descriptor, path = tempfile.mkstemp(suffix=".yaml", prefix="pointspec-", dir=os.getcwd())
+        self.files.append(Path(path))
+        with open(descriptor, "w") as file:
+            json.dump(scene, file)
+        return path
+
     def _keep(self, function: Any) -> Any:
         self.alive.append(function)
         return function
@@ -210,6 +219,8 @@ class Question:
         if patterns is None:
             if weights is not None:
                 self.set("weights", weights)
+        elif self.kind == "run" and isinstance(patterns, Mapping):
+            self._set_text(b"files", self._write_scene(patterns))
         elif weights is not None and not _is_path(weights) and not _has_weights(patterns):
             raise ValueError("weights: functions and generators give tuples of points and weights, curves by names none")
         elif isinstance(patterns, Mapping):

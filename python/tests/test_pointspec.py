@@ -236,6 +236,15 @@ def test_signatures_are_those_of_the_tables() -> None:
             assert name in ("files", "weights") or row["help"] in function.__doc__
 
 
+def test_scenes_are_dicts() -> None:
+    np.save("points.npy", POINTS)
+    scene = {"scene": 1, "results": [{"result": "power", "sets": {"mine": "points.npy"}, "max-frequency": 4}]}
+    answer = pointspec.run(scene, output="folder")
+    assert len(answer) == 1 and [path.name for path in Path().glob("pointspec-*")] == []
+    table = next(Path("folder").glob("power*.csv")).read_text().splitlines()
+    assert table[-1].endswith(str(pointspec.power(POINTS, max_frequency=4).anisotropy_db[-1]))
+
+
 def test_plan_and_commands() -> None:
     plan = pointspec.plan("power", POINTS, max_frequency=4)
     assert "chosen" in plan.verdict_.tolist() if "verdict_" in plan else "chosen" in plan["verdict"].tolist()
