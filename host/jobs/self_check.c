@@ -1,5 +1,6 @@
 #include "jobs/self_check.h"
 
+#include "base/pieces.h"
 #include "engines/host/host_direct.h"
 #include "math/random/random.h"
 
@@ -61,17 +62,36 @@ static void print_frequency(char *text, size_t text_bytes, const int32_t *k,
     }
 }
 
+/* What is known of one entry: by the engine, and by the referee. */
+typedef struct checked {
+    size_t entry;
+    double power;
+    long double exact;
+    pspec_status status;
+    ps_error error;
+} checked;
+
+typedef struct work {
+    const ps_self_check_input *input;
+    checked *entries;
+} work;
+
+static void sum_exactly(void *payload, size_t i) {
+    const ps_self_check_input *const input = ((const work *)payload)->input;
+    checked *const one = &((const work *)payload)->entries[i];
+    one->status = ps_host_power(input->pattern, input->frequencies, one->entry, input->exponent,
+                                &one->exact, &one->error);
+}
+
 /* How far |S| of one entry is from the referee's, in units of sqrt(V). */
-static pspec_status check_entry(const ps_self_check_input *input, size_t entry, ps_device *device,
-                                double *off, ps_error *error) {
+static pspec_status compare(const ps_self_check_input *input, const checked *one, double *off,
+                            ps_error *error) {
     const ps_frequencies *set = input->frequencies;
-    const int32_t *k = set->vectors + entry * ps_frequency_components(set);
+    const int32_t *k = set->vectors + one->entry * ps_frequency_components(set);
     const double unit = sqrt(input->weight_square_sum);
-    long double exact = 0;
-    double power = 0;
+    const double power = one->power;
+    const long double exact = one->exact;
     char text[112];
-    PS_TRY(read_entry(input->rows, input->slots[entry], device, &power, error));
-    PS_TRY(ps_host_power(input->pattern, set, entry, input->exponent, &exact, error));
     const bool is_pairs = input->size_square > 0;
     const double expected = (double)sqrtl(exact) / unit;
     const double allowed = allowed_factor * input->engine_error * (is_pairs ? 1 : 1 + expected) +
@@ -117,17 +137,36 @@ double ps_self_check_count(const ps_frequencies *frequencies, uint64_t num_point
     return *is_of_degrees ? terms * (double)num_candidates * frequencies->degree_step / 2 : terms;
 }
 
+static size_t work_of(const ps_self_check_input *input) {
+    bool is_of_degrees = false;
+    const double terms =
+        ps_self_check_count(input->frequencies, input->pattern->num_points, &is_of_degrees);
+    return (size_t)terms * (is_of_degrees ? PS_SELF_CHECK_DEGREE_STEPS : PS_SELF_CHECK_STEPS);
+}
+
 pspec_status ps_self_check(const ps_self_check_input *input, ps_device *device, double *deviation,
                            ps_error *error) {
+    static const ps_watch nobody = {0};
+    checked entries[MOST_ENTRIES];
+    work all = {input, entries};
     ps_random random = ps_random_init(check_seed, PS_STREAM_COORDINATES, 0);
     size_t num_candidates = 0;
-    const size_t num_entries =
+    const size_t num =
         choose_entries(input->frequencies, input->pattern->num_points, &num_candidates);
+    for (size_t i = 0; i < num; i++) {
+        entries[i] = (checked){.entry = (size_t)ps_random_below(&random, num_candidates)};
+        PS_TRY(read_entry(input->rows, input->slots[entries[i].entry], device, &entries[i].power,
+                          error));
+    }
+    PS_TRY(ps_pieces_share(&nobody, "entries", work_of(input), num, sum_exactly, &all, error));
     *deviation = 0;
-    for (size_t i = 0; i < num_entries; i++) {
+    for (size_t i = 0; i < num; i++) {
         double off = 0;
-        const size_t entry = (size_t)ps_random_below(&random, num_candidates);
-        PS_TRY(check_entry(input, entry, device, &off, error));
+        if (entries[i].status != PSPEC_OK) {
+            *error = entries[i].error;
+            return entries[i].status;
+        }
+        PS_TRY(compare(input, &entries[i], &off, error));
         *deviation = off > *deviation ? off : *deviation;
     }
     return PSPEC_OK;

@@ -6,6 +6,9 @@
 
 /* Points of which a long double sum is made: about 25 ms each (190 ns a term). */
 enum { PS_SELF_CHECK_POINTS = 1 << 17 };
+/* Steps of some nanoseconds that a term takes as long as, by which threads are worth it; of
+ * degrees, of which a term is for an order, too. */
+enum { PS_SELF_CHECK_STEPS = 50, PS_SELF_CHECK_DEGREE_STEPS = 5 };
 
 /* rows[0] holds the powers of `pattern` (with weights w 2^-exponent) in the slots of the engine. */
 typedef struct ps_self_check_input {
@@ -25,9 +28,9 @@ typedef struct ps_self_check_input {
 double ps_self_check_count(const ps_frequencies *frequencies, uint64_t num_points,
                            bool *is_of_degrees);
 
-/* Compares entries with long double direct sums; *deviation is the largest | |S| - |S_referee| | /
- * sqrt(V), of pair sums | Q - Q_referee | / (sum |w|)^2. Fails with PSPEC_ERROR_CHECK when an entry
- * is off by more than is explicable by the engine's error. */
+/* Compares entries with long double direct sums, which are shared among threads; *deviation is the
+ * largest | |S| - |S_referee| | / sqrt(V), of pair sums | Q - Q_referee | / (sum |w|)^2. Fails with
+ * PSPEC_ERROR_CHECK when an entry is off by more than is explicable by the engine's error. */
 pspec_status ps_self_check(const ps_self_check_input *input, ps_device *device, double *deviation,
                            ps_error *error) PS_MUST_CHECK;
 

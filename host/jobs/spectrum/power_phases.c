@@ -156,14 +156,15 @@ static double beginning_seconds(const ps_power_job *job) {
 
 static void add_check(const ps_power_job *job, ps_phases *phases) {
     const double degree_seconds = 20e-9; /* a point, a degree and an order */
+    const double phase_seconds = ps_cost_seconds(&(ps_work){.phases = 1}, NULL, PS_EXTENDED);
     bool is_of_degrees = false;
     if (job->question->accuracy.no_self_check) {
         return;
     }
     const double terms = ps_self_check_count(&job->frequencies, job->num_points, &is_of_degrees);
-    ps_phases_add(phases, "self-check",
-                  is_of_degrees ? terms * degree_seconds
-                                : ps_cost_seconds(&(ps_work){.phases = terms}, NULL, PS_EXTENDED));
+    const double steps = is_of_degrees ? PS_SELF_CHECK_DEGREE_STEPS : PS_SELF_CHECK_STEPS;
+    ps_phases_share(phases, "self-check", terms * steps,
+                    (is_of_degrees ? degree_seconds : phase_seconds) / steps, 1);
     ps_phases_add_seconds(phases, "self-check", beginning_seconds(job));
     ps_phases_say(phases, "self-check", "%.3g terms in long double", terms);
 }
