@@ -164,8 +164,10 @@ static pspec_status cut_at_horizon(const ps_rules *rules, ps_point_set *set, dou
             weights[kept++] = weights[j];
         }
     }
-    memcpy(points + 3 * kept, horizon->points, 3 * horizon->num * sizeof *points);
-    memcpy(weights + kept, horizon->weights, horizon->num * sizeof *weights);
+    if (horizon->num > 0) {
+        memcpy(points + 3 * kept, horizon->points, 3 * horizon->num * sizeof *points);
+        memcpy(weights + kept, horizon->weights, horizon->num * sizeof *weights);
+    }
     set->num_points = kept + horizon->num;
     return check_left(rules, set->num_points, error);
 }
