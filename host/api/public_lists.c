@@ -49,14 +49,37 @@ bool ps_public_takes(const ps_command *row, ps_option_id id) {
 
 typedef pspec_status fill_table(const ps_command *row, ps_table *table, ps_error *error);
 
-static pspec_status tell(pspec_answer **out, const char *name, const char *const *columns,
-                         size_t num_columns, fill_table *fill, const ps_command *row,
+/* A table about one of the rows: what it is called, its columns, and who fills it. */
+typedef struct listed {
+    const char *name;
+    const ps_command *const *rows;
+    const char *what; /* a row is, in sentences */
+    fill_table *fill;
+    const char *columns[12]; /* NULL ends them, where there are fewer */
+} listed;
+
+static pspec_status fill(const listed *self, const ps_command *row, ps_table **out,
                          ps_error *error) {
-    ps_answer made = {0};
-    pspec_status status = ps_table_create(&made.table, name, columns, num_columns, error);
-    if (status == PSPEC_OK) {
-        status = fill(row, made.table, error);
+    enum { MOST = sizeof self->columns / sizeof self->columns[0] };
+    size_t num = 0;
+    while (num < MOST && self->columns[num] != NULL) {
+        num++;
     }
+    PS_TRY(ps_table_create(out, self->name, self->columns, num, error));
+    return self->fill(row, *out, error);
+}
+
+static pspec_status tell(pspec_answer **out, pspec_context *context, const listed *self,
+                         const char *name) {
+    const ps_command *row = NULL;
+    ps_answer made = {0};
+    if (out == NULL || context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    *out = NULL;
+    PS_TRY(ps_public_find(&row, self->rows, name, self->what, error));
+    const pspec_status status = fill(self, row, &made.table, error);
     if (status != PSPEC_OK) {
         ps_answer_free(&made);
         return status;
@@ -113,17 +136,13 @@ static pspec_status fill_options(const ps_command *row, ps_table *table, ps_erro
 }
 
 pspec_status pspec_options_table(pspec_answer **out, pspec_context *context, const char *command) {
-    static const char *const columns[] = {"option",   "values", "type",  "unit", "default",
-                                          "repeated", "file",   "kinds", "help"};
-    const ps_command *row = NULL;
-    if (out == NULL || context == NULL) {
-        return PSPEC_ERROR_INVALID_ARGUMENT;
-    }
-    ps_error *const error = &context->error;
-    *out = NULL;
-    PS_TRY(ps_public_find(&row, ps_public_commands, command, "command", error));
-    return tell(out, "options", columns, sizeof columns / sizeof columns[0], fill_options, row,
-                error);
+    static const listed table = {
+        "options",
+        ps_public_commands,
+        "command",
+        fill_options,
+        {"option", "values", "type", "unit", "default", "repeated", "file", "kinds", "help"}};
+    return tell(out, context, &table, command);
 }
 
 static pspec_status add_field(const ps_field_row *row, void *table, ps_error *error) {
@@ -138,16 +157,12 @@ static pspec_status fill_fields(const ps_command *row, ps_table *table, ps_error
 }
 
 pspec_status pspec_fields_table(pspec_answer **out, pspec_context *context, const char *kind) {
-    static const char *const columns[] = {"field", "group", "unit", "repeated", "when", "meaning"};
-    const ps_command *row = NULL;
-    if (out == NULL || context == NULL) {
-        return PSPEC_ERROR_INVALID_ARGUMENT;
-    }
-    ps_error *const error = &context->error;
-    *out = NULL;
-    PS_TRY(ps_public_find(&row, ps_with_fields, kind, "kind of answer", error));
-    return tell(out, "fields", columns, sizeof columns / sizeof columns[0], fill_fields, row,
-                error);
+    static const listed table = {"fields",
+                                 ps_with_fields,
+                                 "kind of answer",
+                                 fill_fields,
+                                 {"field", "group", "unit", "repeated", "when", "meaning"}};
+    return tell(out, context, &table, kind);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
@@ -186,15 +201,11 @@ static pspec_status fill_pictures(const ps_command *row, ps_table *table, ps_err
 }
 
 pspec_status pspec_pictures_table(pspec_answer **out, pspec_context *context, const char *kind) {
-    static const char *const columns[] = {"picture", "panels", "x",    "y",       "error", "low",
-                                          "high",    "look",   "name", "entries", "log_x", "log_y"};
-    const ps_command *row = NULL;
-    if (out == NULL || context == NULL) {
-        return PSPEC_ERROR_INVALID_ARGUMENT;
-    }
-    ps_error *const error = &context->error;
-    *out = NULL;
-    PS_TRY(ps_public_find(&row, ps_with_fields, kind, "kind of answer", error));
-    return tell(out, "pictures", columns, sizeof columns / sizeof columns[0], fill_pictures, row,
-                error);
+    static const listed table = {"pictures",
+                                 ps_with_fields,
+                                 "kind of answer",
+                                 fill_pictures,
+                                 {"picture", "panels", "x", "y", "error", "low", "high", "look",
+                                  "name", "entries", "log_x", "log_y"}};
+    return tell(out, context, &table, kind);
 }

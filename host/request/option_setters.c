@@ -140,7 +140,8 @@ pspec_status ps_set_share(const ps_said *said, ps_error *error) {
 }
 
 pspec_status ps_set_quarter_turn(const ps_said *said, ps_error *error) {
-    return ps_parse_number(said->text, said->shown, 0, 90, find_field(said), error);
+    const double most = 90;
+    return ps_parse_number(said->text, said->shown, 0, most, find_field(said), error);
 }
 
 pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {

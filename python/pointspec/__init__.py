@@ -43,6 +43,7 @@ from ._question import Integrand, Patterns
 
 __version__: str = _c.version().decode()
 
+_OWN = ("weights", "device", "progress")  # keywords beside the library's options
 _COMMANDS = ["sample", "convert", "run", "devices", "doctor"]
 
 
@@ -53,20 +54,11 @@ def _kinds() -> list[str]:
     return names
 
 
-def _rows(kind: str, what: str) -> list[dict[str, str]]:
-    """The table of options or of fields as dicts."""
-    table = _answer.table(kind, what)
-    columns = table.columns
-    return [dict(zip(columns, row)) for row in zip(*(table[name].tolist() for name in columns))]
-
-
 def _describe(function: Any, kind: str) -> None:
     """Signature and docstring of the function of a kind, made of the library's tables."""
-    options = [row for row in _rows(kind, "options") if row["option"] not in ("files", "weights")]
-    own = ["patterns", "weights", "device", "progress"]
-    names = {name: inspect.Parameter.KEYWORD_ONLY for name in own[1:]}
-    parameters = [inspect.Parameter(own[0], inspect.Parameter.POSITIONAL_ONLY, default=None)]
-    parameters += [inspect.Parameter(name, how, default=None) for name, how in names.items()]
+    options = [row for row in _answer.rows(kind, "options") if row["option"] not in ("files", "weights")]
+    parameters = [inspect.Parameter("patterns", inspect.Parameter.POSITIONAL_ONLY, default=None)]
+    parameters += [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in _OWN]
     lines = [f"What ``pointspec {kind}`` answers, as an :class:`Answer`.", "", "Options:", ""]
     for row in options:
         name = row["option"].replace("-", "_")
@@ -74,15 +66,19 @@ def _describe(function: Any, kind: str) -> None:
         lines += [f"{name}: {row['values'] or 'flag'}", f"    {row['help']}"]
     if kind not in _COMMANDS or kind == "devices":
         lines += ["", "Fields:", ""]
-        lines += [f"{row['field']} ({row['group']}): {row['meaning']}" for row in _rows(kind, "fields")]
+        lines += [f"{row['field']} ({row['group']}): {row['meaning']}" for row in _answer.rows(kind, "fields")]
     function.__signature__ = inspect.Signature(parameters, return_annotation=Answer)
     function.__doc__ = "\n".join(lines)
 
 
+def _ask(kind: str, patterns: Any, options: dict[str, Any], is_planned: bool = False) -> Answer:
+    own = {name: options.pop(name, None) for name in _OWN}
+    return _question.ask(kind, patterns, options, is_planned=is_planned, **own)
+
+
 def _make(kind: str) -> Callable[..., Answer]:
     def function(patterns: Any = None, /, **options: Any) -> Answer:
-        own = {name: options.pop(name, None) for name in ("weights", "device", "progress")}
-        return _question.ask(kind, patterns, options, **own)
+        return _ask(kind, patterns, options)
 
     function.__name__ = function.__qualname__ = kind
     function.__module__ = __name__
@@ -96,8 +92,7 @@ for _kind in [*_kinds(), *_COMMANDS]:
 
 def plan(kind: str, patterns: Any = None, /, **options: Any) -> Answer:
     """What answering a question would take: engines with seconds, bytes and errors, phases, what is skipped."""
-    own = {name: options.pop(name, None) for name in ("weights", "device", "progress")}
-    return _question.ask(kind, patterns, options, is_planned=True, **own)
+    return _ask(kind, patterns, options, is_planned=True)
 
 
 __all__ = [

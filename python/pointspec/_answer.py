@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _context, _library
 from ._library import library
@@ -202,4 +201,11 @@ def table(kind: str, what: str) -> Answer:
     return _owned(context, call(ctypes.byref(out), context.handle, kind.encode()), out)
 
 
-Array = npt.NDArray[Any]
+def rows(kind: str, what: str) -> list[dict[str, Any]]:
+    """The same as a dict for each row; what is missing is "", also where a whole column is."""
+    found = table(kind, what)
+    columns = {name: found[name].tolist() for name in found.columns}
+    return [
+        {name: value if isinstance(value, (str, int)) else "" for name, value in zip(columns, row)}
+        for row in zip(*columns.values())
+    ]

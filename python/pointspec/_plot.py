@@ -20,12 +20,7 @@ _ROUNDING = 1e-16
 
 def _pictures(kind: str) -> list[list[Line]]:
     """The pictures of a kind, each a list of its lines."""
-    table = _answer.table(kind, "pictures")
-    columns = {name: table[name].tolist() for name in table.columns}  # a column without a word has nan
-    lines = [
-        {name: value if isinstance(value, (str, int)) else "" for name, value in zip(columns, row)}
-        for row in zip(*columns.values())
-    ]
+    lines = _answer.rows(kind, "pictures")
     return [[line for line in lines if line["picture"] == number] for number in dict.fromkeys(x["picture"] for x in lines)]
 
 

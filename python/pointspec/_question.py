@@ -357,9 +357,7 @@ class Question:
 @functools.cache
 def _files(kind: str) -> frozenset[str]:
     """Options whose values may name files, which change."""
-    table = _answer.table(kind, "options")
-    named = zip(table["option"].tolist(), table["file"].tolist())
-    return frozenset(option.replace("-", "_") for option, file in named if isinstance(file, str) and file)
+    return frozenset(row["option"].replace("-", "_") for row in _answer.rows(kind, "options") if row["file"])
 
 
 def _key(kind: str, options: Mapping[str, Any], patterns: Any) -> Any:

@@ -230,7 +230,7 @@ def test_signatures_are_those_of_the_tables() -> None:
     for kind in [*pointspec._kinds(), *pointspec._COMMANDS]:
         function = getattr(pointspec, kind)
         names = set(inspect.signature(function).parameters)
-        for row in pointspec._rows(kind, "options"):
+        for row in pointspec._answer.rows(kind, "options"):
             name = row["option"].replace("-", "_")
             assert name == "files" or name in names
             assert name in ("files", "weights") or row["help"] in function.__doc__

@@ -190,8 +190,7 @@ static const ps_field_row own_fields[] = {
      "directions that stand for that share in the exact integral and in spectra"},
     {"horizon_error", "", PS_ENTRY, 0, "--view",
      "what these are off by, root mean square over orientations: light beyond light_degree as "
-     "random "
-     "directions have it; a part of rmse_beyond"},
+     "random directions have it; a part of rmse_beyond"},
     {"z_score_is", "", PS_ENTRY, 0, "", "what the column of that name is"},
     {"orientations", "", PS_ENTRIES, 0, "", "random orientations of every rule"},
     {"rmse", "", PS_ENTRIES, 0, "", "as the column"},
