@@ -62,7 +62,14 @@ typedef struct ps_picture_line {
     bool is_of_all;                 /* the same for all curves of a panel: once, and last */
 } ps_picture_line;
 
-enum { PS_MOST_LINES = 5 };
+enum { PS_MOST_LINES = 5, PS_MOST_DRAWN_ARRAYS = 2 };
+
+/* An array that a picture shows: a square of points, a plane about 0 in the middle, or pixels, one
+ * image or several. */
+typedef struct ps_drawn_array {
+    const char *name; /* NULL ends a list of them */
+    ps_frame_form form;
+} ps_drawn_array;
 
 /* One of the pictures of a kind. A command draws the last of its own whose need is met. */
 struct ps_picture_kind {
@@ -74,6 +81,7 @@ struct ps_picture_kind {
     const char *panels; /* the column that tells panels of its own apart; NULL: it has none */
     const char *x;
     ps_picture_line lines[PS_MOST_LINES + 1];
+    ps_drawn_array arrays[PS_MOST_DRAWN_ARRAYS + 1]; /* beside the lines, where there are any */
     const char *x_label, *y_label;
     bool is_of_entries;      /* x and y are header entries of a question, not columns */
     bool is_log_x, is_log_y; /* of spectra: where they are in panels */

@@ -173,15 +173,15 @@ static const char *const looks[] = {"line",  "line",  "curve",     "marks", "sig
 enum { NUM_LOOKS = sizeof looks / sizeof looks[0] };
 
 static pspec_status add_line(ps_table *table, const ps_picture_kind *picture, size_t number,
-                             const ps_picture_line *line, ps_error *error) {
+                             const ps_picture_line *line, const char *look, ps_error *error) {
     const ps_cell cells[] = {PS_INTEGER(number),
                              text_or_missing(picture->panels),
-                             PS_TEXT(picture->x),
+                             text_or_missing(picture->x),
                              PS_TEXT(line->y),
                              text_or_missing(line->error),
                              text_or_missing(line->low),
                              text_or_missing(line->high),
-                             PS_TEXT(looks[(size_t)line->look < NUM_LOOKS ? line->look : 0]),
+                             PS_TEXT(look),
                              text_or_missing(line->name),
                              PS_TEXT(picture->is_of_entries ? "yes" : "no"),
                              PS_TEXT(picture->is_log_x ? "yes" : "no"),
@@ -189,12 +189,30 @@ static pspec_status add_line(ps_table *table, const ps_picture_kind *picture, si
     return ps_table_add_row(table, cells, error);
 }
 
-/* Pictures of lines; others are images. */
+/* By ps_frame_form. */
+static const char *const forms[] = {[PS_FRAME_PLANE] = "plane",
+                                    [PS_FRAME_SQUARE] = "points",
+                                    [PS_FRAME_PIXELS] = "pixels",
+                                    [PS_FRAME_LIGHT] = "light"};
+
+static pspec_status add_drawn_array(ps_table *table, size_t number, const ps_drawn_array *array,
+                                    ps_error *error) {
+    const ps_picture_kind no_axes = {.x = NULL};
+    const ps_picture_line line = {.y = array->name};
+    return add_line(table, &no_axes, number, &line, forms[array->form], error);
+}
+
+/* Pictures of lines and arrays; those of a scene have more. */
 static pspec_status fill_pictures(const ps_command *row, ps_table *table, ps_error *error) {
     for (size_t i = 0; row->pictures != NULL && row->pictures[i].make != NULL; i++) {
         const ps_picture_kind *const picture = &row->pictures[i];
         for (size_t k = 0; picture->x != NULL && picture->lines[k].y != NULL; k++) {
-            PS_TRY(add_line(table, picture, i, &picture->lines[k], error));
+            const ps_picture_line *const line = &picture->lines[k];
+            const char *const look = looks[(size_t)line->look < NUM_LOOKS ? line->look : 0];
+            PS_TRY(add_line(table, picture, i, line, look, error));
+        }
+        for (size_t k = 0; picture->arrays[k].name != NULL; k++) {
+            PS_TRY(add_drawn_array(table, i, &picture->arrays[k], error));
         }
     }
     return PSPEC_OK;

@@ -43,7 +43,7 @@ from ._question import Integrand, Patterns
 
 __version__: str = _c.version().decode()
 
-_OWN = ("weights", "device", "progress")  # keywords beside the library's options
+_OWN = ("weights", "device", "progress", "plan")  # keywords beside the library's options
 _COMMANDS = ["sample", "convert", "run", "devices", "doctor"]
 
 

@@ -48,6 +48,7 @@ class Answer:
         # Views of the library's; no arrays, which would keep the answer that keeps them: the collector of cycles does not
         # look into arrays.
         self._fields: dict[str, list[Any]] | None = None
+        self.plan: Answer | None = None  # what `pointspec.plan` answers, where plan=True was asked for
 
     def __del__(self) -> None:
         if library is not None:  # the interpreter ends

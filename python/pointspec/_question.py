@@ -400,18 +400,21 @@ def ask(
     weights: Any = None,
     device: str | None = None,
     progress: Any = None,
+    plan: bool | None = False,
     is_planned: bool = False,
 ) -> _answer.Answer:
-    """Asks one question, whose patterns are borrowed for the call."""
+    """Asks one question, whose patterns are borrowed for the call. plan: the answer has its plan, too."""
     context = _context.get(device)
     question = _begin(context, kind, options, patterns)
     try:
         question.take(patterns, weights)
         with _context.listening(context, progress):
+            planned = question.answer(True) if plan else None
             answer = question.answer(is_planned)
     except BaseException:
         question.close()
         raise
+    answer.plan = planned
     question.alive.clear()
     if question.key is not None and weights is None and not is_planned:
         context.kept = question

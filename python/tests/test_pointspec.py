@@ -428,7 +428,38 @@ def test_pictures() -> None:
 
     errors = pointspec.shade(**dict(QUESTIONS["shade"], points=[16, 32]))
     assert [line.get_label() for line in errors.plot().get_lines()][0] == "fibonacci-hemisphere"
-    with pytest.raises(ValueError, match="no picture of lines"):
+    with pytest.raises(ValueError, match="no picture"):
         pointspec.occlusion(mesh="quad.obj", **QUESTIONS["occlusion"]).plot()
     with pytest.raises(ValueError, match="there is no answer"):
         pointspec.plot()
+
+
+def test_images() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    answer = pointspec.power(POINTS, max_frequency=4, full=True)
+    points, image, curve = answer.plot()
+    np.testing.assert_array_equal(points.collections[0].get_offsets(), POINTS[0])
+    drawn = np.ma.filled(image.images[0].get_array(), np.nan)
+    assert np.isnan(drawn[4, 4]) and tuple(image.images[0].get_extent()) == (-4.5, 4.5, -4.5, 4.5)
+    shown = np.arange(81).reshape(9, 9) != 40
+    np.testing.assert_array_equal(drawn[shown], answer.full.T[shown])
+    np.testing.assert_array_equal(curve.get_lines()[0].get_ydata(), answer.power)
+    assert answer.plot(ax=curve) is curve
+
+    options = dict(QUESTIONS["occlusion"], sampler=["fibonacci", "white-sphere"], state=True)
+    answer = pointspec.occlusion(mesh="quad.obj", **options)
+    axes = answer.plot()
+    assert [one.get_title() for one in axes[::2]] == ["image, sampler fibonacci", "error, sampler fibonacci"]
+    np.testing.assert_array_equal(axes[3].images[0].get_array(), answer.error[1])
+    with pytest.raises(ValueError, match="one panel does not hold 4 images"):
+        answer.plot(ax=axes[0])
+
+    cap, square, powers = pointspec.light(integrand=["cap:angle=0.5", "square"], max_degree=4, state=True).plot()
+    assert cap.get_title().startswith("cap") and square.get_title() == "square" and powers.get_yscale() == "log"
+
+
+def test_plan_beside() -> None:
+    answer = pointspec.power(POINTS, max_frequency=4, plan=True)
+    assert answer.plan is not None and answer.header["engine"].startswith("(" + answer.plan.engine[0].split(":")[0])
+    assert pointspec.power(POINTS, max_frequency=4).plan is None

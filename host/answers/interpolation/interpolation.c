@@ -201,25 +201,27 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
 /* ---- what tables mean ------------------------------------------------------------------------ */
 
 static const char *const summary[] = {"points", "realizations", "engine", NULL};
-static const ps_picture_kind pictures[] = {{.suffix = "-image",
-                                            .make = ps_interpolation_figure,
-                                            .dealing = PS_OF_SETS,
-                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
-                                            .needs = PS_NEEDS_PICTURES},
-                                           {.suffix = "-rmse",
-                                            .what = "error of interpolation",
-                                            .make = ps_lines_figure,
-                                            .dealing = PS_OF_COUNTS,
-                                            .by = PS_BY_SCENE | PS_BY_COMMAND,
-                                            .needs = PS_NEEDS_COUNTS,
-                                            .panels = "integrand",
-                                            .x = "points",
-                                            .lines = {{.y = "rmse", .error = "rmse_error"}},
-                                            .x_label = "points N",
-                                            .y_label = "RMSE",
-                                            .is_log_x = true,
-                                            .is_log_y = true},
-                                           {.make = NULL}};
+static const ps_picture_kind pictures[] = {
+    {.suffix = "-image",
+     .make = ps_interpolation_figure,
+     .dealing = PS_OF_SETS,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .needs = PS_NEEDS_PICTURES,
+     .arrays = {{"light", PS_FRAME_LIGHT}, {"image", PS_FRAME_LIGHT}}},
+    {.suffix = "-rmse",
+     .what = "error of interpolation",
+     .make = ps_lines_figure,
+     .dealing = PS_OF_COUNTS,
+     .by = PS_BY_SCENE | PS_BY_COMMAND,
+     .needs = PS_NEEDS_COUNTS,
+     .panels = "integrand",
+     .x = "points",
+     .lines = {{.y = "rmse", .error = "rmse_error"}},
+     .x_label = "points N",
+     .y_label = "RMSE",
+     .is_log_x = true,
+     .is_log_y = true},
+    {.make = NULL}};
 
 static const ps_field_row own_fields[] = {
     {"integrand", "", PS_ENTRIES, 0, "", "a function that was interpolated"},

@@ -249,6 +249,7 @@ static const ps_picture_kind pictures[] = {
      .needs = PS_NEEDS_PICTURES,
      .x = "normalized_frequency",
      .lines = {{.y = "power", .error = "standard_error", .low = "lower", .high = "upper"}},
+     .arrays = {{"first_set", PS_FRAME_SQUARE}, {"full", PS_FRAME_PLANE}},
      .y_label = "radial mean power",
      .is_spectrum = true},
     {.suffix = "-scatter",

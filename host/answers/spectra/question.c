@@ -109,11 +109,13 @@ static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) 
 }
 
 /* Of one question alone: points of one sampler beside the curves of many would be taken for those
- * of all. */
+ * of all. Callers of the library who ask for the array draw it by themselves. */
 static bool shows_points(const ps_request *arguments, ps_question_kind kind) {
     const char *const word = arguments->plot_points;
-    return arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
-           kind != PS_QUESTION_PAIRS && (word == NULL || strcmp(word, "no") != 0);
+    const bool is_drawn_elsewhere = arguments->wants_array && arguments->wants_errors;
+    return (arguments->plot != NULL || is_drawn_elsewhere) &&
+           ps_request_num_questions(arguments) == 1 && kind != PS_QUESTION_PAIRS &&
+           (word == NULL || strcmp(word, "no") != 0);
 }
 
 static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {

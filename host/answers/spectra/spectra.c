@@ -216,7 +216,7 @@ pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_
         status = ps_spectra_make_table(&out->table, kind, request, all, num, error);
     }
     ps_measured_free(all, num);
-    if (status == PSPEC_OK && request->plot != NULL && first->num_points > 0) {
+    if (status == PSPEC_OK && first->num_points > 0) {
         status = add_first_set(out->table, first, error);
     }
     return status == PSPEC_OK ? ps_spectra_add_state(out->table, spectra, request, error) : status;

@@ -51,7 +51,7 @@ const ps_field_row ps_fields_powers[] = {
     {"coefficients", "", PS_ARRAY, OF(power) | OF(angular), "--coefficients",
      "S(k) of each set, complex128 in the places of full; on the sphere c_lm of the only set at "
      "index m(2L+1-m)/2 + l"},
-    {"first_set", "", PS_ARRAY, OF(power) | OF(angular), "--plot",
+    {"first_set", "", PS_ARRAY, OF(power) | OF(angular), "--plot, full in the library",
      "points of the first set where the picture shows them, float64 [N][D]; no file of its own"},
     {"white_sums", "", PS_ARRAY, OF(pairs), "--plot",
      "for each question what Q(l) of white noise of these weights is in the mean, sum w^2; no file "

@@ -41,7 +41,10 @@ PSPEC_EXPORT pspec_status pspec_fields_table(pspec_answer **out, pspec_context *
  * are none), entries ("yes" where x and y are header entries of several questions, else "no"), look
  * ("line", "curve", "marks", "signs", "bound", "cloud", "reference" or "front"), name (in the key,
  * beside that of the curve; missing: that alone), and log_x and log_y ("yes" or "no"). A curve is
- * that of a sampler, or of what else the columns before x tell apart. Images are not among them.
+ * that of a sampler, or of what else the columns before x tell apart. Arrays that stand beside the
+ * lines, or are the picture, have rows, too, without x: look is "points" (a set in the unit square),
+ * "plane" (frequencies, 0 in the middle), "pixels" (from 0 to 1, or of both signs) or "light", one
+ * image or several.
  * kind: as for pspec_fields_table(). */
 PSPEC_EXPORT pspec_status pspec_pictures_table(pspec_answer **out, pspec_context *context,
                                                const char *kind);
