@@ -1,6 +1,6 @@
 /* What commands take, what one that prints a kind of answer does, and a public function that
  * answers one: refuse early, compute, write. */
-#include "answers/kind.h"
+#include "answers/checkpoints.h"
 #include "answers/output_check.h"
 #include "answers/picture.h"
 #include "base/text.h"
@@ -129,14 +129,22 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
     void **const kept = hooks->kept != NULL && kind->renews ? hooks->kept : &mine;
     ps_table_format format = PS_FORMAT_CSV;
     ps_request own = *request;
+    ps_text key = {0};
     *out = (ps_answer){0};
     PS_TRY(check(&format, kind, request, hooks, error));
     own.wants_state = request->wants_state || format == PS_FORMAT_NPZ;
-    pspec_status status = kind->compute(kept, &own, hooks, error);
+    pspec_status status = ps_answer_begin_checkpoints(&own, kind, &key, hooks, error);
+    if (status == PSPEC_OK) {
+        status = kind->compute(kept, &own, hooks, error);
+    }
     ps_answer_end(hooks);
     if (status == PSPEC_OK) {
         status = write_files(out, kind, *kept, &own, format, hooks, error);
     }
+    if (status == PSPEC_OK) {
+        ps_answer_end_checkpoints(&own);
+    }
+    ps_text_free(&key);
     if (status != PSPEC_OK || kept == &mine) {
         kind->discard(*kept);
         *kept = NULL;

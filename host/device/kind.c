@@ -32,6 +32,15 @@ ps_device_kind ps_device_kind_of(const ps_device_limits *limits) {
     return out;
 }
 
+void ps_device_identify(ps_text *out, const ps_device_limits *limits) {
+    if (limits == NULL) {
+        ps_text_append(out, "no device\n");
+        return;
+    }
+    ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\n", limits->platform, limits->name, limits->driver,
+                   limits->version, limits->native_float_lanes, limits->native_double_lanes);
+}
+
 unsigned ps_device_double_cost(const ps_device_limits *limits) {
     enum { OF_DATA_CENTRES = 2 };
     return limits->double_cost > 0 ? limits->double_cost : OF_DATA_CENTRES;

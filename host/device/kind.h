@@ -7,6 +7,7 @@
 #ifndef PS_DEVICE_KIND_H
 #define PS_DEVICE_KIND_H
 
+#include "base/text.h"
 #include "device/device.h"
 
 typedef struct ps_device_kind {
@@ -31,5 +32,8 @@ typedef struct ps_typical_device {
     unsigned queues;     /* 2: one copies what comes next while the other computes */
 } ps_typical_device;
 ps_typical_device ps_device_typical(const ps_device_limits *limits);
+
+/* Lines of a key: the driver, and what of the device bits may depend on. NULL: there is none. */
+void ps_device_identify(ps_text *out, const ps_device_limits *limits);
 
 #endif

@@ -112,6 +112,11 @@ pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_patt
  * Allocates nothing. */
 void ps_estimator_reset(ps_estimator *estimator);
 
+/* All state of what was added, to a checkpoint or from one, into an estimator of the same options
+ * that has no realizations. */
+pspec_status ps_estimator_walk(ps_estimator *estimator, ps_snapshot *snapshot,
+                               ps_error *error) PS_MUST_CHECK;
+
 /* Realizations that one call of ps_estimator_add takes best. */
 size_t ps_estimator_batch(const ps_estimator *estimator);
 uint64_t ps_estimator_num_realizations(const ps_estimator *estimator);

@@ -13,6 +13,7 @@ uint64_t ps_runner_held(const ps_runner *runner) {
 
 static pspec_status begin(ps_runner *runner, ps_error *error) {
     runner->num_done = 0;
+    runner->is_complete = false;
     return runner->kind->begin(runner->job, error);
 }
 
@@ -30,27 +31,41 @@ static pspec_status start(ps_runner *runner, ps_error *error) {
     return begin(runner, error);
 }
 
+static bool can_look(const ps_runner *runner) {
+    return runner->kind->look != NULL && runner->standard_error > 0;
+}
+
+/* The next realizations, up to the next look. */
+static pspec_status add_some(ps_runner *runner, double *largest, ps_error *error) {
+    const ps_runner_kind *const kind = runner->kind;
+    const uint64_t next =
+        runner->is_sequential ? ps_sequential_next_look(runner->num_done) : UINT64_MAX;
+    size_t num = 0;
+    pspec_status status = kind->tell(runner->job, error);
+    if (status == PSPEC_OK) {
+        status = kind->give(runner->job, next - runner->num_done, &num, error);
+    }
+    if (status != PSPEC_OK) {
+        return ps_runner_save_cancelled(runner, status, error);
+    }
+    runner->num_done += num;
+    if (can_look(runner) && runner->num_done == next) {
+        PS_TRY(kind->look(runner->job, largest, error));
+    }
+    runner->is_complete = num == 0 || *largest <= runner->standard_error;
+    return ps_runner_save(runner, error);
+}
+
 /* All realizations, or as many as the standard error needs. Looks, and so what ends a job, do not
  * depend on batches. */
 static pspec_status add_all(ps_runner *runner, ps_error *error) {
-    const ps_runner_kind *const kind = runner->kind;
-    const bool can_look = kind->look != NULL && runner->standard_error > 0;
     double largest = INFINITY;
-    size_t num = 1;
-    bool is_enough = false;
-    while (num > 0 && !is_enough) {
-        const uint64_t next =
-            runner->is_sequential ? ps_sequential_next_look(runner->num_done) : UINT64_MAX;
-        PS_TRY(kind->tell(runner->job, error));
-        PS_TRY(kind->give(runner->job, next - runner->num_done, &num, error));
-        runner->num_done += num;
-        if (can_look && runner->num_done == next) {
-            PS_TRY(kind->look(runner->job, &largest, error));
-            is_enough = largest <= runner->standard_error;
-        }
+    while (!runner->is_complete) {
+        PS_TRY(add_some(runner, &largest, error));
     }
-    return can_look && !is_enough && runner->num_done > 1 ? kind->look(runner->job, &largest, error)
-                                                          : PSPEC_OK;
+    return can_look(runner) && largest > runner->standard_error && runner->num_done > 1
+               ? runner->kind->look(runner->job, &largest, error)
+               : PSPEC_OK;
 }
 
 /* Errors grow with the number of points, too, of which a set may have more than were announced. */
@@ -100,9 +115,9 @@ static pspec_status settle(ps_runner *runner, ps_error *error) {
         MOST_PLANS = 2
     }; /* the second has powers and points; one more, should another engine measure larger ones */
     PS_TRY(measure(runner, error));
-    for (int i = 0; i < MOST_PLANS && !is_settled(runner); i++) {
+    while (runner->num_replans < MOST_PLANS && !is_settled(runner)) {
         PS_TRY(plan_again(runner, error));
-        runner->was_replanned = true;
+        runner->num_replans++;
         PS_TRY(start(runner, error));
         PS_TRY(add_all(runner, error));
         PS_TRY(measure(runner, error));
@@ -114,13 +129,28 @@ static pspec_status settle(ps_runner *runner, ps_error *error) {
                          runner->problem->tolerance);
 }
 
-pspec_status ps_runner_run(ps_runner *runner, ps_error *error) {
-    if (runner->estimator != NULL) {
-        ps_estimator_reset(runner->estimator);
-        PS_TRY(begin(runner, error));
-    } else {
+/* The first realization comes next, or that behind those of a checkpoint. */
+static pspec_status get_ready(ps_runner *runner, ps_error *error) {
+    bool is_found = false;
+    PS_TRY(ps_runner_read_plan(runner, &is_found, error));
+    if (runner->estimator == NULL || is_found) {
         PS_TRY(start(runner, error));
+        return is_found ? ps_runner_read_state(runner, error) : PSPEC_OK;
     }
+    ps_estimator_reset(runner->estimator);
+    return begin(runner, error);
+}
+
+static pspec_status run(ps_runner *runner, ps_error *error) {
+    PS_TRY(ps_runner_open_checkpoint(runner, error));
+    PS_TRY(get_ready(runner, error));
     PS_TRY(add_all(runner, error));
     return settle(runner, error);
+}
+
+pspec_status ps_runner_run(ps_runner *runner, ps_error *error) {
+    const pspec_status status = run(runner, error);
+    ps_checkpoint_close(runner->checkpoint);
+    runner->checkpoint = NULL;
+    return status;
 }

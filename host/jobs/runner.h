@@ -3,11 +3,12 @@
  * powers that were measured, or sets, are too large for this one -> the same realizations again.
  *
  * Kinds of jobs differ in what they give the estimator and in what they keep of it: ps_runner_kind.
- * What concerns every job belongs here, and has its place: a range of realizations begins and ends
- * where `num_done` and the `most` of `give` do; a checkpoint is whole between two calls of `give`,
- * where also `tell` is called; several devices are several estimators instead of the one that
- * `start` makes; ranks bring their accuracies together at the beginning of `settle`, so that all of
- * them plan again, or none.
+ * What concerns every job belongs here, and has its place: a checkpoint is written between two
+ * calls of `give`, where also `tell` is called, and read by a job that begins
+ * (runner_checkpoint.c); a range of realizations begins and ends where `num_done` and the `most` of
+ * `give` do; several devices are several estimators instead of the one that `start` makes; ranks
+ * bring their accuracies together at the beginning of `settle`, so that all of them plan again, or
+ * none.
  */
 #ifndef PS_JOBS_RUNNER_H
 #define PS_JOBS_RUNNER_H
@@ -34,6 +35,13 @@ typedef struct ps_runner_kind {
     pspec_status (*look)(void *job, double *largest, ps_error *error);
     /* Back to the first realization, or PSPEC_ERROR_TOLERANCE when they cannot be had again. */
     pspec_status (*rewind)(void *job, ps_error *error);
+    /* Of jobs that have checkpoints: leaves so many realizations out, which the estimator has, and
+     * takes what the job has of its own to a checkpoint or from one; NULL: it has nothing */
+    pspec_status (*skip)(void *job, uint64_t num, ps_error *error);
+    ps_snapshot_walk *walk;
+    /* After a call of `give` that was cancelled the estimator tells how many were added: there is
+     * nothing else that they change */
+    bool is_all_in_estimator;
 } ps_runner_kind;
 
 typedef struct ps_runner {
@@ -47,11 +55,15 @@ typedef struct ps_runner {
     bool is_sequential;    /* they do stop there */
     /* Amplitudes alone are asked of the estimator, whose errors no power changes */
     bool has_no_accuracy;
+    const ps_checkpoint_spec *spec; /* NULL: no checkpoints */
     /* known afterwards */
     ps_estimator *estimator; /* owned, freed by ps_runner_free */
     uint64_t num_done;       /* realizations */
     ps_accuracy accuracy;
-    bool was_replanned;
+    unsigned num_replans;
+    /* while it runs */
+    ps_checkpoint *checkpoint; /* NULL: none */
+    bool is_complete;          /* all realizations were added */
 } ps_runner;
 
 void ps_runner_free(ps_runner *runner);
@@ -62,6 +74,20 @@ void ps_runner_free(ps_runner *runner);
  * no plan reaches it, or realizations cannot be had again, PSPEC_ERROR_TOLERANCE comes with
  * estimator, plan and problem as they were. */
 pspec_status ps_runner_run(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+
+/* ---- the parts of it that are in runner_checkpoint.c ----------------------------------------- */
+
+/* Opens the checkpoint, where one was asked for, for the job of the plan. */
+pspec_status ps_runner_open_checkpoint(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+/* What is there before an estimator is: the plan that the job follows. *is_found: there is a
+ * checkpoint. */
+pspec_status ps_runner_read_plan(ps_runner *runner, bool *is_found, ps_error *error) PS_MUST_CHECK;
+/* The rest, into the new estimator of that plan. */
+pspec_status ps_runner_read_state(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+/* Writes one where it is time, or there is one already and all realizations were added. */
+pspec_status ps_runner_save(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+/* Where the work was cancelled: writes one, whatever the time, and says so. Returns status. */
+pspec_status ps_runner_save_cancelled(ps_runner *runner, pspec_status status, ps_error *error);
 
 /* Bytes of the machine's memory that the estimator has, which another plan need not count as taken.
  */

@@ -123,6 +123,17 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     return PSPEC_OK;
 }
 
+uint64_t ps_source_skip(ps_source *source, uint64_t num) {
+    const uint64_t left = source->num_realizations - source->next_realization;
+    if (source->sampled == NULL) {
+        return 0;
+    }
+    num = num < left ? num : left;
+    ps_sets_skip(source->sampled, num);
+    source->next_realization += num;
+    return num;
+}
+
 /* Appends a name to a list unless it is there. */
 static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
     static const char separator[] = "; "; /* names have commas */

@@ -71,6 +71,9 @@ bool ps_source_can_rewind(const ps_source *source);
  * again. */
 pspec_status ps_source_check_rewind(const ps_source *source, const char *why,
                                     ps_error *error) PS_MUST_CHECK;
+/* Leaves out so many of the next sets of a sampler, without making them, and returns how many; none
+ * of others, which are to be read. */
+uint64_t ps_source_skip(ps_source *source, uint64_t num);
 pspec_status ps_source_rewind(ps_source *source, ps_error *error) PS_MUST_CHECK;
 /* Formats and columns of the files read so far, "npy; csv", or "". */
 const char *ps_source_format(const ps_source *source);

@@ -7,6 +7,7 @@
 
 #include "plan/choose.h"
 #include "sets/sets.h"
+#include "store/checkpoint.h"
 
 /* How exact a result has to be, and what may be left out for that. */
 typedef struct ps_accuracy_spec {
@@ -26,6 +27,7 @@ typedef struct ps_limits_spec {
     const char *cache_folder;        /* of what can be made again, such as figures; NULL: none */
     uint64_t kept_bytes;             /* what sets of samplers may take in it */
     bool profile;                    /* kernels are timed */
+    ps_checkpoint_spec checkpoint;   /* of jobs that average realizations */
 } ps_limits_spec;
 
 /* Opens the device of the limits, or takes the one that is open, which may be NULL, unless there is

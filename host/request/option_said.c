@@ -20,5 +20,6 @@ pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *wor
     const ps_option *const option = &ps_options[id];
     const ps_shown_option shown = ps_option_show(request, id);
     const ps_said said = {option, shown.text, words, value, request};
+    request->said[id] = value;
     return option->set(&said, error);
 }

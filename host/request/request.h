@@ -31,91 +31,93 @@ enum {
 };
 
 typedef enum ps_option_id {
-    PS_OPTION_POINTS,            /* -n, --points N,..|N..M */
-    PS_OPTION_REALIZATIONS,      /* -m, --realizations M */
-    PS_OPTION_STANDARD_ERROR,    /* --standard-error X */
-    PS_OPTION_DIMENSION,         /* -d, --dimension D */
-    PS_OPTION_SEED,              /* -s, --seed S */
-    PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
-    PS_OPTION_SET,               /* --set NAME=FILES, repeatable */
-    PS_OPTION_INTEGRAND,         /* --integrand NAME[:key=value,...] */
-    PS_OPTION_SHIFTS,            /* --shifts S */
-    PS_OPTION_IN_PLACE,          /* --in-place */
-    PS_OPTION_TAIL,              /* --tail X */
-    PS_OPTION_PAPER_FORMULA,     /* --paper-formula */
-    PS_OPTION_BOUNDS,            /* --bounds auto|G,A,B..G,A,B, one or one for each sampler */
-    PS_OPTION_RATES,             /* --rates auto|A..B */
-    PS_OPTION_RANK,              /* --rank */
-    PS_OPTION_AGAINST,           /* --against FILE */
-    PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
-    PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
-    PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
-    PS_OPTION_VIEW,              /* --view DEGREES */
-    PS_OPTION_SMOOTHNESS,        /* --smoothness S */
-    PS_OPTION_MESH,              /* --mesh FILE */
-    PS_OPTION_CAMERA,            /* --camera X,Y,Z,X,Y,Z[,ANGLE[,X,Y,Z]] */
-    PS_OPTION_IMAGE,             /* --image WxH */
-    PS_OPTION_RADIUS,            /* --radius R */
-    PS_OPTION_REFERENCE,         /* --reference R */
-    PS_OPTION_IMAGE_OUT,         /* --image-out FILE */
-    PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
-    PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
-    PS_OPTION_HEMISPHERE,        /* --hemisphere */
-    PS_OPTION_COEFFICIENTS,      /* --coefficients FILE.npy */
-    PS_OPTION_HARMONICS,         /* --harmonics spherical|hemispherical */
-    PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
-    PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
-    PS_OPTION_PER_RING,          /* --per-ring S */
-    PS_OPTION_FIT,               /* --fit auto|B */
-    PS_OPTION_SCATTER,           /* --scatter K1,..,KD */
-    PS_OPTION_FULL,              /* --full FILE.npy */
-    PS_OPTION_NORMALIZE,         /* --normalize power|effective|integral */
-    PS_OPTION_HOMOGENIZE,        /* --homogenize */
-    PS_OPTION_WEIGHTS,           /* --weights equal|column|FILE */
-    PS_OPTION_WEIGHT_SUM,        /* --weight-sum free|one */
-    PS_OPTION_WEIGHTS_OUT,       /* --weights-out FILE */
-    PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
-    PS_OPTION_COLUMNS,           /* --columns NAME */
-    PS_OPTION_SELECT,            /* --select NAME=VALUE */
-    PS_OPTION_HEADER,            /* --header yes|no */
-    PS_OPTION_TRANSPOSE,         /* --transpose */
-    PS_OPTION_DOMAIN,            /* --domain torus|sphere */
-    PS_OPTION_WRAP,              /* --wrap */
-    PS_OPTION_BOX,               /* --box X0,X1[,Y0,Y1,...] */
-    PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
-    PS_OPTION_LIFT,              /* --lift sphere|hemisphere */
-    PS_OPTION_MORPH,             /* --morph none|diffuse|glossy:n=N|phong:n=N */
-    PS_OPTION_DROP_BELOW,        /* --drop-below-horizon */
-    PS_OPTION_SELECT_SETS,       /* --select-sets A..B */
-    PS_OPTION_SELECT_POINTS,     /* --select-points A..B */
-    PS_OPTION_MERGE,             /* --merge */
-    PS_OPTION_TO_COLUMNS,        /* --to-columns NAME */
-    PS_OPTION_TOLERANCE,         /* --tol T */
-    PS_OPTION_FLOOR,             /* --floor P */
-    PS_OPTION_PRECISION,         /* --precision auto|single|double|extended */
-    PS_OPTION_ENGINE,            /* --engine NAME */
-    PS_OPTION_CASE,              /* --case NAME */
-    PS_OPTION_CALIBRATE,         /* --calibrate */
-    PS_OPTION_DEVICE,            /* --device SELECTOR */
-    PS_OPTION_MEMORY,            /* --memory SIZE */
-    PS_OPTION_CACHE,             /* --cache BYTES */
-    PS_OPTION_KEPT_SETS,         /* --kept-sets BYTES */
-    PS_OPTION_PREFETCH,          /* --prefetch */
-    PS_OPTION_RECORDED_ENGINES,  /* --recorded-engines */
-    PS_OPTION_NO_SKIP,           /* --no-skip */
-    PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
-    PS_OPTION_OUTPUT,            /* -o, --output FILE */
-    PS_OPTION_FORMAT,            /* --format of a table or of points */
-    PS_OPTION_PLOT,              /* --plot FILE */
-    PS_OPTION_PLOT_LOG,          /* --plot-log x|y|xy|none */
-    PS_OPTION_PLOT_RANGE,        /* --plot-range X0..X1,Y0..Y1 */
-    PS_OPTION_PLOT_POINTS,       /* --plot-points yes|no */
-    PS_OPTION_PROFILE,           /* --profile */
-    PS_OPTION_QUIET,             /* --quiet */
-    PS_OPTION_QUICK,             /* --quick */
-    PS_OPTION_SCENES,            /* --scenes */
-    PS_OPTION_VERBOSE,           /* --verbose */
-    PS_OPTION_HELP,              /* -h, --help */
+    PS_OPTION_POINTS,             /* -n, --points N,..|N..M */
+    PS_OPTION_REALIZATIONS,       /* -m, --realizations M */
+    PS_OPTION_STANDARD_ERROR,     /* --standard-error X */
+    PS_OPTION_DIMENSION,          /* -d, --dimension D */
+    PS_OPTION_SEED,               /* -s, --seed S */
+    PS_OPTION_SAMPLER,            /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_SET,                /* --set NAME=FILES, repeatable */
+    PS_OPTION_INTEGRAND,          /* --integrand NAME[:key=value,...] */
+    PS_OPTION_SHIFTS,             /* --shifts S */
+    PS_OPTION_IN_PLACE,           /* --in-place */
+    PS_OPTION_TAIL,               /* --tail X */
+    PS_OPTION_PAPER_FORMULA,      /* --paper-formula */
+    PS_OPTION_BOUNDS,             /* --bounds auto|G,A,B..G,A,B, one or one for each sampler */
+    PS_OPTION_RATES,              /* --rates auto|A..B */
+    PS_OPTION_RANK,               /* --rank */
+    PS_OPTION_AGAINST,            /* --against FILE */
+    PS_OPTION_HOMOGENEOUS,        /* --homogeneous */
+    PS_OPTION_FALSE_ALARM_RATE,   /* --false-alarm-rate P */
+    PS_OPTION_BRDF,               /* --brdf NAME[:key=value,...] */
+    PS_OPTION_VIEW,               /* --view DEGREES */
+    PS_OPTION_SMOOTHNESS,         /* --smoothness S */
+    PS_OPTION_MESH,               /* --mesh FILE */
+    PS_OPTION_CAMERA,             /* --camera X,Y,Z,X,Y,Z[,ANGLE[,X,Y,Z]] */
+    PS_OPTION_IMAGE,              /* --image WxH */
+    PS_OPTION_RADIUS,             /* --radius R */
+    PS_OPTION_REFERENCE,          /* --reference R */
+    PS_OPTION_IMAGE_OUT,          /* --image-out FILE */
+    PS_OPTION_MAX_FREQUENCY,      /* -k, --max-frequency K */
+    PS_OPTION_MAX_DEGREE,         /* -l, --max-degree L */
+    PS_OPTION_HEMISPHERE,         /* --hemisphere */
+    PS_OPTION_COEFFICIENTS,       /* --coefficients FILE.npy */
+    PS_OPTION_HARMONICS,          /* --harmonics spherical|hemispherical */
+    PS_OPTION_FREQUENCIES,        /* --frequencies FILE */
+    PS_OPTION_BINS,               /* --bins round|floor|width=P/Q|relative=P/Q|shells */
+    PS_OPTION_PER_RING,           /* --per-ring S */
+    PS_OPTION_FIT,                /* --fit auto|B */
+    PS_OPTION_SCATTER,            /* --scatter K1,..,KD */
+    PS_OPTION_FULL,               /* --full FILE.npy */
+    PS_OPTION_NORMALIZE,          /* --normalize power|effective|integral */
+    PS_OPTION_HOMOGENIZE,         /* --homogenize */
+    PS_OPTION_WEIGHTS,            /* --weights equal|column|FILE */
+    PS_OPTION_WEIGHT_SUM,         /* --weight-sum free|one */
+    PS_OPTION_WEIGHTS_OUT,        /* --weights-out FILE */
+    PS_OPTION_INPUT_FORMAT,       /* --input-format NAME */
+    PS_OPTION_COLUMNS,            /* --columns NAME */
+    PS_OPTION_SELECT,             /* --select NAME=VALUE */
+    PS_OPTION_HEADER,             /* --header yes|no */
+    PS_OPTION_TRANSPOSE,          /* --transpose */
+    PS_OPTION_DOMAIN,             /* --domain torus|sphere */
+    PS_OPTION_WRAP,               /* --wrap */
+    PS_OPTION_BOX,                /* --box X0,X1[,Y0,Y1,...] */
+    PS_OPTION_NORMALIZE_VECTORS,  /* --normalize-vectors */
+    PS_OPTION_LIFT,               /* --lift sphere|hemisphere */
+    PS_OPTION_MORPH,              /* --morph none|diffuse|glossy:n=N|phong:n=N */
+    PS_OPTION_DROP_BELOW,         /* --drop-below-horizon */
+    PS_OPTION_SELECT_SETS,        /* --select-sets A..B */
+    PS_OPTION_SELECT_POINTS,      /* --select-points A..B */
+    PS_OPTION_MERGE,              /* --merge */
+    PS_OPTION_TO_COLUMNS,         /* --to-columns NAME */
+    PS_OPTION_TOLERANCE,          /* --tol T */
+    PS_OPTION_FLOOR,              /* --floor P */
+    PS_OPTION_PRECISION,          /* --precision auto|single|double|extended */
+    PS_OPTION_ENGINE,             /* --engine NAME */
+    PS_OPTION_CASE,               /* --case NAME */
+    PS_OPTION_CALIBRATE,          /* --calibrate */
+    PS_OPTION_DEVICE,             /* --device SELECTOR */
+    PS_OPTION_MEMORY,             /* --memory SIZE */
+    PS_OPTION_CACHE,              /* --cache BYTES */
+    PS_OPTION_KEPT_SETS,          /* --kept-sets BYTES */
+    PS_OPTION_CHECKPOINT,         /* --checkpoint FILE */
+    PS_OPTION_CHECKPOINT_SECONDS, /* --checkpoint-interval SECONDS */
+    PS_OPTION_PREFETCH,           /* --prefetch */
+    PS_OPTION_RECORDED_ENGINES,   /* --recorded-engines */
+    PS_OPTION_NO_SKIP,            /* --no-skip */
+    PS_OPTION_NO_SELF_CHECK,      /* --no-self-check */
+    PS_OPTION_OUTPUT,             /* -o, --output FILE */
+    PS_OPTION_FORMAT,             /* --format of a table or of points */
+    PS_OPTION_PLOT,               /* --plot FILE */
+    PS_OPTION_PLOT_LOG,           /* --plot-log x|y|xy|none */
+    PS_OPTION_PLOT_RANGE,         /* --plot-range X0..X1,Y0..Y1 */
+    PS_OPTION_PLOT_POINTS,        /* --plot-points yes|no */
+    PS_OPTION_PROFILE,            /* --profile */
+    PS_OPTION_QUIET,              /* --quiet */
+    PS_OPTION_QUICK,              /* --quick */
+    PS_OPTION_SCENES,             /* --scenes */
+    PS_OPTION_VERBOSE,            /* --verbose */
+    PS_OPTION_HELP,               /* -h, --help */
     PS_NUM_OPTIONS
 } ps_option_id;
 
@@ -137,6 +139,7 @@ typedef struct ps_source_words {
 typedef struct ps_request {
     bool is_given[PS_NUM_OPTIONS];        /* which options were said */
     ps_option_form forms[PS_NUM_OPTIONS]; /* of those */
+    const char *said[PS_NUM_OPTIONS];     /* their values, of several the last; borrowed */
     size_t num_counts;                    /* numbers of points that were asked for, */
     uint64_t counts[PS_MAX_COUNTS];       /* 1024 alone unless given */
     uint64_t num_realizations;            /* 1 unless given */

@@ -227,6 +227,11 @@ void ps_sets_rewind(ps_sets *sets) {
     sets->next = sets->options.first;
 }
 
+void ps_sets_skip(ps_sets *sets, uint64_t num) {
+    end_ahead(sets);
+    sets->next += least(num, sets->end - sets->next);
+}
+
 static pspec_status take(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,
                          ps_error *error) {
     if (!sets->has_begun) {

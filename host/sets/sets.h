@@ -96,6 +96,8 @@ pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, con
 pspec_status ps_sets_say_kept(ps_sets *sets, pspec_status status, ps_error *error);
 /* Back to the first. */
 void ps_sets_rewind(ps_sets *sets);
+/* Leaves out so many of the next ones, of which none is made. */
+void ps_sets_skip(ps_sets *sets, uint64_t num);
 
 /* Before the first is asked for: so much of the limit the rest of the job takes. */
 void ps_sets_leave(ps_sets *sets, uint64_t taken);

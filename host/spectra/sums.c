@@ -8,6 +8,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,6 +150,22 @@ ps_sums ps_running_sums_get(const ps_running_sums *sums, size_t i) {
         }
     }
     return all;
+}
+
+pspec_status ps_running_sums_walk(ps_running_sums *sums, ps_snapshot *snapshot, const char *name,
+                                  ps_error *error) {
+    enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
+    PS_TRY(ps_snapshot_counts(snapshot, name, &sums->count, 1, error));
+    PS_TRY(ps_running_sums_reserve(sums, sums->count, error));
+    for (unsigned row = 0; row <= sums->levels; row++) {
+        char of_row[64];
+        snprintf(of_row, sizeof of_row, "%s_%u", name, row);
+        if (ps_running_has_row(sums->count, row)) {
+            PS_TRY(ps_snapshot_doubles(snapshot, of_row, (double *)(sums->rows + row * sums->num),
+                                       NUMBERS * sums->num, error));
+        }
+    }
+    return PSPEC_OK;
 }
 
 /* ---- blocks -------------------------------------------------------------------------------- */

@@ -3,7 +3,7 @@
 #ifndef PS_SPECTRA_SUMS_H
 #define PS_SPECTRA_SUMS_H
 
-#include "base/status.h"
+#include "store/checkpoint.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -51,6 +51,9 @@ pspec_status ps_running_sums_reserve(ps_running_sums *sums, uint64_t count,
 void ps_running_sums_add(ps_running_sums *sums, const double *values, const uint32_t *places);
 /* The plain sums: rows are merged into a copy, from the open block on. */
 ps_sums ps_running_sums_get(const ps_running_sums *sums, size_t i);
+/* Takes the rows that there are to a checkpoint or from one, under names that begin with this. */
+pspec_status ps_running_sums_walk(ps_running_sums *sums, ps_snapshot *snapshot, const char *name,
+                                  ps_error *error) PS_MUST_CHECK;
 /* Do so many realizations have that row? Those of the others are left from before. */
 bool ps_running_has_row(uint64_t count, unsigned row);
 

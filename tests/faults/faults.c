@@ -3,6 +3,7 @@
 
 #include <execinfo.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,8 +24,8 @@ static struct {
     place last[NUM_FAULT_CLASSES];
     fault_class wanted_class;
     unsigned long wanted_call; /* 0: none */
-    bool and_all_after;
-    const char *failed; /* name of the first call that failed */
+    bool and_all_after, kills; /* the whole process, before the call */
+    const char *failed;        /* name of the first call that failed */
 } plan;
 
 static bool is_at_same_place(fault_class kind) {
@@ -46,6 +47,9 @@ static bool count_call(fault_class kind, const char *name, bool can_go_on) {
     }
     const bool is_due = (plan.calls[kind] == plan.wanted_call && !is_repeated) ||
                         (plan.and_all_after && can_go_on && plan.calls[kind] >= plan.wanted_call);
+    if (is_due && plan.kills) {
+        raise(SIGKILL);
+    }
     if (is_due && plan.failed == NULL) {
         plan.failed = name;
     }
@@ -69,6 +73,7 @@ static void read_plan(void) {
             plan.wanted_class = (fault_class)i;
             plan.wanted_call = strtoul(text + length + 1, &end, 10);
             plan.and_all_after = *end == '+';
+            plan.kills = *end == '!';
         }
     }
 }

@@ -64,7 +64,7 @@ check_sentence() { # CASE CLASS NUMBER[+]
     remark=
     local -a said=("${said[@]}")
     case ${said[0]-} in # a warning before the work
-    pointspec*' will not be drawn: '* | pointspec:*' kept sets of '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
+    pointspec*' will not be drawn: '* | pointspec:*' kept sets of '* | pointspec:*' the checkpoint '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
     esac
     for line in "${said[@]}"; do [[ $line != pointspec* ]] || sentences+=1; done
     last=${said[-1]-}
@@ -110,6 +110,29 @@ lacks_only_sets() { # CASE
         diff -q "${same[@]}" "$run/stdout" "$1/expected/stdout" >/dev/null
 }
 
+# A checkpoint that cannot be written costs a warning: everything else is as without the fault.
+lacks_only_checkpoint() { # CASE
+    [[ ${#said[@]} == 1 && ${said[0]} == pointspec*': the checkpoint "'*'" stays as it was: '* ]] &&
+        diff -rq "${same[@]}" "$run/folder" "$1/expected/folder" >/dev/null &&
+        diff -q "${same[@]}" "$run/stdout" "$1/expected/stdout" >/dev/null
+}
+
+# A checkpoint that is there after a failure is one that the same command goes on from to the end. It is no output, and goes.
+# Sets stuck where that is not so.
+check_checkpoint() { # CASE
+    local words
+    stuck=
+    rm -f "$run/folder/job.npz.lock"
+    [[ -e $run/folder/job.npz ]] || return 0
+    mapfile -t words <"$1/words"
+    rm -rf "$run/again"
+    cp -r "$run/folder" "$run/again"
+    (cd "$run/again" && TMPDIR=$run/tmp exec timeout 600 env "${words[@]}" <"$(<"$1/stdin")" >/dev/null 2>"$run/again.stderr") ||
+        stuck="does not go on: $(<"$run/again.stderr")"
+    rm -f "$run/folder/job.npz"
+    diff -rq "${same[@]}" -x '.pointspec-*' "$run/again" "$1/expected/folder" >/dev/null || stuck+=" other results from its checkpoint"
+}
+
 # What a diagnosis says of a failure is its answer: whole lines, a code that goes with them, and one sentence at most.
 is_diagnosis() { # NAME
     [[ $1 == doctor && ${#said[@]} -le 1 ]] || return 1
@@ -126,7 +149,10 @@ judge() { # NAME CLASS NUMBER[+]
     [[ $is_clean == yes ]] || reset
     run_program "$case" "$2:$3"
     verdict=refused
-    if [[ ! -f $run/report ]]; then
+    check_checkpoint "$case"
+    if [[ -n $stuck ]]; then
+        remark=$stuck
+    elif [[ ! -f $run/report ]]; then
         remark="crash or time-out"
     elif [[ $failed == none ]]; then
         remark="the call did not come"
@@ -136,7 +162,7 @@ judge() { # NAME CLASS NUMBER[+]
         remark=
     elif [[ $code == 0 ]] && lacks_only_pictures "$case"; then
         is_clean=no remark= # refused: the picture alone
-    elif [[ $code == 0 ]] && lacks_only_sets "$case"; then
+    elif [[ $code == 0 ]] && { lacks_only_sets "$case" || lacks_only_checkpoint "$case"; }; then
         is_clean=no remark=
     elif [[ $code == $(<"$case/expected.code") ]]; then
         verdict=tolerated is_clean=no remark=

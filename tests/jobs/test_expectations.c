@@ -121,7 +121,7 @@ static void coherent_sets_are_planned_twice(void **state) {
     assert_ok(ps_power_job_create(&job, &question, error));
     assert_int_equal(job->plan.chosen->precision, PS_SINGLE);
     assert_ok(ps_power_job_run(job, error));
-    assert_true(job->runner.was_replanned);
+    assert_true(job->runner.num_replans > 0);
     assert_int_equal(count_kept_sets(job), 1);
     assert_int_equal(job->plan.chosen->precision, PS_DOUBLE);
     assert_true(job->runner.accuracy.error <= 1e-6);

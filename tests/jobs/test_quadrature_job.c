@@ -123,8 +123,8 @@ static void replanned(void **state) {
         job.question.limits.constraints.engine = "host_direct";
         ps_quadrature_job *const exact = run(&job.question);
         near(exact, result, tolerances[i]);
-        assert_false(exact->runner.was_replanned);
-        num_replanned += result->runner.was_replanned ? 1 : 0;
+        assert_int_equal(exact->runner.num_replans, 0);
+        num_replanned += result->runner.num_replans > 0 ? 1 : 0;
         ps_quadrature_job_destroy(exact);
         ps_quadrature_job_destroy(result);
         ps_brdf_destroy(job.brdf);

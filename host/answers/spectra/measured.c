@@ -98,7 +98,7 @@ static void put_computed(ps_header *self, const ps_power_job *job) {
     ps_header_put(self, "engine", PS_TEXT(ps_text_string(&job->description)));
     ps_header_put(self, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
     ps_header_put(self, "tolerance", PS_NUMBER(job->problem.tolerance));
-    if (job->runner.was_replanned) {
+    if (job->runner.num_replans > 0) {
         ps_header_put(self, "planned_twice",
                       PS_TEXT("the powers measured needed a more exact engine"));
     }

@@ -189,13 +189,40 @@ static pspec_status rewind_rules(void *payload, ps_error *error) {
     return ps_rules_rewind(&job->rules, error);
 }
 
+static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+    ps_quadrature_job *const job = payload;
+    return ps_power_sets_skip(&job->rules.sets, num, error);
+}
+
+/* Numbers of the result, as far as they are not made of the sums. */
+static pspec_status walk_result(ps_quadrature_result *out, ps_snapshot *snapshot, ps_error *error) {
+    double *const numbers[] = {&out->tail_model, &out->tail_bound, &out->numerical_bound,
+                               &out->weight_size};
+    PS_TRY(ps_snapshot_counts(snapshot, "rules", &out->num_realizations, 1, error));
+    return ps_snapshot_gather(snapshot, "result", numbers, sizeof numbers / sizeof numbers[0],
+                              error);
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    ps_quadrature_job *const job = payload;
+    enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
+    PS_TRY(walk_result(&job->result, snapshot, error));
+    PS_TRY(ps_snapshot_doubles(snapshot, "rule_sums", (double *)&job->of_rules,
+                               sizeof job->of_rules / sizeof(double), error));
+    PS_TRY(ps_snapshot_doubles(snapshot, "degree_sums", (double *)job->sums,
+                               NUMBERS * PS_RULE_SUMS * (job->setup.max_degree + 1), error));
+    return ps_rules_walk(&job->rules, snapshot, error);
+}
+
 static const ps_runner_kind kind = {.plan = plan_again,
                                     .options = choose_options,
                                     .begin = begin,
                                     .tell = tell,
                                     .give = give,
                                     .look = look_at_errors,
-                                    .rewind = rewind_rules};
+                                    .rewind = rewind_rules,
+                                    .skip = skip,
+                                    .walk = walk};
 
 /* ---- all of it ---------------------------------------------------------------------------- */
 
@@ -272,7 +299,8 @@ pspec_status ps_quadrature_job_run(ps_quadrature_job *job, ps_error *error) {
                               .device = setup->device,
                               .standard_error = job->question->accuracy.standard_error,
                               .is_sequential = setup->needs.sequential,
-                              .has_no_accuracy = !setup->by_pairs};
+                              .has_no_accuracy = !setup->by_pairs,
+                              .spec = &job->question->limits.checkpoint};
     PS_TRY(ps_runner_run(&job->runner, error));
     if (job->question->observer.end != NULL) {
         job->question->observer.end(job->question->observer.payload);

@@ -87,6 +87,27 @@ pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) {
     return ps_power_sets_rewind(&rules->sets, error);
 }
 
+pspec_status ps_rules_walk(ps_rules *rules, ps_snapshot *snapshot, ps_error *error) {
+    ps_rule_facts *const facts = &rules->facts;
+    double *const numbers[] = {&facts->largest_condition, &facts->largest_residual};
+    enum { READ, POINTS, SMALLEST, LARGEST, DROPPED, DUPLICATES, ILL, MATRICES, STEPS, NUM };
+    uint64_t counts[NUM] = {rules->num_read,           facts->num_points,   facts->smallest_points,
+                            facts->largest_points,     facts->num_dropped,  facts->num_duplicates,
+                            facts->is_ill_conditioned, facts->has_matrices, facts->most_steps};
+    PS_TRY(ps_snapshot_gather(snapshot, "rule_facts", numbers, 2, error));
+    PS_TRY(ps_snapshot_counts(snapshot, "rule_counts", counts, NUM, error));
+    rules->num_read = counts[READ];
+    facts->num_points = counts[POINTS];
+    facts->smallest_points = counts[SMALLEST];
+    facts->largest_points = counts[LARGEST];
+    facts->num_dropped = counts[DROPPED];
+    facts->num_duplicates = counts[DUPLICATES];
+    facts->is_ill_conditioned = counts[ILL] != 0;
+    facts->has_matrices = counts[MATRICES] != 0;
+    facts->most_steps = (size_t)counts[STEPS];
+    return PSPEC_OK;
+}
+
 pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) {
     free_batch(rules);
     PS_TRY(ps_power_sets_allocate(&rules->sets, capacity, error));

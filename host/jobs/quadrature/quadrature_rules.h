@@ -50,6 +50,8 @@ pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error
  * the last. */
 pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
+/* What is there for the result, and how many were read, to a checkpoint or from one. */
+pspec_status ps_rules_walk(ps_rules *rules, ps_snapshot *snapshot, ps_error *error) PS_MUST_CHECK;
 /* Back to the first rule; what is there for the result is forgotten. */
 pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) PS_MUST_CHECK;
 

@@ -206,13 +206,21 @@ static pspec_status rewind_sets(void *payload, ps_error *error) {
     return ps_power_sets_rewind(&job->sets, error);
 }
 
+/* What the device makes depends on the number of a realization, which the estimator counts. */
+static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+    ps_power_job *const job = payload;
+    return ps_power_job_leaves_points(job) ? PSPEC_OK : ps_power_sets_skip(&job->sets, num, error);
+}
+
 static const ps_runner_kind kind = {.plan = plan,
                                     .options = choose_options,
                                     .begin = begin,
                                     .tell = ps_power_job_tell,
                                     .give = give,
                                     .look = look_at_errors,
-                                    .rewind = rewind_sets};
+                                    .rewind = rewind_sets,
+                                    .skip = skip,
+                                    .is_all_in_estimator = true};
 
 static pspec_status find_c2(ps_power_job *job, ps_error *error) {
     const size_t num = job->frequencies.num;
@@ -285,7 +293,8 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
                               .plan = &job->plan,
                               .device = job->device,
                               .standard_error = job->question->accuracy.standard_error,
-                              .is_sequential = job->needs.sequential};
+                              .is_sequential = job->needs.sequential,
+                              .spec = &job->question->limits.checkpoint};
     PS_TRY(ps_runner_run(&job->runner, error));
     return finish(job, error);
 }
@@ -295,7 +304,7 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
 /* Nothing that was measured has changed the plan or the engine, and sets are all that is read. The
  * question that the job had may be gone. */
 static bool can_renew(const ps_power_job *job, const ps_power_question *question) {
-    return job->runner.estimator != NULL && !job->runner.was_replanned &&
+    return job->runner.estimator != NULL && job->runner.num_replans == 0 &&
            job->runner.accuracy.largest_points <= job->most_points &&
            question->harmonics == PS_NO_HARMONICS && !question->keeps_first &&
            question->num_weighted == 0 && question->weights.path == NULL &&

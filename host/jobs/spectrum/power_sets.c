@@ -240,3 +240,37 @@ pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
     sets->has_next = false;
     return PSPEC_OK;
 }
+
+/* ---- sets that are left out -------------------------------------------------------------- */
+
+/* Reads the rest of a set that comes in blocks, and drops it. */
+static pspec_status pass_blocks(ps_power_sets *sets, ps_error *error) {
+    bool ends = sets->part.is_whole;
+    while (!ends) {
+        const pspec_pattern block = show(sets, &sets->next, sets->next.num_points, 0);
+        look_at(sets, &block, false);
+        sets->next.num_points = 0;
+        PS_TRY(ps_source_more(sets->source, &sets->next, sets->part.block_points, &ends, error));
+    }
+    const pspec_pattern last = show(sets, &sets->next, sets->next.num_points, 0);
+    look_at(sets, &last, true);
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_error *error) {
+    bool has_set = true;
+    uint64_t done = sets->keeps_first ? 0 : ps_source_skip(sets->source, num);
+    for (; done < num && has_set; done++) {
+        PS_TRY(ps_power_sets_peek(sets, &has_set, error));
+        if (has_set) {
+            PS_TRY(pass_blocks(sets, error));
+            PS_TRY(sets->part.is_whole ? keep_first(sets, &sets->next, error) : PSPEC_OK);
+            sets->has_next = false;
+            done += ps_source_skip(sets->source, num - done - 1);
+        }
+    }
+    return has_set ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT,
+                             "there are fewer sets than the %llu that the checkpoint has",
+                             (unsigned long long)num);
+}

@@ -84,6 +84,10 @@ uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
  * such a one, for ps_power_sets_stream; where has_next is false, there are no more. */
 pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
+/* Leaves out so many of the next sets: those of a sampler are not made, but for the first where it
+ * is kept; others are read, for what is found out of all of them. PSPEC_ERROR_INPUT where there are
+ * fewer. */
+pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_error *error) PS_MUST_CHECK;
 /* Gives the estimator the next set in blocks. */
 pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
                                   pspec_normalization normalization, ps_error *error) PS_MUST_CHECK;

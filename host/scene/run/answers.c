@@ -1,4 +1,5 @@
 /* Every question of a scene, from the cache or computed. */
+#include "answers/checkpoints.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "scene/run/run.h"
@@ -122,14 +123,57 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question, ps
     return ps_kind_without_device(question->asked.result->kind, opened);
 }
 
+/* Of a question whose kind has checkpoints: its own, named by its number. */
+static pspec_status find_checkpoint(ps_request *out, ps_text *path, const ps_run *run,
+                                    const ps_run_question *question, ps_error *error) {
+    const ps_checkpoint_spec *const asked = &run->arguments->limits.checkpoint;
+    const ps_command_set takers = ps_options[PS_OPTION_CHECKPOINT].commands;
+    *out = question->asked.request;
+    if (asked->path == NULL || (takers & question->asked.result->kind->takes) == 0) {
+        return PSPEC_OK;
+    }
+    const unsigned number = (unsigned)(question - run->questions);
+    PS_TRY(ps_checkpoint_path(path, asked->path, number, error));
+    out->limits.checkpoint = *asked;
+    out->limits.checkpoint.path = ps_text_string(path);
+    return PSPEC_OK;
+}
+
+static pspec_status make_answer(ps_run *run, ps_run_question *question, ps_error *error) {
+    const ps_kind *const kind = question->asked.result->kind;
+    const ps_answer_hooks hooks = {.watch = run->hooks.watch, .device = run->device};
+    ps_text path = {0};
+    ps_text key = {0};
+    ps_request request;
+    pspec_status status = find_checkpoint(&request, &path, run, question, error);
+    if (status == PSPEC_OK) {
+        status = ps_answer_begin_checkpoints(&request, kind, &key, &run->hooks, error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_answer_make(&question->answer, kind, &request, &hooks, error);
+    }
+    ps_text_free(&path);
+    ps_text_free(&key);
+    return status;
+}
+
+void ps_run_end_checkpoints(const ps_run *run) {
+    for (size_t i = 0; i < run->num_questions; i++) {
+        ps_text path = {0};
+        ps_request request;
+        if (find_checkpoint(&request, &path, run, &run->questions[i], NULL) == PSPEC_OK) {
+            ps_answer_end_checkpoints(&request);
+        }
+        ps_text_free(&path);
+    }
+}
+
 static pspec_status answer_one(ps_run *run, ps_run_question *question, ps_error *error) {
     const double start = ps_clock_seconds();
     PS_TRY(ps_run_fetch(run, question, error));
     if (!question->is_cached) {
         PS_TRY(ps_run_open_device(run, question, error));
-        const ps_answer_hooks hooks = {.watch = run->hooks.watch, .device = run->device};
-        PS_TRY(ps_answer_make(&question->answer, question->asked.result->kind,
-                              &question->asked.request, &hooks, error));
+        PS_TRY(make_answer(run, question, error));
         question->seconds = ps_clock_seconds() - start;
         ps_run_keep(run, question);
     }

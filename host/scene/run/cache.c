@@ -1,21 +1,11 @@
 /* Answers in the cache of results: under which key, and what is kept of them. */
-#include "pointspec_version.h"
+#include "answers/checkpoints.h"
 #include "scene/run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- the cache ---------------------------------------------------------------- */
-
-/* The program is one of the things that results depend on; where the system does not show it,
- * nothing is kept. */
-static bool identify_program(ps_text *out) {
-    char digest[PS_DIGEST_BYTES];
-    ps_error ignored = {0};
-    const bool is_known = ps_digest_file("/proc/self/exe", digest, &ignored) == PSPEC_OK;
-    ps_text_append(out, "pointspec %s %s\n", PS_VERSION, is_known ? digest : "");
-    return is_known;
-}
 
 static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) {
     ps_device_limits *all = NULL;
@@ -25,7 +15,7 @@ static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) 
     const pspec_status listed = ps_device_list(&all, &num, &none);
     if (listed == PSPEC_ERROR_NO_DEVICE) {
         run->kind = ps_device_kind_of(NULL);
-        ps_text_append(out, "no device\n");
+        ps_device_identify(out, NULL);
         return PSPEC_OK;
     }
     if (listed != PSPEC_OK) {
@@ -40,9 +30,7 @@ static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) 
     }
     if (status == PSPEC_OK) {
         const ps_device_limits *const limits = &all[index];
-        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\n", limits->platform, limits->name,
-                       limits->driver, limits->version, limits->native_float_lanes,
-                       limits->native_double_lanes);
+        ps_device_identify(out, limits);
         run->kind = ps_device_kind_of(limits);
     }
 out:
@@ -65,7 +53,9 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     const uint64_t most = run->arguments->cache_bytes;
     ps_text folder = {0};
     ps_error reason = {0};
-    const bool is_known = identify_program(&run->identity);
+    /* The program is one of the things that results depend on; where the system does not show it,
+     * nothing is kept. */
+    const bool is_known = ps_answer_identify_program(&run->identity, &reason) == PSPEC_OK;
     PS_TRY(identify_device(run, &run->identity, error));
     PS_TRY(ps_text_check(&run->identity, error));
     if (!is_known || !uses_cache(run)) {

@@ -104,6 +104,7 @@ static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
     PS_TRY(prepare(run, error));
     PS_TRY(ps_run_answer(run, error));
     PS_TRY(ps_run_write(run, error));
+    ps_run_end_checkpoints(run);
     tell_of_pictures(run);
     PS_TRY(ps_run_overview(&out->table, run, error));
     /* what it comes to is told beside the overview, not instead of it */

@@ -162,6 +162,8 @@ pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Removes checkpoints of questions, when everything is written. */
+void ps_run_end_checkpoints(const ps_run *run);
 /* The device of all questions: its programs are built once. None where the question needs
  * none, or its kind may lack it and there is none. */
 pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question,

@@ -72,6 +72,11 @@ double ps_accumulator_largest(const ps_accumulator *accumulator);
 /* Forgets every realization; allocates nothing. */
 void ps_accumulator_reset(ps_accumulator *accumulator);
 
+/* All state of what was added, to a checkpoint or from one, into an accumulator of the same
+ * options. */
+pspec_status ps_accumulator_walk(ps_accumulator *accumulator, ps_snapshot *snapshot,
+                                 ps_error *error) PS_MUST_CHECK;
+
 /* The sums themselves: bins[bins->num], frequencies[num_frequencies] or NULL when nobody asks. With
  * mean_only their squares are nan. */
 pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,

@@ -250,6 +250,14 @@ void ps_device_accumulator_reset(ps_device_accumulator *accumulator) {
     accumulator->states.count = 0;
 }
 
+pspec_status ps_device_accumulator_walk(ps_device_accumulator *accumulator, ps_snapshot *snapshot,
+                                        ps_error *error) {
+    PS_TRY(ps_snapshot_counts(snapshot, "device_count", &accumulator->states.count, 1, error));
+    return accumulator->options.want_frequencies
+               ? ps_device_states_walk(&accumulator->states, snapshot, error)
+               : PSPEC_OK;
+}
+
 void ps_device_accumulator_forget(ps_device_accumulator *accumulator) {
     ps_readings_forget(&accumulator->bins_read);
 }

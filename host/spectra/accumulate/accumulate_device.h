@@ -28,6 +28,9 @@ pspec_status ps_device_accumulator_take(ps_device_accumulator *accumulator, size
                                         double *bin_powers, ps_error *error) PS_MUST_CHECK;
 void ps_device_accumulator_forget(ps_device_accumulator *accumulator); /* what was not taken */
 void ps_device_accumulator_reset(ps_device_accumulator *accumulator);
+/* State of what was taken, to a checkpoint or from one. */
+pspec_status ps_device_accumulator_walk(ps_device_accumulator *accumulator, ps_snapshot *snapshot,
+                                        ps_error *error) PS_MUST_CHECK;
 /* Only with want_frequencies: [num_frequencies] */
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) PS_MUST_CHECK;
@@ -78,6 +81,9 @@ pspec_status ps_device_states_add(ps_device_states *states, const ps_rows *rows,
 /* Brings the sums to the host, where ps_device_states_get finds them. */
 pspec_status ps_device_states_read(ps_device_states *states, ps_error *error) PS_MUST_CHECK;
 ps_sums ps_device_states_get(const ps_device_states *states, size_t slot);
+/* Rows that there are of count realizations, to a checkpoint or from one. */
+pspec_status ps_device_states_walk(ps_device_states *states, ps_snapshot *snapshot,
+                                   ps_error *error) PS_MUST_CHECK;
 
 /* Weighted sums of powers over rows that stay in device memory. */
 typedef struct ps_device_weighted ps_device_weighted;

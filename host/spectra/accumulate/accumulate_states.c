@@ -5,6 +5,7 @@
 #include "device/reals.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 static size_t num_states(const ps_device_states *self) {
@@ -152,4 +153,40 @@ ps_sums ps_device_states_get(const ps_device_states *states, size_t slot) {
         drop_rounding(&sums, states->count);
     }
     return sums;
+}
+
+/* ---- checkpoints ------------------------------------------------------------------------- */
+
+static pspec_status walk_row(const ps_device_states *self, ps_snapshot *snapshot, unsigned row,
+                             ps_error *error) {
+    const size_t bytes = rows_bytes(self, 1);
+    for (size_t i = 0; i < num_states(self); i++) {
+        char name[64];
+        char *const from = self->host;
+        snprintf(name, sizeof name, "device_%u_%zu", row, i);
+        PS_TRY(ps_snapshot_bytes(
+            snapshot, name, from + (i * (1 + (size_t)self->levels) + row) * bytes, bytes, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status write_rows(ps_device_states *self, ps_error *error) {
+    const size_t bytes = rows_bytes(self, 1 + (size_t)self->levels);
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_write(self->device, &self->buffers[i], 0,
+                               (const char *)self->host + i * bytes, bytes, error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_device_states_walk(ps_device_states *states, ps_snapshot *snapshot,
+                                   ps_error *error) {
+    const bool is_read = ps_snapshot_is_read(snapshot);
+    PS_TRY(is_read ? ps_device_states_reserve(states, states->count, error)
+                   : ps_device_states_read(states, error));
+    for (unsigned row = 0; row <= states->levels; row++) {
+        PS_TRY(ps_running_has_row(states->count, row) ? walk_row(states, snapshot, row, error)
+                                                      : PSPEC_OK);
+    }
+    return is_read ? write_rows(states, error) : PSPEC_OK;
 }

@@ -1,0 +1,94 @@
+#include "answers/checkpoints.h"
+
+#include "files/digest.h"
+#include "pointspec_version.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+pspec_status ps_answer_identify_program(ps_text *out, ps_error *error) {
+    char digest[PS_DIGEST_BYTES];
+    PS_TRY(ps_digest_file("/proc/self/exe", digest, error));
+    ps_text_append(out, "pointspec %s %s\n", PS_VERSION, digest);
+    return ps_text_check(out, error);
+}
+
+/* ---- the question ---------------------------------------------------------------------------- */
+
+static void add_option(ps_text *key, const ps_request *request, ps_option_id id) {
+    const ps_option *const option = &ps_options[id];
+    const size_t *const num =
+        (const size_t *)(const void *)((const char *)request + option->offset_of_number);
+    if (option->offset_of_number == 0) {
+        ps_text_append(key, "%s %s\n", option->name,
+                       request->said[id] != NULL ? request->said[id] : "");
+        return;
+    }
+    const char *const *const texts =
+        (const char *const *)(const void *)((const char *)request + option->offset);
+    for (size_t i = 0; i < *num; i++) {
+        ps_text_append(key, "%s %s\n", option->name, texts[i]);
+    }
+}
+
+/* In the order of the table, whatever that of the command line was: what belongs to the question,
+ * and nothing of how it is computed or what becomes of the answer. */
+static void add_question(ps_text *key, const ps_request *request, const ps_kind *kind) {
+    ps_text_append(key, "%s\n", kind->name);
+    for (size_t i = 0; i < request->num_sources; i++) {
+        ps_text_append(key, "sampler %s\n", ps_request_source_name(request, i));
+    }
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        const bool is_source = id == PS_OPTION_SAMPLER || id == PS_OPTION_SET;
+        if (request->is_given[id] && !is_source && (ps_options[id].questions & kind->takes) != 0) {
+            add_option(key, request, (ps_option_id)id);
+        }
+    }
+}
+
+static pspec_status add_file(void *payload, const ps_request_file *input, ps_error *error) {
+    ps_text *const key = payload;
+    char digest[PS_DIGEST_BYTES];
+    struct stat facts;
+    if (strcmp(input->path, "-") == 0 ||
+        (stat(input->path, &facts) == 0 && !S_ISREG(facts.st_mode))) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s \"%s\" comes once, and a job with --checkpoint reads its input again",
+                       input->option.text, input->path);
+    }
+    PS_TRY(ps_digest_file(input->path, digest, error));
+    ps_text_append(key, "%s %s, digest %s\n", input->option.text, input->path, digest);
+    return PSPEC_OK;
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+static void say(const char *sentence, void *payload) {
+    ps_answer_warn(payload, "%s", sentence);
+}
+
+pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kind, ps_text *key,
+                                         const ps_answer_hooks *hooks, ps_error *error) {
+    ps_checkpoint_spec *const spec = &request->limits.checkpoint;
+    if (spec->path == NULL) {
+        return PSPEC_OK;
+    }
+    if (request->reading.given.num > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "checkpoint: sets in memory are not known again; files and samplers are");
+    }
+    PS_TRY(ps_answer_identify_program(key, error));
+    add_question(key, request, kind);
+    PS_TRY(ps_request_visit_inputs(request, add_file, key, error));
+    PS_TRY(ps_text_check(key, error));
+    spec->key = ps_text_string(key);
+    spec->log = (ps_log){say, (void *)hooks};
+    return PSPEC_OK;
+}
+
+void ps_answer_end_checkpoints(const ps_request *request) {
+    if (request->limits.checkpoint.path != NULL) {
+        ps_checkpoint_remove(request->limits.checkpoint.path,
+                             (unsigned)ps_request_num_questions(request));
+    }
+}

@@ -1,0 +1,119 @@
+/* Checkpoints of the runner: what a job is, and what there is of it between two batches. */
+#include "device/kind.h"
+#include "jobs/runner.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* ---- the file -------------------------------------------------------------------------------- */
+
+/* What bits depend on, beside the question: the kind of device, engine and precision of the first
+ * plan. Those of another follow from what was measured. */
+static pspec_status write_key(ps_text *out, const ps_runner *runner, ps_error *error) {
+    const ps_candidate *const chosen = runner->plan->chosen;
+    const bool needs_device = chosen->engine->needs_device && runner->device != NULL;
+    ps_device_identify(out, needs_device ? ps_device_get_limits(runner->device) : NULL);
+    ps_text_append(out, "engine %s in %s precision\n", chosen->engine->name,
+                   ps_precision_name(chosen->precision));
+    return ps_text_check(out, error);
+}
+
+pspec_status ps_runner_open_checkpoint(ps_runner *runner, ps_error *error) {
+    ps_text key = {0};
+    if (runner->spec == NULL || runner->spec->path == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_plan_require(runner->plan, runner->problem, error));
+    pspec_status status = write_key(&key, runner, error);
+    if (status == PSPEC_OK) {
+        status = ps_checkpoint_open(&runner->checkpoint, runner->spec, ps_text_string(&key), error);
+    }
+    ps_text_free(&key);
+    return status;
+}
+
+/* ---- state ----------------------------------------------------------------------------------- */
+
+static pspec_status walk_plan(ps_runner *runner, ps_snapshot *snapshot, ps_error *error) {
+    ps_problem *const problem = runner->problem;
+    uint64_t counts[] = {runner->num_done, runner->is_complete, runner->num_replans,
+                         problem->num_points, problem->planned_points};
+    enum { DONE, COMPLETE, REPLANS, POINTS, PLANNED, NUM_COUNTS };
+    double *const numbers[] = {&problem->expected_power, &problem->weight_share};
+    PS_TRY(ps_snapshot_counts(snapshot, "runner", counts, NUM_COUNTS, error));
+    PS_TRY(ps_snapshot_gather(snapshot, "measured", numbers, 2, error));
+    runner->num_done = counts[DONE];
+    runner->is_complete = counts[COMPLETE] != 0;
+    runner->num_replans = (unsigned)counts[REPLANS];
+    problem->num_points = counts[POINTS];
+    problem->planned_points = counts[PLANNED];
+    return PSPEC_OK;
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    ps_runner *const runner = payload;
+    PS_TRY(walk_plan(runner, snapshot, error));
+    PS_TRY(ps_estimator_walk(runner->estimator, snapshot, error));
+    return runner->kind->walk != NULL ? runner->kind->walk(runner->job, snapshot, error) : PSPEC_OK;
+}
+
+pspec_status ps_runner_read_plan(ps_runner *runner, bool *is_found, ps_error *error) {
+    ps_snapshot *const found =
+        runner->checkpoint != NULL ? ps_checkpoint_found(runner->checkpoint) : NULL;
+    *is_found = found != NULL;
+    if (found == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(walk_plan(runner, found, error));
+    return runner->num_replans > 0 ? runner->kind->plan(runner->job, error) : PSPEC_OK;
+}
+
+pspec_status ps_runner_read_state(ps_runner *runner, ps_error *error) {
+    PS_TRY(walk(runner, ps_checkpoint_found(runner->checkpoint), error));
+    ps_checkpoint_forget(runner->checkpoint);
+    return runner->kind->skip(runner->job, runner->num_done, error);
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+pspec_status ps_runner_save(ps_runner *runner, ps_error *error) {
+    ps_checkpoint *const checkpoint = runner->checkpoint;
+    if (checkpoint == NULL) {
+        return PSPEC_OK;
+    }
+    const bool is_last = runner->is_complete && ps_checkpoint_is_saved(checkpoint);
+    return is_last || ps_checkpoint_is_due(checkpoint)
+               ? ps_checkpoint_save(checkpoint, walk, runner, error)
+               : PSPEC_OK;
+}
+
+/* Engines say no more than that they were cancelled. */
+static void name_realizations(ps_error *error, const ps_runner *runner) {
+    static const char reason[] = "interrupted";
+    if (strncmp(error->message, reason, sizeof reason - 1) != 0) {
+        ps_fail(error, PSPEC_ERROR_CANCELLED, "%s after %" PRIu64 " realizations", reason,
+                runner->num_done);
+    }
+}
+
+pspec_status ps_runner_save_cancelled(ps_runner *runner, pspec_status status, ps_error *error) {
+    const bool is_whole = runner->kind->is_all_in_estimator;
+    ps_checkpoint *const checkpoint = runner->checkpoint;
+    ps_error none;
+    if (status != PSPEC_ERROR_CANCELLED || checkpoint == NULL || error == NULL) {
+        return status;
+    }
+    if (is_whole) {
+        runner->num_done = ps_estimator_num_realizations(runner->estimator);
+    }
+    if (is_whole && ps_checkpoint_save(checkpoint, walk, runner, &none) != PSPEC_OK) {
+        return status;
+    }
+    if (!ps_checkpoint_is_saved(checkpoint)) {
+        return status;
+    }
+    name_realizations(error, runner);
+    const ps_error said = *error;
+    return ps_fail(error, status, "%s; the same command goes on from \"%s\"", said.message,
+                   ps_checkpoint_name(checkpoint));
+}

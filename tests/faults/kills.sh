@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# kills.sh PROGRAM: jobs with checkpoints are killed before file calls of theirs, which are writes, flushes and renames of checkpoints,
+# and called again until they are done: what they write is what a job wrote that nobody killed. PROGRAM is pointspec_faults.
+set -euo pipefail
+program=$(realpath "$1")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+export POINTSPEC_CACHE_DIR=$scratch/no-cache ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
+unset POINTSPEC_FAULT POINTSPEC_FAULT_REPORT
+most=8 # kills of a command line, evenly over its calls
+
+for i in 1 2 3; do
+    "$program" sample --sampler jittered -n 16 --seed $i -o "$i.dat"
+done
+
+kill_at() { # NUMBER WORD...
+    local number=$1
+    shift
+    # The shell would say which of its children was killed.
+    { POINTSPEC_FAULT=file:$number! "$program" "$@" -o out.csv --checkpoint job.npz --checkpoint-interval 0; } >/dev/null 2>&1
+}
+
+try() { # WORD...
+    local calls number step code killed=0
+    "$program" "$@" -o whole.csv
+    POINTSPEC_FAULT_REPORT=report "$program" "$@" -o out.csv --checkpoint job.npz --checkpoint-interval 0
+    calls=$(awk '/^calls file/ { print $3 }' report)
+    step=$((calls > most ? calls / most : 1))
+    for ((number = 1 + RANDOM % step; number <= calls; number += step)); do
+        rm -f out.csv job.npz*
+        code=0
+        kill_at "$number" "$@" || code=$?
+        [[ $code == 137 ]] && killed=$((killed + 1))
+        [[ $code == 137 || $code == 0 ]] || { echo "kills: exit code $code at call $number of: $*" >&2; exit 1; }
+        # once more in the middle of what is left, then to the end
+        kill_at 40 "$@" || true
+        "$program" "$@" -o out.csv --checkpoint job.npz --checkpoint-interval 0
+        diff <(grep -v '^# command' whole.csv) <(grep -v '^# command' out.csv) ||
+            { echo "kills: other bits after a kill at call $number of: $*" >&2; exit 1; }
+        [[ ! -e job.npz ]] || { echo "kills: the checkpoint stays behind: $*" >&2; exit 1; }
+    done
+    ((killed > most / 2)) || { echo "kills: only $killed kills of: $*" >&2; exit 1; }
+    echo "kills: $killed of $calls calls, same bits: $*"
+}
+
+RANDOM=1
+try power --engine host_direct --sampler white -n 8 -k 3 -m 140
+try power --engine torus_direct --sampler jittered -n 16 -k 4 -m 400
+try power --engine host_direct 1.dat 2.dat 3.dat -k 4
+try pairs --engine host_direct --sampler white-sphere -n 6 -l 3 -m 132
+try quadrature --engine host_direct --sampler white-hemisphere -n 4 -l 4 -m 24 --brdf diffuse
+try power --engine host_direct --sampler white --sampler jittered -n 4,9 -k 3 -m 12
