@@ -100,6 +100,9 @@ static pspec_status settle(ps_runner *runner, ps_error *error) {
         MOST_PLANS = 2
     }; /* the second has powers and points; one more, should another engine measure larger ones */
     PS_TRY(measure(runner, error));
+    if (runner->is_part) {
+        return PSPEC_OK;
+    }
     for (int i = 0; i < MOST_PLANS && !is_settled(runner); i++) {
         PS_TRY(plan_again(runner, error));
         runner->was_replanned = true;

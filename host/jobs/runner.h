@@ -3,8 +3,8 @@
  * powers that were measured, or sets, are too large for this one -> the same realizations again.
  *
  * Kinds of jobs differ in what they give the estimator and in what they keep of it: ps_runner_kind.
- * What concerns every job belongs here, and has its place: a range of realizations begins and ends
- * where `num_done` and the `most` of `give` do; a checkpoint is whole between two calls of `give`,
+ * What concerns every job belongs here, and has its place: a range of realizations is a part, which
+ * is planned as the whole job, once; a checkpoint is whole between two calls of `give`,
  * where also `tell` is called; several devices are several estimators instead of the one that
  * `start` makes; ranks bring their accuracies together at the beginning of `settle`, so that all of
  * them plan again, or none.
@@ -45,6 +45,9 @@ typedef struct ps_runner {
     ps_device *device;     /* NULL: none is needed */
     double standard_error; /* at which realizations stop; 0: nobody asked */
     bool is_sequential;    /* they do stop there */
+    /* These are some of the realizations of a job, whose powers decide together whether another
+     * plan is needed: whoever merges them looks at the errors */
+    bool is_part;
     /* Amplitudes alone are asked of the estimator, whose errors no power changes */
     bool has_no_accuracy;
     /* known afterwards */
