@@ -96,8 +96,18 @@ const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator)
     return ps_accumulator_weighted_blocks(estimator->accumulator);
 }
 
+/* From what errors of ranges are put together. */
+static void find_amplitude_error(const ps_estimator *self, ps_spectrum_sums *out) {
+    const double share = self->accuracy.largest_share;
+    if (self->options.problem.measure == PS_OF_PAIR_SUMS && !self->options.engine->sums_pairs) {
+        out->amplitude_error = own_error(self, ps_accumulator_largest(self->accumulator), share);
+        out->largest_share = share;
+    }
+}
+
 static pspec_status find_sums(ps_estimator *self, ps_spectrum_sums *out, ps_error *error) {
     if (self->options.is_range) {
+        find_amplitude_error(self, out);
         PS_TRY(ps_estimator_nodes(self, &out->nodes, error));
         ps_spectrum_sums_flatten(out);
         return PSPEC_OK;

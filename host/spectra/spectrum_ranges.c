@@ -1,6 +1,8 @@
 /* Sums over ranges of the realizations of one job. */
 #include "spectra/spectrum_sums.h"
 
+#include "engines/error_units.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -62,14 +64,14 @@ static pspec_status compare_jobs(const ps_spectrum_sums *a, const ps_spectrum_su
 
 static pspec_status check_order(const ps_spectrum_sums *sums, const ps_spectrum_sums *next,
                                 const char *const names[2], ps_error *error) {
-    const unsigned long long first = ps_spectrum_sums_first(sums);
     const unsigned long long end = ps_spectrum_sums_end(sums);
     const unsigned long long next_first = ps_spectrum_sums_first(next);
     const unsigned long long next_end = ps_spectrum_sums_end(next);
     if (next_first < end) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s has the realizations %llu:%llu, and %s has %llu:%llu: they overlap",
-                       names[1], next_first, next_end, names[0], first, end);
+                       "%s has the realizations %llu:%llu, but those up to %llu are of %s already: "
+                       "they overlap",
+                       names[1], next_first, next_end, end, names[0]);
     }
     return next_first == end
                ? PSPEC_OK
@@ -99,6 +101,11 @@ pspec_status ps_spectrum_sums_join(ps_spectrum_sums *sums, const ps_spectrum_sum
         totals->largest_points = next->totals.largest_points;
     }
     sums->error = find_larger(sums->error, next->error);
+    sums->amplitude_error = find_larger(sums->amplitude_error, next->amplitude_error);
+    sums->largest_share = find_larger(sums->largest_share, next->largest_share);
+    if (sums->amplitude_error > 0) {
+        sums->error = ps_pair_sums_error(sums->amplitude_error, sums->largest_share);
+    }
     sums->length_error = find_larger(sums->length_error, next->length_error);
     return PSPEC_OK;
 }

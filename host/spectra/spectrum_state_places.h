@@ -42,7 +42,7 @@ enum {
 };
 
 /* Places of state_range: realizations of the range and of the job, which sums are in single
- * precision, and the tolerance; and the columns of state_parts. */
+ * precision, the tolerance, and what an error follows from; and the columns of state_parts. */
 enum {
     RANGE_FIRST,
     RANGE_END,
@@ -50,6 +50,8 @@ enum {
     RANGE_SINGLE_BINS,
     RANGE_SINGLE_POWERS,
     RANGE_TOLERANCE,
+    RANGE_AMPLITUDE_ERROR,
+    RANGE_SHARE,
     RANGE_SIZE
 };
 enum { PART_FIRST, PART_NUM, PART_TOTALS, PART_SIZE = PART_TOTALS + 3 * SUM_SIZE };

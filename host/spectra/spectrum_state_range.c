@@ -34,6 +34,8 @@ static pspec_status put_range(ps_table *table, size_t question, const ps_spectru
     data[RANGE_SINGLE_BINS] = sums->nodes.is_single[PS_NODE_BINS];
     data[RANGE_SINGLE_POWERS] = sums->nodes.is_single[PS_NODE_POWERS];
     data[RANGE_TOLERANCE] = sums->tolerance;
+    data[RANGE_AMPLITUDE_ERROR] = sums->amplitude_error;
+    data[RANGE_SHARE] = sums->largest_share;
     return PSPEC_OK;
 }
 
@@ -108,7 +110,8 @@ static bool is_range(const double *numbers) {
     return is_count(numbers[RANGE_FIRST]) && is_count(numbers[RANGE_END]) &&
            is_count(numbers[RANGE_ALL]) && numbers[RANGE_FIRST] < numbers[RANGE_END] &&
            numbers[RANGE_END] <= numbers[RANGE_ALL] && is_flag(numbers[RANGE_SINGLE_BINS]) &&
-           is_flag(numbers[RANGE_SINGLE_POWERS]) && numbers[RANGE_TOLERANCE] > 0;
+           is_flag(numbers[RANGE_SINGLE_POWERS]) && numbers[RANGE_TOLERANCE] > 0 &&
+           numbers[RANGE_AMPLITUDE_ERROR] >= 0 && numbers[RANGE_SHARE] >= 0;
 }
 
 /* Number n of them: the one behind those before, of realizations that can be a node. */
@@ -170,6 +173,8 @@ pspec_status ps_spectrum_state_read_range(ps_spectrum_sums *sums, const ps_table
     }
     sums->num_all = (uint64_t)numbers[RANGE_ALL];
     sums->tolerance = numbers[RANGE_TOLERANCE];
+    sums->amplitude_error = numbers[RANGE_AMPLITUDE_ERROR];
+    sums->largest_share = numbers[RANGE_SHARE];
     sums->nodes = (ps_sum_nodes){
         .sizes = {[PS_NODE_BINS] = sums->num_bins,
                   [PS_NODE_POWERS] = sums->powers != NULL ? sums->frequencies.num : 0,

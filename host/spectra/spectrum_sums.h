@@ -30,6 +30,9 @@ typedef struct ps_spectrum_sums {
     ps_sum_nodes nodes;
     uint64_t num_all;
     double tolerance;
+    /* The error of pair sums of coefficients follows from theirs, and the largest share of a weight
+     * (engines/error_units.h), which may be those of different ranges; 0: it is the engine's */
+    double amplitude_error, largest_share;
 } ps_spectrum_sums;
 
 /* Copies the frequencies; all sums are 0. */
