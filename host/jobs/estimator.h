@@ -86,6 +86,11 @@ pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
                               size_t num_patterns, ps_error *error) PS_MUST_CHECK;
 
+/* Makes the engine that it would have after a pattern of so many points, which it does not get: of
+ * another range. */
+pspec_status ps_estimator_expect(ps_estimator *estimator, uint64_t num_points,
+                                 ps_error *error) PS_MUST_CHECK;
+
 /* A pattern that is never in memory as a whole. What its scale needs is known before its points
  * come. */
 typedef struct ps_pattern_stream {

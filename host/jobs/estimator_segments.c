@@ -14,6 +14,11 @@ uint64_t ps_estimator_segment_left(const ps_estimator *self) {
                                   : UINT64_MAX;
 }
 
+pspec_status ps_estimator_expect(ps_estimator *estimator, uint64_t num_points, ps_error *error) {
+    PS_TRY(ps_estimator_add_pending(estimator, error));
+    return ps_estimator_get_ready(estimator, num_points, error);
+}
+
 void ps_estimator_restart_segments(ps_estimator *self) {
     ps_sum_nodes_free(&self->nodes);
     self->segment = self->options.first;

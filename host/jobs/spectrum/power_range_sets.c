@@ -2,26 +2,32 @@
 #include "base/memory.h"
 #include "jobs/spectrum/power_job_private.h"
 
+/* The engine that the whole job has there: one for the largest set so far. */
+static pspec_status pass(ps_power_job *job, uint64_t num, ps_passed_sets *passed, ps_error *error) {
+    PS_TRY(ps_power_sets_pass(&job->sets, num, ps_power_job_tell, job, passed, error));
+    return ps_estimator_expect(job->runner.estimator, passed->longest, error);
+}
+
 /* Sets of samplers begin there. */
 pspec_status ps_power_range_begin(ps_power_job *job, ps_error *error) {
     const uint64_t first = job->question->range.first;
-    uint64_t passed = 0;
-    if (job->question->sampler == NULL && first > 0) {
-        PS_TRY(ps_power_sets_pass(&job->sets, first, ps_power_job_tell, job, &passed, error));
+    ps_passed_sets passed = {0};
+    if (first == 0 || job->question->sampler != NULL) {
+        return PSPEC_OK;
     }
-    return passed == first || job->question->sampler != NULL
-               ? PSPEC_OK
-               : ps_power_range_check_end(job, passed, error);
+    PS_TRY(pass(job, first, &passed, error));
+    return passed.num == first ? PSPEC_OK : ps_power_range_check_end(job, passed.num, error);
 }
 
 pspec_status ps_power_range_end(ps_power_job *job, ps_error *error) {
-    uint64_t behind = 0;
+    ps_passed_sets behind = {0};
     job->num_all = job->num_realizations;
     if (job->question->range.end == 0 || job->question->sampler != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_power_sets_pass(&job->sets, UINT64_MAX, ps_power_job_tell, job, &behind, error));
-    job->num_all = job->question->range.first + job->runner.num_done + behind;
+    PS_TRY(pass(job, UINT64_MAX, &behind, error));
+    job->runner.accuracy = ps_estimator_accuracy(job->runner.estimator);
+    job->num_all = job->question->range.first + job->runner.num_done + behind.num;
     return ps_power_range_check_end(job, job->num_all, error);
 }
 

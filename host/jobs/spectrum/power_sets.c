@@ -198,14 +198,16 @@ static pspec_status pass_next(ps_power_sets *sets, ps_error *error) {
 
 pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num,
                                 pspec_status (*look)(void *payload, ps_error *error), void *payload,
-                                uint64_t *passed, ps_error *error) {
+                                ps_passed_sets *passed, ps_error *error) {
     bool has_set = true;
-    for (*passed = 0; *passed < num; ++*passed) {
+    for (*passed = (ps_passed_sets){0}; passed->num < num; passed->num++) {
         PS_TRY(look(payload, error));
         PS_TRY(ps_power_sets_peek(sets, &has_set, error));
         if (!has_set) {
             return PSPEC_OK;
         }
+        const uint64_t num_points = ps_power_sets_next_points(sets);
+        passed->longest = num_points > passed->longest ? num_points : passed->longest;
         PS_TRY(pass_next(sets, error));
     }
     return PSPEC_OK;
