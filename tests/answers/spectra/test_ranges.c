@@ -51,6 +51,34 @@ static void ranges_are_the_job(void **state) {
     check_ranges(*state, "pairs -l 3 --lift sphere" HOST, file_ranges);
 }
 
+/* Sets of four points but for two of many, for which the job makes its engine anew. */
+static void write_unequal(const test_folder *folder) {
+    enum { NUM = 300, FEW = 4, MANY = 3000, EARLY = 60, LATE = 200 };
+    char path[TEST_PATH_BYTES];
+    uint64_t seed = 8;
+    FILE *const file = fopen(test_path(folder, "0.txt", path), "w");
+    assert_non_null(file);
+    for (int set = 0; set < NUM; set++) {
+        fputs(set > 0 ? "#\n" : "", file);
+        for (int i = 0; i < (set == EARLY || set == LATE ? MANY : FEW); i++) {
+            fprintf(file, "%.9f %.9f 1\n", test_uniform(&seed), test_uniform(&seed));
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static void ranges_have_the_engine_of_the_job(void **state) {
+    static const char *const ranges[] = {"0:128", "128:256", "256:300"};
+    write_unequal(*state);
+    answers_open_device();
+    check_ranges(*state, "power -k 3 --engine torus_direct --weights column", ranges);
+    check_ranges(*state, "angular -l 3 --engine sphere_direct --lift sphere --weights column",
+                 ranges);
+    check_ranges(*state, "pairs -l 3 --engine pairs_histogram --lift sphere --weights column",
+                 ranges);
+    answers_close_device();
+}
+
 /* In pairs of single and double precision, on a CPU and as GPUs do it, which make the points, too.
  */
 static void ranges_of_devices_are_the_job(void **state) {
@@ -163,6 +191,8 @@ static void hostile_ranges_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(ranges_are_the_job, test_folder_create, test_folder_remove),
+        cmocka_unit_test_setup_teardown(ranges_have_the_engine_of_the_job, test_folder_create,
+                                        test_folder_remove),
         cmocka_unit_test(ranges_of_devices_are_the_job),
         cmocka_unit_test(ranges_that_do_not_fit_are_refused),
         cmocka_unit_test(powers_of_all_ranges_decide),
