@@ -22,7 +22,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_RANGE] = {NAMED("range", 0, "A:B"), OF(0, SPECTRA),
                          .help = "only the realizations A to B - 1, counted from 0, as a part for "
-                                 "pointspec merge: multiples of 128, B perhaps the number of all",
+                                 "pointspec merge; multiples of 128, or B the number of all",
                          .set = ps_set_realization_range},
     [PS_OPTION_STANDARD_ERROR] =
         {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
