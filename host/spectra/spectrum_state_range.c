@@ -119,7 +119,8 @@ static pspec_status add_part(const reader *in, ps_spectrum_sums *sums, const dou
                              const ps_npy_array *const *arrays, size_t n, uint64_t *at) {
     const ps_sum_nodes *const nodes = &sums->nodes;
     ps_sum_node *node = NULL;
-    if (!is_count(part[PART_FIRST]) || !is_count(part[PART_NUM]) || part[PART_FIRST] != *at ||
+    if (!is_count(part[PART_FIRST]) || !is_count(part[PART_NUM]) ||
+        part[PART_FIRST] != (double)*at ||
         !ps_sum_node_is_possible(*at, (uint64_t)part[PART_NUM])) {
         return fail(in, "state_parts");
     }
@@ -154,7 +155,7 @@ static pspec_status read_parts(const reader *in, ps_spectrum_sums *sums, const d
         PS_TRY(add_part(in, sums, parts->data + n * PART_SIZE, arrays, n, &at));
     }
     const bool is_open = at % PS_SUM_BLOCK != 0; /* only the end of the job is */
-    return at == numbers[RANGE_END] && (!is_open || at == numbers[RANGE_ALL])
+    return (double)at == numbers[RANGE_END] && (!is_open || (double)at == numbers[RANGE_ALL])
                ? PSPEC_OK
                : fail(in, "state_parts");
 }
