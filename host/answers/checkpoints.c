@@ -40,7 +40,9 @@ static void add_question(ps_text *key, const ps_request *request, const ps_kind 
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         const bool is_source = id == PS_OPTION_SAMPLER || id == PS_OPTION_SET;
-        if (request->is_given[id] && !is_source && (ps_options[id].questions & kind->takes) != 0) {
+        const bool is_asked =
+            (ps_options[id].questions & kind->takes) != 0 || id == PS_OPTION_RANGE;
+        if (request->is_given[id] && !is_source && is_asked) {
             add_option(key, request, (ps_option_id)id);
         }
     }

@@ -234,8 +234,10 @@ double ps_answer_compare(const ps_kind *kind, const ps_table *a, const ps_table 
  * errors are the same doubles but for rare last bits; powers of single frequencies in single
  * precision agree to 1e-13. The numerical error is the largest of theirs. Parts without state, and
  * answers to different questions (kind, dimension, frequencies, bins, normalization), are
- * PSPEC_ERROR_INPUT; numbers of points, engines, precisions and tolerances may differ. *out is
- * freed by ps_answer_free, also after an error. */
+ * PSPEC_ERROR_INPUT; numbers of points, engines, precisions and tolerances may differ. Ranges of
+ * the realizations of one job (--range), in any order, are merged to a larger one, and all of them
+ * to the answer of the job, to the bit; PSPEC_ERROR_TOLERANCE where its powers need another plan.
+ * *out is freed by ps_answer_free, also after an error. */
 pspec_status ps_answer_merge(ps_answer *out, const ps_parts *parts, ps_error *error) PS_MUST_CHECK;
 
 /* What a command that prints the kind does: whatever can be refused is refused before hours of

@@ -132,7 +132,8 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
     ps_text key = {0};
     *out = (ps_answer){0};
     PS_TRY(check(&format, kind, request, hooks, error));
-    own.wants_state = request->wants_state || format == PS_FORMAT_NPZ;
+    own.wants_state =
+        request->wants_state || format == PS_FORMAT_NPZ || request->is_given[PS_OPTION_RANGE];
     pspec_status status = ps_answer_begin_checkpoints(&own, kind, &key, hooks, error);
     if (status == PSPEC_OK) {
         status = kind->compute(kept, &own, hooks, error);

@@ -39,12 +39,22 @@ static pspec_status merge(ps_answer *out, parts *self, const ps_request *request
     return ps_answer_merge(out, &all, error);
 }
 
+/* Parts that are missing at the end, or the beginning, may be forgotten. */
+static void warn_of_range(const ps_answer *answer, const ps_answer_hooks *hooks) {
+    const ps_cell range = ps_table_find_meta(answer->table, "range");
+    if (range.kind == PS_CELL_TEXT) {
+        ps_answer_warn(hooks,
+                       "these are the realizations %s: an answer for merge again, which has its "
+                       "sums where the output is NPZ",
+                       range.text);
+    }
+}
+
 /* An output NULL is none. */
 static pspec_status run(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
                         ps_error *error) {
     ps_table_format format = PS_FORMAT_CSV;
     parts self = {0};
-    (void)hooks;
     if (request->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "there are no answers to merge: pointspec merge A.npz B.npz");
@@ -53,6 +63,9 @@ static pspec_status run(ps_answer *out, const ps_request *request, const ps_answ
     PS_TRY(ps_table_choose_format(&format, request->format, request->output, error));
     pspec_status status = merge(out, &self, request, error);
     discard(&self);
+    if (status == PSPEC_OK) {
+        warn_of_range(out, hooks);
+    }
     if (status == PSPEC_OK && request->output != NULL) {
         ps_table_set_view(out->table, &request->view);
         status = ps_table_write(out->table, request->output, format, error);
@@ -70,7 +83,10 @@ const ps_command ps_command_merge = {
         "first file first: what one job would have printed, but for last digits of the sums. "
         "Dimension, frequencies, rings, normalization, and samplers where there are several, must "
         "be the same; numbers of points, engines and tolerances may differ. Realizations of one "
-        "sampler and seed are the same in every answer: give each part a seed of its own. The "
+        "sampler and seed are the same in every answer: give each part a seed of its own, or a "
+        "range of the realizations of one job (--range). Ranges may come in any order; when they "
+        "are all of the job, the answer has the bits of the job, and exit status 3 says that its "
+        "powers need a more exact plan. Ranges that overlap, or leave a gap, are refused. The "
         "output is merged again where it is NPZ.",
     .takes = PS_COMMAND_BIT(merge),
     .examples = {"for s in 1 2; do pointspec power --sampler white -n 64 -k 4 -m 8 --seed $s -o "

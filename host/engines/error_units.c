@@ -40,13 +40,15 @@ ps_problem ps_engine_problem(const ps_engine *engine, const ps_problem *problem)
     return own;
 }
 
-double ps_engine_error_in(const ps_engine *engine, const ps_problem *problem, double own_error) {
-    const double share = ps_weight_share(problem);
-    if (engine->sums_pairs || problem->measure == PS_OF_AMPLITUDES) {
-        return own_error;
-    }
-    const double x = spread * own_error * sqrt(share);
+double ps_pair_sums_error(double amplitude_error, double share) {
+    const double x = spread * amplitude_error * sqrt(share);
     return x * (2 + x);
+}
+
+double ps_engine_error_in(const ps_engine *engine, const ps_problem *problem, double own_error) {
+    return engine->sums_pairs || problem->measure == PS_OF_AMPLITUDES
+               ? own_error
+               : ps_pair_sums_error(own_error, ps_weight_share(problem));
 }
 
 double ps_engine_floor_error(const ps_engine *engine, const ps_problem *problem, double own_error) {

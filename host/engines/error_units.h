@@ -24,6 +24,9 @@ ps_problem ps_engine_problem(const ps_engine *engine, const ps_problem *problem)
 /* An error in the engine's units, as the problem's tolerance has it. */
 double ps_engine_error_in(const ps_engine *engine, const ps_problem *problem, double own_error);
 
+/* That of Q(l) which coefficients of such an error have, with that share. */
+double ps_pair_sums_error(double amplitude_error, double share);
+
 /* Relative error, three standard deviations, of a power of `floor` times that of white noise; 0
  * without a floor. */
 double ps_engine_floor_error(const ps_engine *engine, const ps_problem *problem, double own_error);

@@ -58,9 +58,11 @@ static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->units, self->batch, "units of powers", error));
     PS_TRY(PS_NEW(&self->exponents, self->batch, "exponents", error));
     PS_TRY(PS_NEW(&self->sums, self->batch, "sums of weights", error));
-    return self->options.want_c2
-               ? ps_pair_sums_create(&self->c2, set, self->batch, self->options.observer, error)
-               : PSPEC_OK;
+    const uint64_t expected = self->options.problem.num_realizations;
+    PS_TRY(ps_running_sums_create(&self->total_sums, PS_NUM_TOTALS, expected, false, error));
+    return self->options.want_c2 ? ps_pair_sums_create(&self->c2, set, self->batch, expected,
+                                                       self->options.observer, error)
+                                 : PSPEC_OK;
 }
 
 pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
@@ -71,6 +73,7 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->options = *options;
     self->device = device;
     self->batch = options->batch;
+    self->segment = options->first;
     self->reference_points = options->normalization == PSPEC_NORMALIZATION_INTEGRAL
                                  ? (double)options->problem.num_points
                                  : 1;
@@ -100,6 +103,8 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     free(estimator->sums);
     free(estimator->beginning);
     ps_pair_sums_free(&estimator->c2);
+    ps_running_sums_free(&estimator->total_sums);
+    ps_sum_nodes_free(&estimator->nodes);
     free(estimator);
 }
 
@@ -119,7 +124,8 @@ pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets
         return PSPEC_OK;
     }
     PS_TRY(PS_NEW(&estimator->beginning, num * ps_device_sets_dimension(sets), "points", error));
-    return ps_device_sets_beginning(sets, 0, num, estimator->beginning, error);
+    return ps_device_sets_beginning(sets, estimator->options.first, num, estimator->beginning,
+                                    error);
 }
 
 /* ---- add --------------------------------------------------------------------------------- */
@@ -151,7 +157,7 @@ static pspec_status check_all(const ps_estimator *self, const pspec_pattern *pat
     pspec_status status = PSPEC_OK;
     for (size_t r = 0; r < num_patterns && status == PSPEC_OK; r++) {
         ps_pattern_sums sums = {0};
-        status = check(self, &patterns[r], self->totals.num_realizations + r, &sums, error);
+        status = check(self, &patterns[r], ps_estimator_position(self) + r, &sums, error);
     }
     return status;
 }
@@ -171,7 +177,7 @@ static bool are_made(const ps_estimator *self, const pspec_pattern *patterns) {
 /* What a pattern must be, beside its points where others see to them. */
 static pspec_status check_one(const ps_estimator *self, const pspec_pattern *patterns, size_t r,
                               ps_pattern_sums *sums, ps_error *error) {
-    const uint64_t realization = self->totals.num_realizations + r;
+    const uint64_t realization = ps_estimator_position(self) + r;
     return are_made(self, patterns)
                ? ps_pattern_check_size(self->options.problem.frequencies, patterns[r].num_points,
                                        realization, error)
@@ -194,27 +200,6 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns, s
     return PSPEC_OK;
 }
 
-static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns) {
-    ps_pattern_totals *totals = &self->totals;
-    for (size_t r = 0; r < num_patterns; r++) {
-        const size_t num_points = patterns[r].num_points;
-        const bool is_first = totals->num_realizations == 0;
-        totals->num_realizations++;
-        self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
-        ps_sums_add(&totals->points, (double)num_points);
-        ps_sums_add(&totals->sample_sizes, self->sums[r].weight_sum * self->sums[r].weight_sum /
-                                               self->sums[r].weight_square_sum);
-        totals->sum_weights += ps_estimator_weight_sum(self, &self->sums[r]);
-        ps_estimator_measure_share(self, &self->sums[r]);
-        if (is_first || num_points < totals->smallest_points) {
-            totals->smallest_points = num_points;
-        }
-        if (num_points > totals->largest_points) {
-            totals->largest_points = num_points;
-        }
-    }
-}
-
 ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
                                  size_t num_patterns) {
     return (ps_batch){.num_patterns = num_patterns,
@@ -222,7 +207,7 @@ ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *
                       .scales = self->scales,
                       .exponents = self->exponents,
                       .sets = are_made(self, patterns) ? self->sets : NULL,
-                      .realization = self->totals.num_realizations,
+                      .realization = ps_estimator_position(self),
                       .should_stop = self->options.should_stop,
                       .payload = self->options.payload};
 }
@@ -313,8 +298,10 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) {
-    PS_TRY(ps_accumulator_reserve(self->accumulator, self->totals.num_realizations + num_patterns,
-                                  error));
+    const uint64_t count = self->totals.num_realizations + num_patterns;
+    PS_TRY(ps_accumulator_reserve(self->accumulator, count, error));
+    PS_TRY(ps_running_sums_reserve(&self->total_sums, count, error));
+    PS_TRY(ps_running_sums_reserve(&self->c2.sums, count, error));
     PS_TRY(ps_estimator_add_pending(self, error));
     for (size_t r = 0; r < num_patterns; r++) { /* the error formula needs effective powers */
         self->units[r] = self->scales[r] * self->sums[r].weight_square_sum;
@@ -327,7 +314,7 @@ pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
     if (rows->late == NULL || self->options.observer.tell != NULL) {
         PS_TRY(ps_estimator_add_pending(self, error));
     }
-    count_patterns(self, patterns, num_patterns);
+    ps_estimator_count_patterns(self, patterns, num_patterns);
     return PSPEC_OK;
 }
 
@@ -358,9 +345,11 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
     for (size_t done = 0; done < num_patterns;) {
         const pspec_pattern *const next = patterns + done;
         const size_t rest = num_patterns - done;
+        const uint64_t left = ps_estimator_segment_left(estimator);
         size_t taken = rest < estimator->batch ? rest : estimator->batch;
         uint64_t longest = 0;
         ps_rows rows = {0};
+        taken = taken < left ? taken : (size_t)left;
         PS_TRY(prepare(estimator, next, taken, &longest, error));
         PS_TRY(ps_estimator_get_ready(estimator, longest, error));
         PS_TRY(check_itself(estimator, next, NULL, error));
@@ -373,6 +362,7 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
             continue;
         }
         PS_TRY(status);
+        PS_TRY(ps_estimator_end_segment(estimator, error));
         done += taken;
     }
     return PSPEC_OK;
@@ -385,5 +375,7 @@ void ps_estimator_reset(ps_estimator *estimator) {
     if (estimator->options.want_c2) {
         ps_pair_sums_reset(&estimator->c2);
     }
+    estimator->total_sums.count = 0;
+    ps_estimator_restart_segments(estimator);
     ps_accumulator_reset(estimator->accumulator);
 }

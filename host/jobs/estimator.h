@@ -39,6 +39,10 @@ typedef struct ps_estimator_options {
     const double *weights;
     size_t num_weighted;
     bool self_check;
+    /* The realizations are some of a larger job, `first` being the number of the first of them, a
+     * multiple of a block: answers are ps_estimator_sums alone, which have parts */
+    bool is_range;
+    uint64_t first;
     pspec_normalization normalization;
     /* [ps_num_coefficients_at] or NULL: where a realization that comes alone in its batch leaves
      * its coefficients, of problem.harmonics; what there is to sum twice is summed once */
@@ -71,8 +75,8 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
 void ps_estimator_destroy(ps_estimator *estimator);
 
 /* From now on patterns without points, of the sets' size, are realizations that the device makes:
- * the number of a realization is the number of those before it. Before any is added; sets outlive
- * the estimator, whose engine takes them. */
+ * the number of a realization is the number of those before it, and options.first. Before any is
+ * added; sets outlive the estimator, whose engine takes them. */
 pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets,
                                    ps_error *error) PS_MUST_CHECK;
 
@@ -81,6 +85,11 @@ pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets
  * weight is checked. A self-check that fails is PSPEC_ERROR_CHECK. */
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
                               size_t num_patterns, ps_error *error) PS_MUST_CHECK;
+
+/* Makes the engine that it would have after a pattern of so many points, which it does not get: of
+ * another range. */
+pspec_status ps_estimator_expect(ps_estimator *estimator, uint64_t num_points,
+                                 ps_error *error) PS_MUST_CHECK;
 
 /* A pattern that is never in memory as a whole. What its scale needs is known before its points
  * come. */
@@ -123,7 +132,8 @@ uint64_t ps_estimator_num_realizations(const ps_estimator *estimator);
 
 pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out,
                                    ps_error *error) PS_MUST_CHECK;
-/* The sums behind the averages, with the error bound; bins are ps_estimator_bins. */
+/* The sums behind the averages, with the error bound; bins are ps_estimator_bins. Those of a range
+ * have their nodes; how many realizations the job has is to be added. */
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out,
                                ps_error *error) PS_MUST_CHECK;
 /* Mean and standard error of every bin so far, in the units of the result:

@@ -13,7 +13,7 @@
 enum { MOST_THREADS = 16 };
 
 pspec_status ps_pair_sums_create(ps_pair_sums *out, const ps_frequencies *frequencies, size_t batch,
-                                 ps_pair_observer observer, ps_error *error) {
+                                 uint64_t expected, ps_pair_observer observer, ps_error *error) {
     const size_t degrees = (size_t)frequencies->max_frequency + 1;
     *out = (ps_pair_sums){.frequencies = frequencies, .batch = batch, .observer = observer};
     PS_TRY(PS_NEW(&out->scales, batch, "scales", error));
@@ -22,8 +22,7 @@ pspec_status ps_pair_sums_create(ps_pair_sums *out, const ps_frequencies *freque
     PS_TRY(ps_allocate(&out->scratch, batch < MOST_THREADS ? batch : MOST_THREADS,
                        ps_zonal_scratch(frequencies->max_frequency) * sizeof(double), "zonal sums",
                        error));
-    PS_TRY(PS_NEW(&out->sums, frequencies->num, "sums of C_l^2", error));
-    return PSPEC_OK;
+    return ps_running_sums_create(&out->sums, frequencies->num, expected, false, error);
 }
 
 void ps_pair_sums_free(ps_pair_sums *self) {
@@ -31,13 +30,12 @@ void ps_pair_sums_free(ps_pair_sums *self) {
     free(self->zonal);
     free(self->c2);
     free(self->scratch);
-    free(self->sums);
+    ps_running_sums_free(&self->sums);
     *self = (ps_pair_sums){0};
 }
 
 void ps_pair_sums_reset(ps_pair_sums *self) {
-    memset(self->sums, 0, self->frequencies->num * sizeof *self->sums);
-    self->num_realizations = 0;
+    self->sums.count = 0;
 }
 
 typedef struct task {
@@ -102,19 +100,16 @@ void ps_pair_sums_add(ps_pair_sums *self, const ps_rows *rows, const uint32_t *s
     for (size_t r = 0; r < rows->num_rows; r++) {
         const double *const zonal = self->zonal + r * degrees;
         find_c2(self, rows->host + r * rows->stride, slots, zonal, self->scales[r]);
-        for (size_t i = 0; i < set->num; i++) {
-            ps_sums_add(&self->sums[i], self->c2[set->vectors[i]]);
-        }
+        ps_running_sums_add(&self->sums, self->c2, (const uint32_t *)set->vectors);
         if (self->observer.tell != NULL) {
             tell_observer(self, zonal, self->scales[r]);
         }
     }
-    self->num_realizations += rows->num_rows;
 }
 
 void ps_pair_sums_finish(const ps_pair_sums *self, ps_mean *means) {
     for (size_t i = 0; i < self->frequencies->num; i++) {
-        ps_sums_finish(&self->sums[i], self->num_realizations, &means[i].mean,
-                       &means[i].standard_error);
+        const ps_sums sums = ps_running_sums_get(&self->sums, i);
+        ps_sums_finish(&sums, self->sums.count, &means[i].mean, &means[i].standard_error);
     }
 }

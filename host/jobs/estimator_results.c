@@ -4,7 +4,6 @@
 #include "jobs/estimator_private.h"
 
 #include <math.h>
-#include <string.h>
 
 /* In the engine's units; of an engine that is still to be made again, what is planned for such
  * powers. */
@@ -44,16 +43,28 @@ static pspec_status require_realizations(const ps_estimator *self, ps_error *err
                : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
 }
 
+ps_pattern_totals ps_estimator_totals(const ps_estimator *self) {
+    const ps_running_sums *const sums = &self->total_sums;
+    const ps_sums weights = ps_running_sums_get(sums, PS_TOTAL_WEIGHTS);
+    ps_pattern_totals totals = self->totals;
+    totals.points = ps_running_sums_get(sums, PS_TOTAL_POINTS);
+    totals.sample_sizes = ps_running_sums_get(sums, PS_TOTAL_SAMPLE_SIZES);
+    totals.sum_weights = weights.sum + weights.sum_low;
+    return totals;
+}
+
 /* From the units of rows to those of the result. */
 static double find_factor(const ps_estimator *self) {
-    return ps_spectrum_factor(self->options.normalization, &self->totals, self->reference_points);
+    const ps_pattern_totals totals = ps_estimator_totals(self);
+    return ps_spectrum_factor(self->options.normalization, &totals, self->reference_points);
 }
 
 pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
     PS_TRY(require_realizations(estimator, error));
     PS_TRY(ps_estimator_settle(estimator, error));
+    const ps_pattern_totals totals = ps_estimator_totals(estimator);
     return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
-                              estimator->accumulator, find_factor(estimator), &estimator->totals,
+                              estimator->accumulator, find_factor(estimator), &totals,
                               estimator->options.want_frequencies, error);
 }
 
@@ -85,6 +96,29 @@ const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator)
     return ps_accumulator_weighted_blocks(estimator->accumulator);
 }
 
+/* From what errors of ranges are put together. */
+static void find_amplitude_error(const ps_estimator *self, ps_spectrum_sums *out) {
+    const double share = self->accuracy.largest_share;
+    if (self->options.problem.measure == PS_OF_PAIR_SUMS && !self->options.engine->sums_pairs) {
+        out->amplitude_error = own_error(self, ps_accumulator_largest(self->accumulator), share);
+        out->largest_share = share;
+    }
+}
+
+static pspec_status find_sums(ps_estimator *self, ps_spectrum_sums *out, ps_error *error) {
+    if (self->options.is_range) {
+        find_amplitude_error(self, out);
+        PS_TRY(ps_estimator_nodes(self, &out->nodes, error));
+        ps_spectrum_sums_flatten(out);
+        return PSPEC_OK;
+    }
+    out->totals = ps_estimator_totals(self);
+    for (size_t i = 0; out->c2 != NULL && i < out->frequencies.num; i++) {
+        out->c2[i] = ps_running_sums_get(&self->c2.sums, i);
+    }
+    return ps_accumulator_sums(self->accumulator, out->bins, out->powers, error);
+}
+
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
     const ps_estimator_options *options = &estimator->options;
     PS_TRY(require_realizations(estimator, error));
@@ -98,11 +132,7 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, p
     out->error = accuracy.error;
     out->self_check = accuracy.was_checked ? accuracy.self_check : NAN;
     out->length_error = accuracy.length_error;
-    if (out->c2 != NULL) {
-        memcpy(out->c2, estimator->c2.sums, out->frequencies.num * sizeof *out->c2);
-    }
-    const pspec_status status =
-        ps_accumulator_sums(estimator->accumulator, out->bins, out->powers, error);
+    const pspec_status status = find_sums(estimator, out, error);
     if (status != PSPEC_OK) {
         ps_spectrum_sums_free(out);
     }

@@ -76,7 +76,7 @@ pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_s
                                      ps_error *error) {
     const pspec_pattern whole = {.dimension = stream->dimension,
                                  .num_points = (size_t)stream->num_points};
-    ps_pattern_count count = {.realization = estimator->totals.num_realizations,
+    ps_pattern_count count = {.realization = ps_estimator_position(estimator),
                               .on_sphere =
                                   ps_problem_domain(&estimator->options.problem) == PS_ON_SPHERE};
     ps_rows rows = {0};
@@ -91,5 +91,6 @@ pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_s
     PS_TRY(check_count(estimator, stream, &count, error));
     PS_TRY(
         stream_of(estimator)->finish(estimator->engine_state, estimator->scales[0], &rows, error));
-    return ps_estimator_take(estimator, &rows, &whole, 1, error);
+    PS_TRY(ps_estimator_take(estimator, &rows, &whole, 1, error));
+    return ps_estimator_end_segment(estimator, error);
 }

@@ -16,29 +16,21 @@ static pspec_status walk_counts(ps_estimator *self, ps_snapshot *snapshot, ps_er
 }
 
 static pspec_status walk_numbers(ps_estimator *self, ps_snapshot *snapshot, ps_error *error) {
-    ps_pattern_totals *const totals = &self->totals;
     ps_accuracy *const accuracy = &self->accuracy;
-    enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
-    double *const numbers[] = {&totals->sum_weights, &accuracy->length_error,
-                               &accuracy->largest_share, &accuracy->self_check};
-    PS_TRY(ps_snapshot_gather(snapshot, "numbers", numbers, sizeof numbers / sizeof numbers[0],
-                              error));
-    PS_TRY(ps_snapshot_doubles(snapshot, "points", (double *)&totals->points, NUMBERS, error));
-    return ps_snapshot_doubles(snapshot, "sample_sizes", (double *)&totals->sample_sizes, NUMBERS,
-                               error);
-}
-
-static pspec_status walk_c2(ps_pair_sums *self, ps_snapshot *snapshot, ps_error *error) {
-    enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
-    PS_TRY(ps_snapshot_counts(snapshot, "c2_count", &self->num_realizations, 1, error));
-    return ps_snapshot_doubles(snapshot, "c2", (double *)self->sums,
-                               NUMBERS * self->frequencies->num, error);
+    double *const numbers[] = {&accuracy->length_error, &accuracy->largest_share,
+                               &accuracy->self_check};
+    return ps_snapshot_gather(snapshot, "numbers", numbers, sizeof numbers / sizeof numbers[0],
+                              error);
 }
 
 pspec_status ps_estimator_walk(ps_estimator *estimator, ps_snapshot *snapshot, ps_error *error) {
     PS_TRY(ps_estimator_settle(estimator, error));
     PS_TRY(walk_counts(estimator, snapshot, error));
     PS_TRY(walk_numbers(estimator, snapshot, error));
-    PS_TRY(estimator->options.want_c2 ? walk_c2(&estimator->c2, snapshot, error) : PSPEC_OK);
+    PS_TRY(ps_running_sums_walk(&estimator->total_sums, snapshot, "totals", error));
+    PS_TRY(estimator->options.want_c2
+               ? ps_running_sums_walk(&estimator->c2.sums, snapshot, "c2", error)
+               : PSPEC_OK);
+    PS_TRY(ps_estimator_walk_segments(estimator, snapshot, error));
     return ps_accumulator_walk(estimator->accumulator, snapshot, error);
 }

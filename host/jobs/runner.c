@@ -115,6 +115,9 @@ static pspec_status settle(ps_runner *runner, ps_error *error) {
         MOST_PLANS = 2
     }; /* the second has powers and points; one more, should another engine measure larger ones */
     PS_TRY(measure(runner, error));
+    if (runner->is_part) {
+        return PSPEC_OK;
+    }
     while (runner->num_replans < MOST_PLANS && !is_settled(runner)) {
         PS_TRY(plan_again(runner, error));
         runner->num_replans++;

@@ -5,10 +5,9 @@
  * Kinds of jobs differ in what they give the estimator and in what they keep of it: ps_runner_kind.
  * What concerns every job belongs here, and has its place: a checkpoint is written between two
  * calls of `give`, where also `tell` is called, and read by a job that begins
- * (runner_checkpoint.c); a range of realizations begins and ends where `num_done` and the `most` of
- * `give` do; several devices are several estimators instead of the one that `start` makes; ranks
- * bring their accuracies together at the beginning of `settle`, so that all of them plan again, or
- * none.
+ * (runner_checkpoint.c); a range of realizations is a part, which is planned as the whole job,
+ * once; several devices are several estimators instead of the one that `start` makes; ranks bring
+ * their accuracies together at the beginning of `settle`, so that all of them plan again, or none.
  */
 #ifndef PS_JOBS_RUNNER_H
 #define PS_JOBS_RUNNER_H
@@ -53,6 +52,9 @@ typedef struct ps_runner {
     ps_device *device;     /* NULL: none is needed */
     double standard_error; /* at which realizations stop; 0: nobody asked */
     bool is_sequential;    /* they do stop there */
+    /* These are some of the realizations of a job, whose powers decide together whether another
+     * plan is needed: whoever merges them looks at the errors */
+    bool is_part;
     /* Amplitudes alone are asked of the estimator, whose errors no power changes */
     bool has_no_accuracy;
     const ps_checkpoint_spec *spec; /* NULL: no checkpoints */

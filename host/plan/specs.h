@@ -20,6 +20,11 @@ typedef struct ps_accuracy_spec {
     bool no_self_check; /* the referee recomputes nothing */
 } ps_accuracy_spec;
 
+/* Some of the realizations of a job, counted from 0: a part to be merged with others. */
+typedef struct ps_realization_range {
+    uint64_t first, end; /* one past the last; 0: all of them */
+} ps_realization_range;
+
 /* Where the work is done, and in what memory. */
 typedef struct ps_limits_spec {
     ps_plan_constraints constraints; /* engine, precision and memory that somebody asked for */

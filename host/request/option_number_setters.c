@@ -1,8 +1,9 @@
 /* Setters of options whose values are several numbers. */
-#include "request/option_setters.h"
+#include "request/option_rows.h"
 
 #include "base/text.h"
 #include "math/sobolev.h"
+#include "spectra/sum_nodes.h"
 
 #include <float.h>
 #include <math.h>
@@ -99,6 +100,32 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
         PS_TRY(check_interval(said, i, box->low[i], box->high[i], error));
     }
     return PSPEC_OK;
+}
+
+/* "256:512". Whether the end may be no multiple depends on how many there are. */
+pspec_status ps_set_realization_range(const ps_said *said, ps_error *error) {
+    enum { NUMBER_BYTES = 32 };
+    char first[NUMBER_BYTES];
+    ps_realization_range *const range = &said->request->range;
+    const size_t length = strcspn(said->text, ":");
+    if (said->text[length] == '\0' || length == 0 || length >= sizeof first) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: \"%s\" is not A:B, as in 256:512, the realizations 256 to 511",
+                       said->shown, said->text);
+    }
+    snprintf(first, sizeof first, "%.*s", (int)length, said->text);
+    PS_TRY(ps_parse_count(first, said->shown, 0, MOST_REALIZATIONS, &range->first, error));
+    PS_TRY(ps_parse_count(said->text + length + 1, said->shown, 1, MOST_REALIZATIONS, &range->end,
+                          error));
+    if (range->first >= range->end) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: %s has no realization: A must be below B", said->shown, said->text);
+    }
+    return range->first % PS_SUM_BLOCK == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: %s must begin with a multiple of %d: sums are added in such blocks",
+                         said->shown, said->text, PS_SUM_BLOCK);
 }
 
 /* "3" or "3,-4": whole numbers, as many as dimensions, not all 0. */

@@ -41,6 +41,14 @@ static const option_pair pairs[] = {
     {PS_OPTION_SCATTER, PS_OPTION_PLOT_POINTS, "its picture has none", 0},
     {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array", 0},
 
+    {PS_OPTION_RANGE, PS_OPTION_STANDARD_ERROR,
+     "which realizations there are is known when all have been looked at", 0},
+    {PS_OPTION_RANGE, PS_OPTION_COEFFICIENTS, "coefficients of single sets are not merged", 0},
+    {PS_OPTION_RANGE, PS_OPTION_SCATTER, "coefficients of single sets are not merged", 0},
+    {PS_OPTION_RANGE, PS_OPTION_SET, "every set of files has a number of realizations of its own",
+     0},
+    {PS_OPTION_RANGE, COEFFICIENTS, "coefficients of single sets are not merged", 0},
+
     {PS_OPTION_FREQUENCIES, ARRAYS, "they do not fill an array", 0},
     {PS_OPTION_PER_RING, ARRAYS, "they do not fill an array", 0},
     {PS_OPTION_PER_RING, COEFFICIENTS, "they are of whole arrays of every set", 0},

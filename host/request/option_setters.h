@@ -14,6 +14,7 @@ ps_option_setter ps_set_nothing, ps_set_dimension, ps_set_max_frequency, ps_set_
     ps_set_smoothness, ps_set_plot_log, ps_set_plot_range, ps_add_sampler, ps_add_set, ps_set_bins,
     ps_set_box, ps_set_columns, ps_set_select, ps_set_weights, ps_set_weight_sum, ps_set_domain,
     ps_set_lift, ps_set_morph, ps_set_normalize, ps_set_precision, ps_set_false_alarm_rate,
-    ps_set_fit, ps_set_bounds, ps_set_rates, ps_set_scatter, ps_set_camera, ps_set_image;
+    ps_set_fit, ps_set_bounds, ps_set_rates, ps_set_scatter, ps_set_camera, ps_set_image,
+    ps_set_realization_range;
 
 #endif

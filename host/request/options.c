@@ -20,6 +20,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                         "128}{:1})",
                                 COUNT(num_realizations), .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
+    [PS_OPTION_RANGE] = {NAMED("range", 0, "A:B"), OF(0, SPECTRA),
+                         .help = "only the realizations A to B - 1, counted from 0, as a part for "
+                                 "pointspec merge; multiples of 128, or B the number of all",
+                         .set = ps_set_realization_range},
     [PS_OPTION_STANDARD_ERROR] =
         {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
          .help = "no more realizations than make the relative standard error of every "
@@ -330,17 +334,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "what sets of samplers that take long to make may take on the "
                                      "disk; 0: they are made anew (default 4e9)",
                              COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
-    [PS_OPTION_CHECKPOINT] =
-        {NAMED("checkpoint", 0, "FILE.npz"), OF(0, SPECTRA | BIT(quadrature) | BIT(run)),
-         .help = "go on from the state in FILE where there is one, and write it while realizations "
-                 "are added: a job that was killed ends with the same bits. It is removed when the "
-                 "answer is written; of {run:several questions each has one}{:several samplers or "
-                 "numbers of points each has one}, FILE-2.npz and so on",
-         FILE_OUT(limits.checkpoint.path)},
+    [PS_OPTION_CHECKPOINT] = {NAMED("checkpoint", 0, "FILE.npz"), OF(0, LONG),
+                              .help = "keep the state of the job in FILE while it runs, and go on "
+                                      "from there: same bits; of several questions FILE-2.npz, ..",
+                              FILE_OUT(limits.checkpoint.path)},
     [PS_OPTION_CHECKPOINT_SECONDS] =
-        {NAMED("checkpoint-interval", 0, "SECONDS"), OF(0, SPECTRA | BIT(quadrature) | BIT(run)),
-         .help = "how long the job goes on between two checkpoints (default: what makes them a "
-                 "hundredth of its time, 10 at least); 0: one after every batch",
+        {NAMED("checkpoint-interval", 0, "SECONDS"), OF(0, LONG),
+         .help =
+             "between two checkpoints (default: at most a hundredth of the time); 0: each batch",
          COUNT(limits.checkpoint.interval), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_PREFETCH] = {NAMED("prefetch", 0, NULL), OF(0, BIT(sample)),
                             .help = "write no points: make those that are not kept yet, and keep "

@@ -33,6 +33,7 @@ enum {
 typedef enum ps_option_id {
     PS_OPTION_POINTS,             /* -n, --points N,..|N..M */
     PS_OPTION_REALIZATIONS,       /* -m, --realizations M */
+    PS_OPTION_RANGE,              /* --range A:B */
     PS_OPTION_STANDARD_ERROR,     /* --standard-error X */
     PS_OPTION_DIMENSION,          /* -d, --dimension D */
     PS_OPTION_SEED,               /* -s, --seed S */
@@ -143,6 +144,7 @@ typedef struct ps_request {
     size_t num_counts;                    /* numbers of points that were asked for, */
     uint64_t counts[PS_MAX_COUNTS];       /* 1024 alone unless given */
     uint64_t num_realizations;            /* 1 unless given */
+    ps_realization_range range;           /* of them; {0} unless given: all */
     unsigned dimension;                   /* 2 unless given, 1..6 */
     uint64_t seed;                        /* 1 unless given */
     size_t num_sources; /* samplers and sets, as they were said; 0: the points are those of files */

@@ -3,18 +3,7 @@
 #include "spectra/spectrum_state_places.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-ps_state_name ps_state_name_of(const char *stem, size_t question) {
-    ps_state_name out;
-    if (question == 0) {
-        snprintf(out.text, sizeof out.text, "%s", stem);
-    } else {
-        snprintf(out.text, sizeof out.text, "%s_%zu", stem, question + 1);
-    }
-    return out;
-}
 
 typedef struct writer {
     ps_table *table;
@@ -118,5 +107,8 @@ pspec_status ps_spectrum_state_add(ps_table *table, size_t question, const ps_sp
     if (set->kind == PS_FREQUENCIES_LIST) {
         PS_TRY(put_list(&self, set));
     }
-    return set->rings != NULL ? put_rings(&self, set) : PSPEC_OK;
+    if (set->rings != NULL) {
+        PS_TRY(put_rings(&self, set));
+    }
+    return sums->num_all > 0 ? ps_spectrum_state_add_range(table, question, sums, error) : PSPEC_OK;
 }

@@ -12,6 +12,14 @@
  *     state_c2           [degrees][4], of pair sums
  *     state_frequencies  [frequencies][components], of a list, or of a subset of rings
  *     state_rings        [bins][2] of such a subset: how many frequencies they have, mean |k|
+ *
+ * Of a range of the realizations of a job also what ranges are put together from (sum_nodes.h):
+ *
+ *     state_range        the range, the realizations of the job, precision and tolerance
+ *     state_parts        [parts][14], the realizations of every node, and the sums of its totals
+ *     state_part_bins    [parts][bins][4], and likewise
+ *     state_part_powers
+ *     state_part_c2
  */
 #ifndef PS_SPECTRA_SPECTRUM_STATE_H
 #define PS_SPECTRA_SPECTRUM_STATE_H
@@ -22,6 +30,16 @@
 /* Adds the state of question number `question`, from 0, to a table that has none of it. */
 pspec_status ps_spectrum_state_add(ps_table *table, size_t question, const ps_spectrum_sums *sums,
                                    ps_error *error) PS_MUST_CHECK;
+
+/* The same of a range (spectrum_state_range.c); part of the other. */
+pspec_status ps_spectrum_state_add_range(ps_table *table, size_t question,
+                                         const ps_spectrum_sums *sums,
+                                         ps_error *error) PS_MUST_CHECK;
+/* Part of ps_spectrum_state_read: nodes and tolerance of sums that have all else, where the table
+ * is of a range. */
+pspec_status ps_spectrum_state_read_range(ps_spectrum_sums *sums, const ps_table *table,
+                                          size_t question, const char *name,
+                                          ps_error *error) PS_MUST_CHECK;
 
 /* Has the table state of that question? */
 bool ps_spectrum_state_is_there(const ps_table *table, size_t question);

@@ -5,6 +5,7 @@
 #include "math/dimension.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 /* Places of state_question: members of ps_frequencies, its rule of bins and its stretch. */
 enum {
@@ -40,11 +41,34 @@ enum {
     TOTALS_SIZE = SAMPLE_SIZES + SUM_SIZE
 };
 
+/* Places of state_range: realizations of the range and of the job, which sums are in single
+ * precision, the tolerance, and what an error follows from; and the columns of state_parts. */
+enum {
+    RANGE_FIRST,
+    RANGE_END,
+    RANGE_ALL,
+    RANGE_SINGLE_BINS,
+    RANGE_SINGLE_POWERS,
+    RANGE_TOLERANCE,
+    RANGE_AMPLITUDE_ERROR,
+    RANGE_SHARE,
+    RANGE_SIZE
+};
+enum { PART_FIRST, PART_NUM, PART_TOTALS, PART_SIZE = PART_TOTALS + 3 * SUM_SIZE };
+
 typedef struct ps_state_name {
     char text[48];
 } ps_state_name;
 
 /* Of an array of that question, "state_bins" or "state_bins_2". */
-ps_state_name ps_state_name_of(const char *stem, size_t question);
+static inline ps_state_name ps_state_name_of(const char *stem, size_t question) {
+    ps_state_name out;
+    if (question == 0) {
+        snprintf(out.text, sizeof out.text, "%s", stem);
+    } else {
+        snprintf(out.text, sizeof out.text, "%s_%zu", stem, question + 1);
+    }
+    return out;
+}
 
 #endif

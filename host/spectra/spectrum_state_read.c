@@ -262,7 +262,8 @@ static pspec_status read_state(reader *in, ps_frequencies *set, ps_spectrum_sums
     if (of_c2 != NULL) {
         take_all(out->c2, of_c2);
     }
-    return read_totals(in, out);
+    PS_TRY(read_totals(in, out));
+    return ps_spectrum_state_read_range(out, in->table, in->question, in->name, in->error);
 }
 
 pspec_status ps_spectrum_state_read(ps_spectrum_sums *out, ps_bins *bins, const ps_table *table,

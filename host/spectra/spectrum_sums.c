@@ -34,6 +34,7 @@ void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
     ps_frequencies_free(&sums->frequencies);
     free(sums->bins);
     free(sums->c2);
+    ps_sum_nodes_free(&sums->nodes);
     *sums = (ps_spectrum_sums){0};
 }
 
@@ -117,9 +118,8 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
 /* By the enumerators. */
 static const char *const normalizations[] = {"power", "effective", "pairs", "integral"};
 
-/* Are both answers to the same question? `which` names b in the sentence. */
-static pspec_status require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
-                                 const char *which, ps_error *error) {
+pspec_status ps_spectrum_sums_compare(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
+                                      const char *which, ps_error *error) {
     PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
     if (a->normalization != b->normalization) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has the normalization %s instead of %s", which,
@@ -154,11 +154,17 @@ static double find_larger(double a, double b) {
 
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) {
-    PS_TRY(require_same(sums, other, which, error));
+    PS_TRY(ps_spectrum_sums_compare(sums, other, which, error));
     if (sums->num_equal > 0 || other->num_equal > 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, or what it is merged with, is of a deterministic set, one realization "
                        "of which stands for all: more of them (--realizations) need no merging",
+                       which);
+    }
+    if (sums->num_all > 0 || other->num_all > 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, or what it is merged with, is of a range of the realizations of a job "
+                       "(--range), and is merged with the other ranges of that job alone",
                        which);
     }
     if (other->totals.num_realizations > MOST_REALIZATIONS - sums->totals.num_realizations) {

@@ -41,6 +41,21 @@ void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor) {
     sums->square_low += other->square * square_low;
 }
 
+/* Sums of squares of 128 equal numbers are off by up to 2^-38.8 in pairs of single precision
+ * (measured, 400000 numbers); what differs by less, 2e-6 of the mean, is taken for
+ * equal, as ps_sums_finish does in double precision. */
+void ps_sums_drop_rounding(ps_sums *sums, uint64_t count) {
+    const double rounding = 0x1p-38;
+    const double n = (double)count;
+    const double sum = sums->sum + sums->sum_low;
+    const double square = sums->square + sums->square_low;
+    if (fabs(n * square - sum * sum) <= rounding * sum * sum) {
+        const double product = sum * sum;
+        sums->square = product / n;
+        sums->square_low = (fma(-sums->square, n, product) + fma(sum, sum, -product)) / n;
+    }
+}
+
 /* The same sum with a low part below the last digit of the high one. */
 static void normalize(double *high, double *low) {
     const double sum = *high + *low;

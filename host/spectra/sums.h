@@ -21,6 +21,12 @@ void ps_sums_add(ps_sums *sums, double x);
 /* Adds the sums of factor * x: those of other realizations whose powers had another unit. With
  * factor 1 (or a power of two), to the pair's last digit what adding the x one by one gives. */
 void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor);
+/* The same of sums that a device had in pairs of single precision, with its bits: late, which
+ * follow early, become both. */
+void ps_sums_merge_singles(ps_sums *late, const ps_sums *early);
+/* Of the sums over all of count realizations, from pairs of single precision: squares that differ
+ * from those of equal numbers by no more than their rounding become theirs. */
+void ps_sums_drop_rounding(ps_sums *sums, uint64_t count);
 /* Mean and standard error s / sqrt(count) with s^2 = sum (x - mean)^2 / (count - 1); nan when
  * count < 2. Numbers that differ by no more than rounding give exactly 0: a standard error below
  * sqrt(count) 2^-53 of the mean is taken for that. */

@@ -34,6 +34,9 @@ static const char *const questions[] = {
     "angular files=points.txt lift=hemisphere morph=glossy:n=3 max-degree=2",
     "pairs sampler=white-sphere points=8 max-degree=2 plot=c.svg",
     "pairs sampler=white-sphere points=8 max-degree=2 output=pairs.npz",
+    "power sampler=white points=4 max-frequency=1 realizations=129 range=0:128 output=range.npz",
+    "pairs sampler=white-sphere points=4 max-degree=1 realizations=129 range=128:129 "
+    "output=last.npz",
     "variance sampler=white sampler=jittered points=4,9 max-frequency=2 realizations=8 "
     "integrand=disk integrand=gaussian rates=auto rank bounds=auto paper-formula "
     "tail=0.9",

@@ -70,6 +70,9 @@ make_inputs() {
     "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.npz
     "$program" pairs --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o pairs.npz
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 --per-ring 2 -o rings.npz
+    # An older program (scripts/same_bits.sh) may not know ranges; then the line that merges them has no input.
+    "$program" power --engine host_direct --sampler white -n 4 -m 130 -k 1 --range 0:128 -o early.npz || :
+    "$program" power --engine host_direct --sampler white -n 4 -m 130 -k 1 --range 128:130 -o late.npz || :
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
     printf '0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n' >own.txt
     printf '2 1 1 .5\n0 0 1 0\n' >lm.txt

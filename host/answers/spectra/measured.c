@@ -63,7 +63,8 @@ static void put_files(ps_header *self, const ps_request *arguments, const ps_pow
     self->status =
         self->status == PSPEC_OK
             ? ps_header_add_files(
-                  self->table, job->question->num_paths, job->spectrum.num_realizations,
+                  self->table, job->question->num_paths,
+                  job->question->range.end > 0 ? job->num_all : job->spectrum.num_realizations,
                   predicts ? " to predict, the others to measure" : ", one average", self->error)
             : self->status;
     ps_header_put(self, "input_format", PS_TEXT(ps_source_format(job->sets.source)));
@@ -133,6 +134,8 @@ static ps_measured measure(const ps_power_job *job) {
         .self_check = accuracy->was_checked ? accuracy->self_check : NAN,
         .length_error = accuracy->length_error,
         .look = job->has_look ? &job->look : NULL,
+        .range = job->question->range,
+        .num_all = job->num_all,
         .job = job,
     };
 }

@@ -15,6 +15,8 @@ typedef struct ps_measured {
     bool is_one_for_all;                    /* realizations are equal, and one was computed */
     double error, self_check, length_error; /* as ps_spectrum_sums has them */
     const ps_sequential_look *look;         /* NULL: nobody looked */
+    ps_realization_range range;             /* of the realizations of a job; {0}: all of them */
+    uint64_t num_all;                       /* of that job */
     /* Header entries, of ps_told_keys, that do not follow from numbers: of points, of the device */
     ps_table *told;
     const ps_power_job *job; /* NULL: of a merged answer */

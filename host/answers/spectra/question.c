@@ -126,6 +126,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .harmonics = find_harmonics(arguments, kind),
         .max_degree = (int64_t)arguments->max_degree,
         .num_realizations = ps_num_realizations_asked(arguments),
+        .range = arguments->range,
         .frequencies = arguments->frequencies,
         .has_rings_of_box = kind == PS_QUESTION_POWER,
         .per_ring_seed = arguments->seed,

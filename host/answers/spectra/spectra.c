@@ -48,6 +48,17 @@ static void warn_of_standard_error(const ps_power_job *job, double standard_erro
     }
 }
 
+/* Nobody plans the range again: the other ranges have the same plan. */
+static void warn_of_tolerance(const ps_power_job *job, const ps_answer_hooks *hooks) {
+    if (job->runner.is_part && !(job->runner.accuracy.error <= job->problem.tolerance)) {
+        ps_answer_warn(hooks,
+                       "the powers of these realizations need a more exact plan: the error is "
+                       "%.2g, above the tolerance %g, and merge will refuse this range; give all "
+                       "ranges a smaller --tol, or --precision double",
+                       job->runner.accuracy.error, job->problem.tolerance);
+    }
+}
+
 /* ---- jobs ---------------------------------------------------------------------------------- */
 
 static pspec_status get_ready(ps_power_job **job, const ps_power_question *question,
@@ -73,6 +84,7 @@ pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
     }
     PS_TRY(ps_power_job_run(*job, error));
     warn_of_standard_error(*job, question->accuracy.standard_error, hooks);
+    warn_of_tolerance(*job, hooks);
     ps_answer_warn_of(hooks, ps_source_trouble((*job)->sets.source));
     ps_answer_tell_profile(hooks, (*job)->device);
     return PSPEC_OK;

@@ -5,9 +5,12 @@
 #define OF_ALL (OF(power) | OF(angular) | OF(pairs))
 static const char *const of_list = "--frequencies";
 static const char *const kept = "-o FILE.npz";
+static const char *const ranged = "-o FILE.npz with --range";
 
 const ps_field_row ps_fields_powers[] = {
     {"merged", "", PS_ENTRIES, OF_ALL, "pointspec merge", "the command line of a part"},
+    {"range", "", PS_ENTRIES, OF_ALL, "--range",
+     "A:B of M: the realizations A to B - 1 of a job of M, a part for merge"},
     {"scatter_frequency", "", PS_ENTRIES, OF(power), "--scatter", "k"},
     {"scatter_real", "", PS_ENTRIES, OF(power), "--scatter", "mean of S(k), real part"},
     {"scatter_imaginary", "", PS_ENTRIES, OF(power), "--scatter", "mean of S(k), imaginary part"},
@@ -76,6 +79,18 @@ const ps_field_row ps_fields_powers[] = {
      "the frequencies, [frequencies][d]"},
     {"state_rings", "", PS_STATE, OF(power), "-o FILE.npz with --per-ring",
      "frequencies that a ring has and their mean |k|, [bins][2]"},
+    {"state_range", "", PS_STATE, OF_ALL, ranged,
+     "A, B and M of the range, whether sums of bins and of frequencies are in single precision, "
+     "the "
+     "tolerance, and of pairs what their error follows from: that of coefficients, and the largest "
+     "sum w^2 / (sum |w|)^2"},
+    {"state_parts", "", PS_STATE, OF_ALL, ranged,
+     "what ranges are put together from, [parts][14]: first realization, number of them, sums of "
+     "N, of W^2 / V and of W"},
+    {"state_part_bins", "", PS_STATE, OF_ALL, ranged, "state_bins of each, [parts][bins][4]"},
+    {"state_part_powers", "", PS_STATE, OF(power), ranged,
+     "state_powers of each, [parts][frequencies][4]"},
+    {"state_part_c2", "", PS_STATE, OF(pairs), ranged, "state_c2 of each, [parts][degrees][4]"},
     {.name = NULL}};
 
 const ps_field_row ps_fields_shape[] = {

@@ -1,4 +1,5 @@
 /* State of spectra, and answers that are merged by it. */
+#include "answers/spectra/ranges.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "files/decimal.h"
@@ -52,11 +53,9 @@ static pspec_status read_asked(ps_request *out, const ps_parts *parts, ps_error 
 
 /* ---- of jobs --------------------------------------------------------------------------------- */
 
-static pspec_status add_job(ps_table *table, const ps_power_job *job, size_t question,
-                            ps_error *error) {
+static pspec_status add_job(ps_table *table, ps_power_job *job, size_t question, ps_error *error) {
     ps_spectrum_sums sums;
-    PS_TRY(ps_estimator_sums(job->runner.estimator, &sums, error));
-    sums.num_equal = job->needs.one_realization ? job->spectrum.num_realizations : 0;
+    PS_TRY(ps_power_job_sums(job, &sums, error));
     const pspec_status status = ps_spectrum_state_add(table, question, &sums, error);
     ps_spectrum_sums_free(&sums);
     return status;
@@ -75,33 +74,6 @@ pspec_status ps_spectra_add_state(ps_table *table, const ps_spectra *spectra,
 }
 
 /* ---- told by parts --------------------------------------------------------------------------- */
-
-/* The entry number `index` of that key, or a missing one. */
-static ps_cell find_entry(const ps_table *table, const char *key, size_t index) {
-    const char *name = NULL;
-    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
-        const ps_cell cell = ps_table_meta(table, i, &name);
-        if (strcmp(name, key) == 0 && index-- == 0) {
-            return cell;
-        }
-    }
-    return PS_MISSING;
-}
-
-static size_t count_entries(const ps_table *table, const char *key) {
-    size_t num = 0;
-    const char *name = NULL;
-    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
-        ps_table_meta(table, i, &name);
-        num += strcmp(name, key) == 0;
-    }
-    return num;
-}
-
-static bool is_same(const ps_cell *a, const ps_cell *b) {
-    return a->kind == b->kind && a->integer == b->integer && a->number == b->number &&
-           (a->kind != PS_CELL_TEXT || strcmp(a->text, b->text) == 0);
-}
 
 static void append_cell(ps_text *out, const ps_cell *cell) {
     char number[PS_DECIMAL_BYTES];
@@ -122,11 +94,11 @@ static pspec_status tell_entry(ps_table *told, const ps_parts *parts, const char
     ps_cell first = PS_MISSING;
     size_t num = 0;
     for (size_t p = 0; p < parts->num; p++) {
-        const ps_cell cell = find_entry(parts->tables[p], key, index);
+        const ps_cell cell = ps_entry_find(parts->tables[p], key, index);
         bool is_new = cell.kind != PS_CELL_MISSING;
         for (size_t before = 0; is_new && before < p; before++) {
-            const ps_cell other = find_entry(parts->tables[before], key, index);
-            is_new = !is_same(&cell, &other);
+            const ps_cell other = ps_entry_find(parts->tables[before], key, index);
+            is_new = !ps_cells_are_same(&cell, &other);
         }
         if (is_new) {
             ps_text_append(&text, "%s", num > 0 ? "; " : "");
@@ -149,7 +121,7 @@ static pspec_status tell_key(ps_table *told, const ps_parts *parts, const char *
                              size_t question, size_t num_questions, ps_error *error) {
     size_t num = 0;
     for (size_t p = 0; p < parts->num; p++) {
-        const size_t of_part = count_entries(parts->tables[p], key);
+        const size_t of_part = ps_entry_count(parts->tables[p], key);
         num = of_part > num ? of_part : num;
     }
     if (num == num_questions) {
@@ -166,12 +138,12 @@ static pspec_status tell_parts(ps_table *told, const ps_parts *parts, ps_error *
     static const char key[] = "merged";
     for (size_t p = 0; p < parts->num; p++) {
         const ps_table *const part = parts->tables[p];
-        const size_t num = count_entries(part, key);
+        const size_t num = ps_entry_count(part, key);
         for (size_t i = 0; i < num; i++) {
-            PS_TRY(ps_table_add_meta(told, key, find_entry(part, key, i), error));
+            PS_TRY(ps_table_add_meta(told, key, ps_entry_find(part, key, i), error));
         }
         if (num == 0) {
-            PS_TRY(ps_table_add_meta(told, key, find_entry(part, "command", 0), error));
+            PS_TRY(ps_table_add_meta(told, key, ps_entry_find(part, "command", 0), error));
         }
     }
     return PSPEC_OK;
@@ -215,13 +187,15 @@ static pspec_status merge_sums(merged *self, const ps_parts *parts, size_t quest
         ps_bins bins;
         PS_TRY(ps_spectrum_state_read(&other, &bins, parts->tables[p], question, parts->names[p],
                                       error));
+        const bool are_ranges = self->sums.num_all > 0 && other.num_all > 0;
         const pspec_status status =
-            ps_spectrum_sums_merge(&self->sums, &other, parts->names[p], error);
+            are_ranges ? ps_spectrum_sums_join(&self->sums, &other, parts->names + p - 1, error)
+                       : ps_spectrum_sums_merge(&self->sums, &other, parts->names[p], error);
         ps_spectrum_sums_free(&other);
         ps_bins_free(&bins);
         PS_TRY(status);
     }
-    return PSPEC_OK;
+    return self->sums.num_all > 0 ? ps_ranges_close(&self->sums, error) : PSPEC_OK;
 }
 
 static pspec_status look_at_errors(merged *self, const ps_request *request, ps_error *error) {
@@ -254,6 +228,11 @@ static pspec_status finish(merged *self, ps_measured *out, const ps_request *req
     out->self_check = sums->self_check;
     out->length_error = sums->length_error;
     out->look = has_look ? &self->look : NULL;
+    if (sums->num_all > 0) {
+        out->range.first = ps_spectrum_sums_first(sums);
+        out->range.end = ps_spectrum_sums_end(sums);
+        out->num_all = sums->num_all;
+    }
     return PSPEC_OK;
 }
 
@@ -279,7 +258,7 @@ static pspec_status compare_leads(const ps_parts *parts, const ps_lead *lead, si
         const ps_lead other = find_lead(parts->tables[p], row);
         bool is_one = other.num == lead->num;
         for (size_t i = 0; is_one && i < lead->num; i++) {
-            is_one = is_same(&lead->cells[i], &other.cells[i]);
+            is_one = ps_cells_are_same(&lead->cells[i], &other.cells[i]);
         }
         if (!is_one) {
             return ps_fail(error, PSPEC_ERROR_INPUT,
@@ -329,8 +308,8 @@ static pspec_status tabulate(ps_answer *out, merged *each, ps_measured *all, con
     return add_asked(out->table, &request, error);
 }
 
-pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, const ps_spectra_table *kind,
-                              ps_error *error) {
+static pspec_status merge_in_order(ps_answer *out, const ps_parts *parts,
+                                   const ps_spectra_table *kind, ps_error *error) {
     const size_t num = count_questions(parts->tables[0]);
     merged *each = NULL;
     ps_measured *all = NULL;
@@ -352,5 +331,17 @@ out:
     }
     ps_measured_free(all, num);
     free(each);
+    return status;
+}
+
+pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, const ps_spectra_table *kind,
+                              ps_error *error) {
+    ps_pool memory = {0};
+    ps_parts sorted;
+    pspec_status status = ps_ranges_sort(&sorted, &memory, parts, error);
+    if (status == PSPEC_OK) {
+        status = merge_in_order(out, &sorted, kind, error);
+    }
+    ps_pool_free(&memory);
     return status;
 }

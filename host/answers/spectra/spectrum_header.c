@@ -153,6 +153,16 @@ static void put_different_points(ps_header *head, const ps_request *arguments,
                       "integrals want --normalize integral"));
 }
 
+/* A part of a job. */
+static void put_range(ps_header *head, const ps_measured *self) {
+    char text[96];
+    snprintf(text, sizeof text, "%" PRIu64 ":%" PRIu64 " of %" PRIu64, self->range.first,
+             self->range.end, self->num_all);
+    if (self->range.end > 0) {
+        ps_header_put(head, "range", PS_TEXT(text));
+    }
+}
+
 static void put_points(ps_header *head, bool with_range, const ps_measured *self) {
     const ps_spectrum *const spectrum = self->spectrum;
     const ps_points_range range = {spectrum->mean_points, spectrum->smallest_points,
@@ -161,6 +171,7 @@ static void put_points(ps_header *head, bool with_range, const ps_measured *self
                        ? ps_header_add_points(head->table, &range, with_range, head->error)
                        : head->status;
     ps_header_put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
+    put_range(head, self);
     if (spectrum->num_realizations == 1) {
         ps_header_put(
             head, "standard_error",

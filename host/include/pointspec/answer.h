@@ -87,7 +87,12 @@ PSPEC_EXPORT pspec_status pspec_answer_load(pspec_answer **out, pspec_context *c
  * precision), so that means over bins and their standard errors are the same doubles but for rare
  * last bits. The error is the largest of theirs. #PSPEC_ERROR_INPUT with the difference, where
  * kind, dimension, frequencies, bins or normalization differ, or where answers of the kind have no
- * state. */
+ * state.
+ *
+ * Ranges of the realizations of one job (option "range"), in any order, are merged to a larger
+ * range, and all of them to the answer of the job, to the bit. #PSPEC_ERROR_INPUT where they
+ * overlap, leave a gap, or are of different jobs; #PSPEC_ERROR_TOLERANCE where the powers of all
+ * need another plan. */
 PSPEC_EXPORT pspec_status pspec_answer_merge(pspec_answer **out, pspec_context *context,
                                              const pspec_answer *const *parts, size_t num);
 

@@ -136,6 +136,8 @@ static ps_estimator_options choose_options(void *payload) {
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
         .no_frequency_errors = job->needs.no_frequency_errors,
         .self_check = !question->accuracy.no_self_check,
+        .is_range = question->range.end > 0,
+        .first = question->range.first,
         .normalization = question->normalization,
         .coefficients = job->coefficients,
         .keep = job->problem.keeps_coefficients ? ps_power_coefficients_keep : NULL,
@@ -164,6 +166,7 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
 static pspec_status begin(void *payload, ps_error *error) {
     ps_power_job *const job = payload;
     job->num_kept = 0;
+    PS_TRY(ps_power_range_begin(job, error));
     PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->runner.estimator), error));
     return ps_power_device_sets_begin(job, error);
 }
@@ -172,7 +175,8 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
     ps_power_job *const job = payload;
     ps_power_sets *const sets = &job->sets;
     ps_estimator *const estimator = job->runner.estimator;
-    const uint64_t asked = job->question->num_sets;
+    const uint64_t asked =
+        job->question->range.end > 0 ? ps_power_range_count(job) : job->question->num_sets;
     const uint64_t left = asked > 0 ? asked - job->runner.num_done : UINT64_MAX;
     most = most < left ? most : left;
     *num = 0;
@@ -272,6 +276,9 @@ static uint64_t count_repeats(const ps_power_question *question) {
 static pspec_status finish(ps_power_job *job, ps_error *error) {
     ps_estimator_describe(job->runner.estimator, &job->description);
     PS_TRY(ps_text_check(&job->description, error));
+    if (job->question->range.end > 0) {
+        return ps_power_range_finish(job, error);
+    }
     PS_TRY(ps_estimator_spectrum(job->runner.estimator, &job->spectrum, error));
     PS_TRY(find_c2(job, error));
     PS_TRY(find_weighted(job, error));
@@ -294,9 +301,19 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
                               .device = job->device,
                               .standard_error = job->question->accuracy.standard_error,
                               .is_sequential = job->needs.sequential,
-                              .spec = &job->question->limits.checkpoint};
+                              .spec = &job->question->limits.checkpoint,
+                              .is_part = job->question->range.end > 0};
     PS_TRY(ps_runner_run(&job->runner, error));
+    PS_TRY(ps_power_range_end(job, error));
     return finish(job, error);
+}
+
+pspec_status ps_power_job_sums(ps_power_job *job, ps_spectrum_sums *out, ps_error *error) {
+    PS_TRY(ps_estimator_sums(job->runner.estimator, out, error));
+    out->num_equal = job->needs.one_realization ? job->spectrum.num_realizations : 0;
+    out->num_all = job->question->range.end > 0 ? job->num_all : 0;
+    out->tolerance = job->problem.tolerance;
+    return PSPEC_OK;
 }
 
 /* ---- again ------------------------------------------------------------------------------- */

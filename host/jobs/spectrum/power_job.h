@@ -24,10 +24,11 @@ typedef struct ps_power_question {
     const char *const *paths;
     size_t num_paths;
     ps_point_options point_options;
-    ps_weights_spec weights; /* never optimal */
-    uint64_t whole_bytes;    /* of a set of a file, see ps_source_options */
-    ps_source *source;       /* borrowed, of the files, at their first set; NULL: opened here */
-    uint64_t num_sets;       /* the first of the files alone; 0: all */
+    ps_weights_spec weights;    /* never optimal */
+    uint64_t whole_bytes;       /* of a set of a file, see ps_source_options */
+    ps_source *source;          /* borrowed, of the files, at their first set; NULL: opened here */
+    uint64_t num_sets;          /* the first of the files alone; 0: all */
+    ps_realization_range range; /* the others are left to other jobs; not with num_sets */
 
     /* degrees, where points are on the sphere; frequencies are then not looked at */
     bool on_sphere;
@@ -83,7 +84,8 @@ typedef struct ps_power_job {
     ps_needs needs;
     char useless[48];           /* the skip of frequencies that do not matter; "": there is none */
     ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
-    uint64_t num_realizations;  /* that are computed; 0: unknown */
+    uint64_t num_realizations;  /* that are computed; 0: unknown. With a range those of all jobs */
+    uint64_t num_all;           /* the same, known after run, also of files */
     ps_problem problem;
     ps_device *device; /* NULL: none */
     bool owns_device;
@@ -131,6 +133,11 @@ pspec_status ps_power_job_renew(ps_power_job *job, const ps_power_question *ques
 /* For who shows the shares of skips: makes those that depend on the plan better than from counts,
  * by planning again, which takes milliseconds. Before run. */
 void ps_power_job_rate_skips(ps_power_job *job);
+
+/* Sums of a job that has run, those of a range with what they are merged by; freed by the caller.
+ */
+pspec_status ps_power_job_sums(ps_power_job *job, ps_spectrum_sums *out,
+                               ps_error *error) PS_MUST_CHECK;
 
 /* Gives the memory back that only realizations need; after run. */
 void ps_power_job_release(ps_power_job *job);

@@ -15,6 +15,22 @@ pspec_status ps_power_source_begin(ps_power_job *job, ps_error *error) PS_MUST_C
  * all. */
 pspec_status ps_power_source_sampler(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 
+/* ---- a range of the realizations (power_range.c, power_range_sets.c) ---- */
+
+/* Refuses what has no ranges, and those that are not of this job as far as that is known. */
+pspec_status ps_power_range_check(const ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+/* The same where there are `all` realizations. */
+pspec_status ps_power_range_check_end(const ps_power_job *job, uint64_t all,
+                                      ps_error *error) PS_MUST_CHECK;
+/* Realizations that this job computes; 0: unknown. */
+uint64_t ps_power_range_count(const ps_power_job *job);
+/* Passes over those before the range. */
+pspec_status ps_power_range_begin(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+/* Counts those behind it, finds job->num_all, and refuses a range beyond. */
+pspec_status ps_power_range_end(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+/* The averages of a range. */
+pspec_status ps_power_range_finish(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+
 /* Does the device make the sampler's points, as the plan is? */
 bool ps_power_job_leaves_points(const ps_power_job *job);
 /* Then tells the estimator, before the first realization; and ps_runner_kind.give. */

@@ -181,6 +181,38 @@ pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t m
     return PSPEC_OK;
 }
 
+/* ---- sets that nobody takes -------------------------------------------------------------- */
+
+static pspec_status pass_next(ps_power_sets *sets, ps_error *error) {
+    ps_point_set *const set = &sets->next;
+    const pspec_pattern pattern = {set->dimension, set->num_points, set->points, NULL};
+    bool ends = sets->part.is_whole;
+    look_at(sets, &pattern, ends);
+    while (!ends) {
+        set->num_points = 0;
+        PS_TRY(ps_source_more(sets->source, set, sets->part.block_points, &ends, error));
+    }
+    sets->has_next = false;
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num,
+                                pspec_status (*look)(void *payload, ps_error *error), void *payload,
+                                ps_passed_sets *passed, ps_error *error) {
+    bool has_set = true;
+    for (*passed = (ps_passed_sets){0}; passed->num < num; passed->num++) {
+        PS_TRY(look(payload, error));
+        PS_TRY(ps_power_sets_peek(sets, &has_set, error));
+        if (!has_set) {
+            return PSPEC_OK;
+        }
+        const uint64_t num_points = ps_power_sets_next_points(sets);
+        passed->longest = num_points > passed->longest ? num_points : passed->longest;
+        PS_TRY(pass_next(sets, error));
+    }
+    return PSPEC_OK;
+}
+
 /* ---- sets in blocks ---------------------------------------------------------------------- */
 
 static void drop_points(ps_point_set *set, size_t num) {

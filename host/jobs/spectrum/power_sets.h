@@ -79,6 +79,16 @@ pspec_status ps_power_sets_is_last(ps_power_sets *sets, bool *is_last,
                                    ps_error *error) PS_MUST_CHECK;
 uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
 
+/* Sets that were passed over. */
+typedef struct ps_passed_sets {
+    uint64_t num, longest; /* the largest number of points of one */
+} ps_passed_sets;
+/* Passes over the next sets, num at most. look is asked before each, and may end it by a failure.
+ */
+pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num,
+                                pspec_status (*look)(void *payload, ps_error *error), void *payload,
+                                ps_passed_sets *passed, ps_error *error) PS_MUST_CHECK;
+
 /* Fills patterns[*num] with the next sets, `most` at most. The batch ends before a set that comes
  * in blocks, if the estimator can stream. Where *num is 0 and has_next is true, the next set is
  * such a one, for ps_power_sets_stream; where has_next is false, there are no more. */

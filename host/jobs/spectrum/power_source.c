@@ -10,7 +10,7 @@ static void turn(ps_power_job *job) {
 pspec_status ps_power_job_tell(void *payload, ps_error *error) {
     const ps_power_job *const job = payload;
     return ps_watch_tell(&job->question->watch, "realizations", job->runner.num_done,
-                         job->num_realizations, NULL, error);
+                         ps_power_range_count(job), NULL, error);
 }
 
 bool ps_power_job_should_stop(void *payload) {
@@ -27,8 +27,10 @@ pspec_status ps_power_source_sampler(ps_power_job *job, ps_error *error) {
     job->request = *question->sampler;
     job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
     job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
-    const ps_sets_options options = ps_limits_sets(&question->limits, question->accuracy.no_skip);
-    PS_TRY(ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, &options,
+    ps_sets_options options = ps_limits_sets(&question->limits, question->accuracy.no_skip);
+    options.first = question->range.first;
+    PS_TRY(ps_power_range_check(job, error));
+    PS_TRY(ps_source_sampler(&job->sets.source, &job->request, ps_power_range_count(job), &options,
                              &(ps_watch){ask_while_sampling, job}, error));
     turn(job);
     return PSPEC_OK;

@@ -93,4 +93,17 @@ void ps_accumulator_weighted(const ps_accumulator *accumulator, ps_mean *means);
 /* The same by blocks of realizations, [num_weighted], until the next call. */
 const ps_block_sums *ps_accumulator_weighted_blocks(const ps_accumulator *accumulator);
 
+/* ---- rows, of which ranges of realizations are put together (spectra/sum_nodes.h) --------- */
+
+/* Settles, and brings rows of a device to the host, where the next two find them. */
+pspec_status ps_accumulator_read_rows(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
+/* Row 0 is the open block, 1 + k level k, of those that realizations since the last restart have:
+ * bins[bins->num], frequencies[num_frequencies] or NULL. */
+void ps_accumulator_get_row(const ps_accumulator *accumulator, unsigned row, ps_sums *bins,
+                            ps_sums *frequencies);
+/* Which of them are in pairs of single precision. */
+void ps_accumulator_find_singles(const ps_accumulator *accumulator, bool *bins, bool *frequencies);
+/* Begins sums of bins and frequencies with no realization, all else goes on; after read_rows. */
+void ps_accumulator_restart(ps_accumulator *accumulator);
+
 #endif

@@ -266,6 +266,21 @@ static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
     return ps_device_states_get(&self->states, self->options.slots[frequency]);
 }
 
+pspec_status ps_device_accumulator_read(ps_device_accumulator *accumulator, ps_error *error) {
+    return accumulator->options.want_frequencies
+               ? ps_device_states_read(&accumulator->states, error)
+               : PSPEC_OK;
+}
+
+ps_sums ps_device_accumulator_row(const ps_device_accumulator *accumulator, unsigned row,
+                                  size_t frequency) {
+    return ps_device_states_row(&accumulator->states, row, accumulator->options.slots[frequency]);
+}
+
+void ps_device_accumulator_restart(ps_device_accumulator *accumulator) {
+    accumulator->states.count = 0;
+}
+
 typedef struct state_sums {
     const ps_device_accumulator *accumulator;
     ps_sums *sums;

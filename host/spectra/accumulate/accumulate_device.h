@@ -34,6 +34,12 @@ pspec_status ps_device_accumulator_walk(ps_device_accumulator *accumulator, ps_s
 /* Only with want_frequencies: [num_frequencies] */
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) PS_MUST_CHECK;
+/* The rows of these sums: read brings them to the host, restart begins with none. */
+pspec_status ps_device_accumulator_read(ps_device_accumulator *accumulator,
+                                        ps_error *error) PS_MUST_CHECK;
+ps_sums ps_device_accumulator_row(const ps_device_accumulator *accumulator, unsigned row,
+                                  size_t frequency);
+void ps_device_accumulator_restart(ps_device_accumulator *accumulator);
 pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator, ps_mean *means,
                                                ps_error *error) PS_MUST_CHECK;
 
@@ -80,6 +86,8 @@ pspec_status ps_device_states_add(ps_device_states *states, const ps_rows *rows,
 
 /* Brings the sums to the host, where ps_device_states_get finds them. */
 pspec_status ps_device_states_read(ps_device_states *states, ps_error *error) PS_MUST_CHECK;
+/* One row as it is; those that states->count does not have are left from before. */
+ps_sums ps_device_states_row(const ps_device_states *states, unsigned row, size_t slot);
 ps_sums ps_device_states_get(const ps_device_states *states, size_t slot);
 /* Rows that there are of count realizations, to a checkpoint or from one. */
 pspec_status ps_device_states_walk(ps_device_states *states, ps_snapshot *snapshot,

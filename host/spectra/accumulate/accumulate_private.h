@@ -1,4 +1,4 @@
-/* Inside of ps_accumulator, for accumulate.c and accumulate_walk.c only. */
+/* Inside of ps_accumulator, for the files accumulate*.c only. */
 #ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_PRIVATE_H
 #define PS_SPECTRA_ACCUMULATE_ACCUMULATE_PRIVATE_H
 

@@ -118,39 +118,28 @@ pspec_status ps_device_states_read(ps_device_states *states, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Sums of squares of 128 equal numbers are off by up to 2^-38.8 in pairs of single precision
- * (measured, 400000 numbers); what differs by less, 2e-6 of the mean, is taken for
- * equal, as ps_sums_finish does in double precision. */
-static void drop_rounding(ps_sums *sums, uint64_t count) {
-    const double rounding = 0x1p-38;
-    const double n = (double)count;
-    const double sum = sums->sum + sums->sum_low;
-    const double square = sums->square + sums->square_low;
-    if (fabs(n * square - sum * sum) <= rounding * sum * sum) {
-        const double product = sum * sum;
-        sums->square = product / n;
-        sums->square_low = (fma(-sums->square, n, product) + fma(sum, sum, -product)) / n;
+ps_sums ps_device_states_row(const ps_device_states *states, unsigned row, size_t slot) {
+    const double none = states->mean_only ? NAN : 0;
+    double state[PS_NUM_STATES] = {0, 0, none, none};
+    for (size_t i = 0; i < num_states(states); i++) {
+        const size_t at = (i * (1 + (size_t)states->levels) + row) * states->stride + slot;
+        state[i] = states->real_bytes == sizeof(float) ? (double)((const float *)states->host)[at]
+                                                       : ((const double *)states->host)[at];
     }
+    return (ps_sums){state[PS_STATE_SUM], state[PS_STATE_SUM_LOW], state[PS_STATE_SQUARE],
+                     state[PS_STATE_SQUARE_LOW]};
 }
 
 ps_sums ps_device_states_get(const ps_device_states *states, size_t slot) {
     ps_sums sums = states->mean_only ? PS_SUMS_MEAN_ONLY : (ps_sums){0};
     for (unsigned row = 0; row <= states->levels; row++) {
-        double state[PS_NUM_STATES] = {0};
-        for (size_t i = 0; i < num_states(states); i++) {
-            const size_t at = (i * (1 + (size_t)states->levels) + row) * states->stride + slot;
-            state[i] = states->real_bytes == sizeof(float)
-                           ? (double)((const float *)states->host)[at]
-                           : ((const double *)states->host)[at];
-        }
         if (ps_running_has_row(states->count, row)) {
-            const ps_sums part = {state[PS_STATE_SUM], state[PS_STATE_SUM_LOW],
-                                  state[PS_STATE_SQUARE], state[PS_STATE_SQUARE_LOW]};
+            const ps_sums part = ps_device_states_row(states, row, slot);
             ps_sums_merge(&sums, &part, 1);
         }
     }
     if (states->real_bytes == sizeof(float) && states->count > 0) {
-        drop_rounding(&sums, states->count);
+        ps_sums_drop_rounding(&sums, states->count);
     }
     return sums;
 }

@@ -1,178 +1,18 @@
 /* Answers that are merged: parts are what one job answers for all of their sets, in any grouping
  * and through files; what does not belong together, and state that no answer has, is refused. */
-#include "answers/kind.h"
-#include "harness.h"
-#include "spectra/spectrum_state.h"
-#include "test_folder.h"
+#include "harness_answers.h"
 
 #include <math.h>
-#include <stdarg.h>
 
-enum { LINE_BYTES = 1024, NUM_PARTS = 3, LEAST_POINTS = 7 };
+enum { LINE_BYTES = ANSWERS_LINE, NUM_PARTS = ANSWERS_PARTS };
 static const int sets_of_parts[NUM_PARTS] = {3, 1, 5};
-
-/* ---- sets ------------------------------------------------------------------------------------ */
-
-static double next_number(uint64_t *state) {
-    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
-/* Sets of N = 7, or with varies 7, 8, 9, .., each in numbers of [0,1) and a weight. */
-static void write_part(const test_folder *folder, int part, unsigned columns, bool varies) {
-    char name[16];
-    char path[TEST_PATH_BYTES];
-    uint64_t state = 1 + (uint64_t)part;
-    snprintf(name, sizeof name, "%d.txt", part);
-    FILE *const file = fopen(test_path(folder, name, path), "w");
-    assert_non_null(file);
-    for (int set = 0; set < sets_of_parts[part]; set++) {
-        fputs(set > 0 ? "#\n" : "", file);
-        for (int i = 0; i < LEAST_POINTS + (varies ? set + part : 0); i++) {
-            for (unsigned k = 0; k < columns; k++) {
-                fprintf(file, "%.17g ", next_number(&state));
-            }
-            fprintf(file, "%.17g\n", 0.5 + next_number(&state));
-        }
-    }
-    assert_int_equal(fclose(file), 0);
-}
-
-static void write_parts(const test_folder *folder, unsigned columns, bool varies) {
-    for (int part = 0; part < NUM_PARTS; part++) {
-        write_part(folder, part, columns, varies);
-    }
-}
-
-/* ---- answers --------------------------------------------------------------------------------- */
-
-static ps_device *device; /* for those that need one */
-
-static const ps_kind *find_kind(const char *name) {
-    size_t i = 0;
-    while (strcmp(ps_kinds[i]->name, name) != 0) {
-        i++;
-    }
-    return ps_kinds[i];
-}
-
-static ps_option_id find_option(const char *word) {
-    int id = 0;
-    while (word[1] == '-' ? strcmp(ps_options[id].name, word + 2) != 0
-                          : ps_options[id].letter != word[1]) {
-        id++;
-    }
-    return (ps_option_id)id;
-}
-
-/* The options of a command line, cut into words. */
-static void take_options(ps_request *request, const ps_kind *kind, char *line) {
-    for (char *word = strtok(line, " "); word != NULL; word = strtok(NULL, " ")) {
-        const ps_option_id id = find_option(word);
-        const bool is_flag = ps_options[id].metavar == NULL;
-        request->is_given[id] = true;
-        assert_ok(ps_option_set(request, id, ps_command_words(kind, id),
-                                is_flag ? NULL : strtok(NULL, " "), error));
-    }
-}
-
-/* Answers the command line; parts from first to last are its files where there is a folder. */
-static ps_answer ask(const test_folder *folder, int first, int last, const char *text) {
-    char line[LINE_BYTES];
-    char paths[NUM_PARTS][TEST_PATH_BYTES];
-    const char *files[NUM_PARTS];
-    ps_request request = ps_request_default;
-    ps_answer answer;
-    const size_t length = strcspn(text, " ");
-    snprintf(line, sizeof line, "%.*s", (int)length, text);
-    const ps_kind *const kind = find_kind(line);
-    snprintf(line, sizeof line, "%s", text + length);
-    take_options(&request, kind, line);
-    for (int part = first; folder != NULL && part <= last; part++) {
-        char name[16];
-        snprintf(name, sizeof name, "%d.txt", part);
-        files[request.num_files++] = test_path(folder, name, paths[part]);
-    }
-    request.files = files;
-    request.command_line = text;
-    request.wants_state = true;
-    assert_ok(ps_answer_make(&answer, kind, &request, &(ps_answer_hooks){.device = device}, error));
-    return answer;
-}
-
-static pspec_status try_merge(ps_answer *out, size_t num, const ps_table *const *tables,
-                              ps_error *error) {
-    static const char *const names[] = {"the first", "the second", "the third"};
-    const ps_parts parts = {tables, names, num, "merge"};
-    return ps_answer_merge(out, &parts, error);
-}
-
-static ps_answer merge(size_t num, ...) {
-    const ps_table *tables[NUM_PARTS];
-    ps_answer out;
-    va_list list;
-    va_start(list, num);
-    for (size_t i = 0; i < num; i++) {
-        tables[i] = va_arg(list, const ps_answer *)->table;
-    }
-    va_end(list);
-    assert_ok(try_merge(&out, num, tables, error));
-    return out;
-}
-
-/* ---- comparison ------------------------------------------------------------------------------ */
 
 /* Of sums over realizations, and of what is subtracted in the anisotropy. */
 static const double rounding = 1e-14;
 
-static bool is_near(ps_cell a, ps_cell b, double tolerance) {
-    return a.kind == b.kind && a.integer == b.integer &&
-           (a.kind != PS_CELL_TEXT || strcmp(a.text, b.text) == 0) &&
-           (a.kind != PS_CELL_NUMBER || a.number == b.number ||
-            fabs(a.number - b.number) <= tolerance * fmax(1, fabs(b.number)));
-}
-
-/* What is of single jobs. */
-static bool is_told(const char *key) {
-    static const char *const keys[] = {"command", "merged", "input", "self_check", "engine"};
-    size_t i = 0;
-    while (i < sizeof keys / sizeof keys[0] && strcmp(keys[i], key) != 0) {
-        i++;
-    }
-    return i < sizeof keys / sizeof keys[0];
-}
-
-static void assert_near(const ps_table *a, const ps_table *b, double tolerance, const char *what) {
-    assert_int_equal(ps_table_num_columns(a), ps_table_num_columns(b));
-    assert_int_equal(ps_table_num_rows(a), ps_table_num_rows(b));
-    for (size_t row = 0; row < ps_table_num_rows(a); row++) {
-        for (size_t column = 0; column < ps_table_num_columns(a); column++) {
-            const ps_cell cells[] = {ps_table_cell(a, row, column), ps_table_cell(b, row, column)};
-            if (!is_near(cells[0], cells[1], tolerance)) {
-                fail_msg("%s: %s of row %zu: %.17g, %.17g", what, ps_table_column_name(a, column),
-                         row, cells[0].number, cells[1].number);
-            }
-        }
-    }
-    for (size_t i = 0; i < ps_table_num_meta(a); i++) {
-        const char *key = NULL;
-        const ps_cell cell = ps_table_meta(a, i, &key);
-        if (!is_told(key) && !is_near(cell, ps_table_find_meta(b, key), tolerance)) {
-            fail_msg("%s: %s", what, key);
-        }
-    }
-}
-
-static void assert_same_arrays(const ps_table *a, const ps_table *b) {
-    assert_int_equal(ps_table_num_arrays(a), ps_table_num_arrays(b));
-    for (size_t i = 0; i < ps_table_num_arrays(a); i++) {
-        const char *name = NULL;
-        bool is_state = false;
-        const ps_npy_array *const array = ps_table_array(a, i, &name, &is_state);
-        const ps_npy_array *const other = ps_table_find_array(b, name);
-        assert_non_null(other);
-        assert_int_equal(array->num, other->num);
-        assert_memory_equal(array->data, other->data, array->num * sizeof *array->data);
+static void write_parts(const test_folder *folder, unsigned columns, bool varies) {
+    for (int part = 0; part < NUM_PARTS; part++) {
+        answers_write_sets(folder, part, sets_of_parts[part], columns, varies);
     }
 }
 
@@ -183,28 +23,28 @@ static void assert_same_arrays(const ps_table *a, const ps_table *b) {
 static void check_parts(const test_folder *folder, const char *text) {
     char path[TEST_PATH_BYTES];
     ps_answer read = {0};
-    ps_answer whole = ask(folder, 0, NUM_PARTS - 1, text);
+    ps_answer whole = answers_ask(folder, 0, NUM_PARTS - 1, text);
     ps_answer parts[NUM_PARTS];
     for (int i = 0; i < NUM_PARTS; i++) {
-        parts[i] = ask(folder, i, i, text);
+        parts[i] = answers_ask(folder, i, i, text);
     }
-    ps_answer all = merge(3, &parts[0], &parts[1], &parts[2]);
-    assert_near(whole.table, all.table, rounding, text);
-    ps_answer first = merge(2, &parts[0], &parts[1]);
-    ps_answer last = merge(2, &parts[1], &parts[2]);
-    ps_answer left = merge(2, &first, &parts[2]);
-    ps_answer right = merge(2, &parts[0], &last);
-    assert_near(all.table, left.table, 0, text);
-    assert_near(all.table, right.table, rounding, text);
-    assert_same_arrays(all.table, left.table);
-    ps_answer one = merge(1, &whole);
-    assert_near(whole.table, one.table, 0, text);
-    assert_same_arrays(whole.table, one.table);
+    ps_answer all = answers_merge(3, &parts[0], &parts[1], &parts[2]);
+    answers_assert_near(whole.table, all.table, rounding, text);
+    ps_answer first = answers_merge(2, &parts[0], &parts[1]);
+    ps_answer last = answers_merge(2, &parts[1], &parts[2]);
+    ps_answer left = answers_merge(2, &first, &parts[2]);
+    ps_answer right = answers_merge(2, &parts[0], &last);
+    answers_assert_near(all.table, left.table, 0, text);
+    answers_assert_near(all.table, right.table, rounding, text);
+    answers_assert_same_arrays(all.table, left.table);
+    ps_answer one = answers_merge(1, &whole);
+    answers_assert_near(whole.table, one.table, 0, text);
+    answers_assert_same_arrays(whole.table, one.table);
     assert_ok(ps_table_write(all.table, test_path(folder, "all.npz", path), PS_FORMAT_NPZ, error));
     assert_ok(ps_table_read_npz(&read.table, path, error));
-    assert_same_arrays(all.table, read.table);
-    ps_answer again = merge(1, &read);
-    assert_near(all.table, again.table, 0, text);
+    answers_assert_same_arrays(all.table, read.table);
+    ps_answer again = answers_merge(1, &read);
+    answers_assert_near(all.table, again.table, 0, text);
     ps_answer *const made[] = {&whole, &parts[0], &parts[1], &parts[2], &all,  &first,
                                &last,  &left,     &right,    &one,      &read, &again};
     for (size_t i = 0; i < sizeof made / sizeof made[0]; i++) {
@@ -240,11 +80,10 @@ static void merged_parts_are_the_whole(void **state) {
 
 /* On a device frequencies have sums of fewer bits. */
 static void devices_have_state(void **state) {
-    device = test_open_device();
+    answers_open_device();
     write_parts(*state, 2, false);
     check_parts(*state, "power -k 3 --engine torus_direct --weights column");
-    ps_device_close(device);
-    device = NULL;
+    answers_close_device();
 }
 
 /* Several questions in one answer, each by its own frequencies. */
@@ -256,10 +95,10 @@ static void all_questions_are_merged(void **state) {
     ps_answer parts[2];
     for (int i = 0; i < 2; i++) {
         snprintf(text[i], sizeof text[i], line, i == 0 ? "1" : "2");
-        parts[i] = ask(NULL, 0, 0, text[i]);
+        parts[i] = answers_ask(NULL, 0, 0, text[i]);
     }
-    ps_answer all = merge(2, &parts[0], &parts[1]);
-    ps_answer back = merge(2, &parts[1], &parts[0]);
+    ps_answer all = answers_merge(2, &parts[0], &parts[1]);
+    ps_answer back = answers_merge(2, &parts[1], &parts[0]);
     assert_int_equal(ps_table_num_rows(all.table), ps_table_num_rows(parts[0].table));
     assert_string_equal(ps_table_find_meta(all.table, "seed").text, "1; 2");
     assert_string_equal(ps_table_find_meta(all.table, "sampler").text, "white");
@@ -272,8 +111,8 @@ static void all_questions_are_merged(void **state) {
                              ps_table_cell(parts[1].table, row, power).number) /
                             2;
         assert_true(fabs(ps_table_cell(all.table, row, power).number / mean - 1) < rounding);
-        assert_true(is_near(ps_table_cell(all.table, row, power),
-                            ps_table_cell(back.table, row, power), rounding));
+        assert_true(answers_are_near(ps_table_cell(all.table, row, power),
+                                     ps_table_cell(back.table, row, power), rounding));
     }
     ps_answer_free(&all);
     ps_answer_free(&back);
@@ -289,11 +128,11 @@ static void all_questions_are_merged(void **state) {
 #define SPHERE " --engine host_direct --sampler white-sphere -n 8 -m 2 -l 4"
 
 static void check_refused(const char *a, const char *b, const char *part) {
-    ps_answer parts[] = {ask(NULL, 0, 0, a), ask(NULL, 0, 0, b)};
+    ps_answer parts[] = {answers_ask(NULL, 0, 0, a), answers_ask(NULL, 0, 0, b)};
     const ps_table *const tables[] = {parts[0].table, parts[0].table, parts[1].table};
     ps_answer merged;
     ps_error error = {0};
-    assert_int_equal(try_merge(&merged, 3, tables, &error), PSPEC_ERROR_INPUT);
+    assert_int_equal(answers_try_merge(&merged, 3, tables, &error), PSPEC_ERROR_INPUT);
     if (strstr(error.message, part) == NULL) {
         fail_msg("\"%s\" is not in \"%s\"", part, error.message);
     }
@@ -343,7 +182,7 @@ static void hostile_state_is_refused(void **state) {
     static const char *const names[] = {"state_question", "state_frequencies", "state_rings"};
     static const double numbers[] = {NAN, -1e9, 0.5, 1e9, 1e300, INFINITY};
     for (size_t l = 0; l < sizeof lines / sizeof lines[0]; l++) {
-        ps_answer answer = ask(NULL, 0, 0, lines[l]);
+        ps_answer answer = answers_ask(NULL, 0, 0, lines[l]);
         for (size_t n = 0; n < sizeof names / sizeof names[0]; n++) {
             const ps_npy_array *const array = ps_table_find_array(answer.table, names[n]);
             for (size_t i = 0; array != NULL && i < array->num; i++) {
@@ -353,7 +192,7 @@ static void hostile_state_is_refused(void **state) {
                     ps_error error = {0};
                     array->data[i] = numbers[k];
                     const ps_table *const table = answer.table;
-                    const pspec_status status = try_merge(&merged, 1, &table, &error);
+                    const pspec_status status = answers_try_merge(&merged, 1, &table, &error);
                     const bool is_stretch = n == 0 && i > 10; /* without a reach */
                     const bool is_ring = /* more than were drawn, or another mean */
                         n == 2 && (i % 2 == 0 ? numbers[k] == 1e9 : numbers[k] > 0);

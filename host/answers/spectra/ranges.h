@@ -1,0 +1,23 @@
+/* Answers to ranges of the realizations of one job, on their way to the answer of the job. */
+#ifndef PS_ANSWERS_SPECTRA_RANGES_H
+#define PS_ANSWERS_SPECTRA_RANGES_H
+
+#include "answers/kind.h"
+#include "base/memory.h"
+#include "spectra/spectrum_sums.h"
+
+/* The same parts, in the order of their realizations where all are ranges (in that of the command
+ * line else), with memory of the pool. Ranges of different jobs are PSPEC_ERROR_INPUT. */
+pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *parts,
+                            ps_error *error) PS_MUST_CHECK;
+
+/* ps_spectrum_sums_close; PSPEC_ERROR_TOLERANCE where that is all of a job, for whose powers, which
+ * are known no sooner, it would have been planned once more. */
+pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) PS_MUST_CHECK;
+
+/* The header entry number `index` of that key, or a missing one; how many there are. */
+ps_cell ps_entry_find(const ps_table *table, const char *key, size_t index);
+size_t ps_entry_count(const ps_table *table, const char *key);
+bool ps_cells_are_same(const ps_cell *a, const ps_cell *b);
+
+#endif

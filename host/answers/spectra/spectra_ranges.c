@@ -1,0 +1,231 @@
+#include "answers/spectra/ranges.h"
+
+#include "answers/spectra/measured.h"
+
+#include <string.h>
+
+/* ---- header entries -------------------------------------------------------------------------- */
+
+ps_cell ps_entry_find(const ps_table *table, const char *key, size_t index) {
+    const char *name = NULL;
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        const ps_cell cell = ps_table_meta(table, i, &name);
+        if (strcmp(name, key) == 0 && index-- == 0) {
+            return cell;
+        }
+    }
+    return PS_MISSING;
+}
+
+size_t ps_entry_count(const ps_table *table, const char *key) {
+    size_t num = 0;
+    const char *name = NULL;
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        ps_table_meta(table, i, &name);
+        num += strcmp(name, key) == 0;
+    }
+    return num;
+}
+
+bool ps_cells_are_same(const ps_cell *a, const ps_cell *b) {
+    return a->kind == b->kind && a->integer == b->integer && a->number == b->number &&
+           (a->kind != PS_CELL_TEXT || strcmp(a->text, b->text) == 0);
+}
+
+/* ---- the same job? --------------------------------------------------------------------------- */
+
+/* Entries that every range of a job has alike. */
+static const char *const common[] = {"pointspec_version", "seed",         "homogenize", "sampler",
+                                     "sampler_note",      "input_format", "input",      "box",
+                                     "input_columns",     "lift",         "morph",      "device",
+                                     "precision",         "tolerance",    "engine",     NULL};
+
+/* The next word of a command line, as the shell takes it, and where it ends; false: none. */
+static bool next_word(const char **at, const char **word, size_t *length) {
+    bool is_quoted = false;
+    const char *end = *at + strspn(*at, " ");
+    *word = end;
+    for (; *end != '\0' && (is_quoted || *end != ' '); end++) {
+        is_quoted = is_quoted != (*end == '\'');
+        end += *end == '\\' && !is_quoted && end[1] != '\0';
+    }
+    *length = (size_t)(end - *word);
+    *at = end;
+    return *length > 0;
+}
+
+/* The option that the word names, and whether its value is in the word, too. */
+static const ps_option *find_option(const char *word, size_t length, bool *has_value) {
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        const ps_option *const option = &ps_options[id];
+        const size_t name = strlen(option->name);
+        if (length >= 2 && word[0] == '-' && option->letter != 0 && word[1] == option->letter) {
+            *has_value = length > 2;
+            return option;
+        }
+        if (length >= name + 2 && strncmp(word, "--", 2) == 0 &&
+            strncmp(word + 2, option->name, name) == 0 &&
+            (length == name + 2 || word[name + 2] == '=')) {
+            *has_value = length > name + 2;
+            return option;
+        }
+    }
+    return NULL;
+}
+
+/* The next word that is of the question, and not of the range, or of what becomes of the answer. */
+static bool next_of_question(const char **at, const char **word, size_t *length) {
+    while (next_word(at, word, length)) {
+        bool has_value = false;
+        const ps_option *const option = find_option(*word, *length, &has_value);
+        if (option == NULL || option->questions != 0) {
+            return true;
+        }
+        if (option->metavar != NULL && !has_value) {
+            next_word(at, word, length);
+        }
+    }
+    return false;
+}
+
+static bool are_same_commands(const char *a, const char *b) {
+    const char *words[2];
+    size_t lengths[2];
+    for (;;) {
+        const bool has_a = next_of_question(&a, &words[0], &lengths[0]);
+        const bool has_b = next_of_question(&b, &words[1], &lengths[1]);
+        if (!has_a || !has_b) {
+            return has_a == has_b;
+        }
+        if (lengths[0] != lengths[1] || memcmp(words[0], words[1], lengths[0]) != 0) {
+            return false;
+        }
+    }
+}
+
+/* Of an answer that was merged that of its first part. */
+static const char *find_command(const ps_table *table) {
+    const ps_cell merged = ps_entry_find(table, "merged", 0);
+    const ps_cell command = ps_entry_find(table, "command", 0);
+    return merged.kind == PS_CELL_TEXT    ? merged.text
+           : command.kind == PS_CELL_TEXT ? command.text
+                                          : "";
+}
+
+static void append_cell(ps_text *text, const ps_cell *cell) {
+    if (cell->kind == PS_CELL_TEXT) {
+        ps_text_append(text, "%s", cell->text);
+    } else if (cell->kind == PS_CELL_MISSING) {
+        ps_text_append(text, "none");
+    } else {
+        ps_text_append(text, "%.17g",
+                       cell->kind == PS_CELL_INTEGER ? (double)cell->integer : cell->number);
+    }
+}
+
+static pspec_status refuse(const char *name, const char *key, const ps_cell *is,
+                           const ps_cell *should_be, ps_error *error) {
+    ps_text cells[2] = {{0}};
+    append_cell(&cells[0], is);
+    append_cell(&cells[1], should_be);
+    const pspec_status status =
+        ps_fail(error, PSPEC_ERROR_INPUT,
+                "%s is a range of another job: its %s is %.200s instead of %.200s", name, key,
+                ps_text_string(&cells[0]), ps_text_string(&cells[1]));
+    ps_text_free(&cells[0]);
+    ps_text_free(&cells[1]);
+    return status;
+}
+
+/* How many realizations there are at once may be less where memory is. */
+static bool are_same_engines(const char *a, const char *b) {
+    static const char batch[] = "at_once=";
+    const char *words[2];
+    size_t lengths[2];
+    bool is_same = true;
+    while (is_same) {
+        const bool has_a = next_word(&a, &words[0], &lengths[0]);
+        const bool has_b = next_word(&b, &words[1], &lengths[1]);
+        if (!has_a || !has_b) {
+            return has_a == has_b;
+        }
+        const bool are_batches = strncmp(words[0], batch, sizeof batch - 1) == 0 &&
+                                 strncmp(words[1], batch, sizeof batch - 1) == 0;
+        is_same = are_batches ||
+                  (lengths[0] == lengths[1] && memcmp(words[0], words[1], lengths[0]) == 0);
+    }
+    return false;
+}
+
+static bool are_same_entries(const char *key, const ps_cell *a, const ps_cell *b) {
+    return ps_cells_are_same(a, b) ||
+           (strcmp(key, "engine") == 0 && a->kind == PS_CELL_TEXT && b->kind == PS_CELL_TEXT &&
+            are_same_engines(a->text, b->text));
+}
+
+static pspec_status compare(const ps_table *a, const ps_table *b, const char *name,
+                            ps_error *error) {
+    for (const char *const *key = common; *key != NULL; key++) {
+        const size_t num_a = ps_entry_count(a, *key);
+        const size_t num_b = ps_entry_count(b, *key);
+        for (size_t i = 0; i < num_a || i < num_b; i++) {
+            const ps_cell cells[] = {ps_entry_find(a, *key, i), ps_entry_find(b, *key, i)};
+            if (!are_same_entries(*key, &cells[0], &cells[1])) {
+                return refuse(name, *key, &cells[1], &cells[0], error);
+            }
+        }
+    }
+    const ps_cell commands[] = {PS_TEXT(find_command(a)), PS_TEXT(find_command(b))};
+    return are_same_commands(commands[0].text, commands[1].text)
+               ? PSPEC_OK
+               : refuse(name, "command", &commands[1], &commands[0], error);
+}
+
+/* ---- order ----------------------------------------------------------------------------------- */
+
+/* The first realization; -1: it is no range. */
+static double find_first(const ps_table *table) {
+    const ps_npy_array *const range = ps_table_find_array(table, "state_range");
+    return range != NULL && range->num > 0 && range->data[0] >= 0 ? range->data[0] : -1;
+}
+
+pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *parts,
+                            ps_error *error) {
+    const ps_table **tables = NULL;
+    const char **names = NULL;
+    PS_TRY(PS_POOL_NEW(memory, &tables, parts->num, "answers", error));
+    PS_TRY(PS_POOL_NEW(memory, &names, parts->num, "answers", error));
+    *out = (ps_parts){tables, names, parts->num, parts->command_line};
+    memcpy(tables, parts->tables, parts->num * sizeof *tables);
+    memcpy(names, parts->names, parts->num * sizeof *names);
+    for (size_t p = 0; p < parts->num; p++) {
+        if (find_first(tables[p]) < 0) {
+            return PSPEC_OK;
+        }
+    }
+    for (size_t p = 1; p < parts->num; p++) {
+        PS_TRY(compare(parts->tables[0], parts->tables[p], parts->names[p], error));
+        for (size_t i = p; i > 0 && find_first(tables[i]) < find_first(tables[i - 1]); i--) {
+            const ps_table *const table = tables[i];
+            const char *const name = names[i];
+            tables[i] = tables[i - 1];
+            names[i] = names[i - 1];
+            tables[i - 1] = table;
+            names[i - 1] = name;
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* ---- the whole job --------------------------------------------------------------------------- */
+
+pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) {
+    ps_spectrum_sums_close(sums);
+    return sums->num_all > 0 || sums->error <= sums->tolerance
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                         "the powers of these realizations need a more exact plan: the error is "
+                         "%.2g, above the tolerance %g; run the ranges again with a smaller --tol, "
+                         "or with --precision double",
+                         sums->error, sums->tolerance);
+}
