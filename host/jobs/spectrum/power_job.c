@@ -318,13 +318,14 @@ pspec_status ps_power_job_sums(ps_power_job *job, ps_spectrum_sums *out, ps_erro
 
 /* ---- again ------------------------------------------------------------------------------- */
 
-/* Nothing that was measured has changed the plan or the engine, and sets are all that is read. The
- * question that the job had may be gone. */
+/* Nothing that was measured, or that a range has passed over, has changed the plan or the engine,
+ * and sets are all that is read. The question that the job had may be gone. */
 static bool can_renew(const ps_power_job *job, const ps_power_question *question) {
     return job->runner.estimator != NULL && job->runner.num_replans == 0 &&
            job->runner.accuracy.largest_points <= job->most_points &&
            question->harmonics == PS_NO_HARMONICS && !question->keeps_first &&
-           question->num_weighted == 0 && question->weights.path == NULL &&
+           question->range.end == 0 && question->num_weighted == 0 &&
+           question->weights.path == NULL &&
            ps_given_sets_are_all(&question->point_options.given, question->paths,
                                  question->num_paths);
 }
