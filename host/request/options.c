@@ -210,9 +210,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .set = ps_set_weights, .offset = offsetof(ps_request, weights.path),
                            .input = ps_input_of_weights},
     [PS_OPTION_WEIGHT_SUM] = {NAMED("weight-sum", 0, "free|one"), OF(RULES, 0),
-                              .help = "of --weights optimal: those that make the error smallest, "
-                                      "or those that do among weights whose sum is 1 (default "
-                                      "free)",
+                              .help = "of --weights optimal: those of the smallest error (free), "
+                                      "or those whose sum is 1 (one)",
                               .set = ps_set_weight_sum},
     [PS_OPTION_WEIGHTS_OUT] = {NAMED("weights-out", 0, "FILE"), OF(0, BIT(quadrature)),
                                .help = "write the weights of the only rule too, as --weights FILE "
@@ -253,8 +252,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "{variance:where there are the integrands}{:found out})",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES, OF(PLANE, BIT(convert)),
-                        .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
-                        FLAG(reading.wrap)},
+                        .help = "reduce coordinates outside [0,1) mod 1", FLAG(reading.wrap)},
     [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1[,Y0,Y1,...]"), .source = PS_OF_FILES,
                        OF(READERS, BIT(convert)),
                        .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, or "
@@ -263,8 +261,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
                                      OF(ROUND, BIT(convert)),
-                                     .help = "divide vectors by their length instead of refusing "
-                                             "those of another length than 1",
+                                     .help = "divide vectors by their lengths, whatever these are",
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
                         OF(ROUND, BIT(convert)),
@@ -278,8 +275,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "by morph= of samplers (default {quadrature,shade:that of --brdf}{:none})",
          .set = ps_set_morph},
     [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(RULES, 0),
-                              .help = "leave points below the horizon out where the lobe "
-                                      "ends there",
+                              .help = "leave points below the lobe's horizon out",
                               FLAG(drop_below_horizon)},
     [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), .source = PS_OF_FILES,
                                OF(READERS, BIT(convert)),
@@ -331,8 +327,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
     [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"),
                              OF(0, READERS | BIT(sample) | BIT(run)),
-                             .help = "what sets of samplers that take long to make may take on the "
-                                     "disk; 0: they are made anew (default 4e9)",
+                             .help = "disk for sets that take long to make (default 4e9; 0: none)",
                              COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
     [PS_OPTION_CHECKPOINT] = {NAMED("checkpoint", 0, "FILE.npz"), OF(0, LONG),
                               .help = "keep the state of the job in FILE while it runs, and go on "
@@ -344,12 +339,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
              "between two checkpoints (default: at most a hundredth of the time); 0: each batch",
          COUNT(limits.checkpoint.interval), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_PREFETCH] = {NAMED("prefetch", 0, NULL), OF(0, BIT(sample)),
-                            .help = "write no points: make those that are not kept yet, and keep "
-                                    "them",
+                            .help = "write no points: make and keep those that are not yet",
                             FLAG(prefetch)},
     [PS_OPTION_RECORDED_ENGINES] = {NAMED("recorded-engines", 0, NULL), OF(0, BIT(run)),
-                                    .help = "answer the questions of a record by the engines, and "
-                                            "in the precisions, that it names",
+                                    .help = "answer a record by the engines and precisions in it",
                                     FLAG(recorded_engines)},
     [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(READERS, BIT(run)),
                            .help = "do also what the question does not need",
