@@ -5,6 +5,9 @@ set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pointspec)
 
 set_target_properties(pointspec_program PROPERTIES EXPORT_NAME program)
 install(TARGETS pointspec_program pointspec EXPORT pointspec_shared)
+if(TARGET pointspec_mpi)
+  install(TARGETS pointspec_mpi DESTINATION ${MODULE_DIR})
+endif()
 install(TARGETS pointspec_static EXPORT pointspec_static)
 install(DIRECTORY host/include/pointspec DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h")

@@ -2,7 +2,7 @@
 # shellcheck shell=bash disable=SC2034 # what sources it uses them
 # A folder inside a room that is not named here counts as its room.
 rooms=(
-    base math math/random math/linear device files fields store points plots images meshes
+    base ranks math math/random math/linear device files fields store points plots images meshes
     samplers samplers/torus samplers/sphere samplers/darts samplers/optimized samplers/ccvt samplers/forces sets integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
     engines/pairs trials plan spectra rules

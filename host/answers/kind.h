@@ -13,6 +13,7 @@
 #include "answers/field.h"
 #include "answers/figure.h"
 #include "answers/plan_table.h"
+#include "base/text.h"
 #include "base/watch.h"
 #include "device/device.h"
 #include "plan/choose.h"
@@ -43,6 +44,7 @@ typedef struct ps_answer_hooks {
     void (*tell_finding)(void *payload, const char *word, const char *topic, const char *sentence);
     /* Asked between two questions of a scene, and after a failure: was it an interrupt? */
     bool (*is_interrupted)(void *payload);
+    bool is_shared; /* the range is that of one of several ranks, not one that somebody merges */
     /* Before the work for one sampler, and after it. */
     void (*tell_plan)(void *payload, const ps_plan *plan);
     void (*tell_profile)(void *payload, const ps_profile_row *rows, size_t num_rows);
@@ -96,12 +98,24 @@ double ps_compared_predicted_bound(const ps_both_tables *both, const char *value
 double ps_compared_rule_bound(const ps_both_tables *both, const char *value);
 double ps_compared_variance_bound(const ps_both_tables *both, const char *value);
 
+/* A job before it runs, for ranks that share its realizations. */
+typedef struct ps_outlook {
+    bool counts;               /* asked: how many realizations there are in files, too */
+    uint64_t num_realizations; /* 0: unknown */
+    const char *alone;         /* why ranks do not share them; NULL: they may */
+    ps_text alike; /* lines "thing: value" that ranks have alike: devices and plans; freed by who
+                      asked, also after an error */
+} ps_outlook;
+
 /* Answers to one question, in the order of their realizations. */
 typedef struct ps_parts {
     const ps_table *const *tables; /* [num], with their state */
     const char *const *names;      /* [num], in sentences: a file in quotes, or "answer 2" */
     size_t num;                    /* at least 1 */
     const char *command_line;      /* of who merges, for the header */
+    /* NULL, or what ranges of a job are answers to together: the answer is that of the job then, as
+     * one process would have it, and does not tell of the parts */
+    const ps_request *request;
 } ps_parts;
 
 typedef struct ps_command {
@@ -159,6 +173,9 @@ typedef struct ps_command {
     /* The answer of all realizations of the parts, which are of the kind; NULL: its answers have no
      * state. *out is as that of tabulate. */
     pspec_status (*merge)(ps_answer *out, const ps_parts *parts, ps_error *error);
+    /* What ranks that share the realizations of a job know before it begins; NULL: nothing. */
+    pspec_status (*look_ahead)(ps_outlook *out, const ps_request *request,
+                               const ps_answer_hooks *hooks, ps_error *error);
     void (*discard)(void *computed); /* NULL is allowed */
     bool renews;
 
@@ -246,5 +263,13 @@ pspec_status ps_answer_merge(ps_answer *out, const ps_parts *parts, ps_error *er
  * that a check found are its verdict, and no error. */
 pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_request *request,
                                const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+/* Its parts before and after the work, for who computes the answer in another way. */
+pspec_status ps_answer_check_outputs(ps_table_format *format, const ps_kind *kind,
+                                     const ps_request *request, const ps_answer_hooks *hooks,
+                                     ps_error *error) PS_MUST_CHECK;
+pspec_status ps_answer_write(ps_answer *out, const ps_kind *kind, const ps_request *request,
+                             ps_table_format format, const ps_answer_hooks *hooks,
+                             ps_error *error) PS_MUST_CHECK;
 
 #endif

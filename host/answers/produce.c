@@ -37,8 +37,9 @@ const ps_command *ps_command_nearest(const ps_command *const *table, const char 
 
 /* ---- before ------------------------------------------------------------------------------ */
 
-static pspec_status check(ps_table_format *format, const ps_kind *kind, const ps_request *request,
-                          const ps_answer_hooks *hooks, ps_error *error) {
+pspec_status ps_answer_check_outputs(ps_table_format *format, const ps_kind *kind,
+                                     const ps_request *request, const ps_answer_hooks *hooks,
+                                     ps_error *error) {
     if (kind->check_arguments != NULL) {
         PS_TRY(kind->check_arguments(request, error));
     }
@@ -106,10 +107,9 @@ static pspec_status write_arrays(const ps_table *table, const ps_request *reques
     return PSPEC_OK;
 }
 
-static pspec_status write_files(ps_answer *out, const ps_kind *kind, const void *computed,
-                                const ps_request *request, ps_table_format format,
-                                const ps_answer_hooks *hooks, ps_error *error) {
-    PS_TRY(kind->tabulate(out, computed, request, error));
+pspec_status ps_answer_write(ps_answer *out, const ps_kind *kind, const ps_request *request,
+                             ps_table_format format, const ps_answer_hooks *hooks,
+                             ps_error *error) {
     PS_TRY(write_arrays(out->table, request, error));
     PS_TRY(ps_kind_visit_fields(kind, mark_repeated, out->table, error));
     if (request->output != NULL) {
@@ -131,7 +131,7 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
     ps_request own = *request;
     ps_text key = {0};
     *out = (ps_answer){0};
-    PS_TRY(check(&format, kind, request, hooks, error));
+    PS_TRY(ps_answer_check_outputs(&format, kind, request, hooks, error));
     own.wants_state =
         request->wants_state || format == PS_FORMAT_NPZ || request->is_given[PS_OPTION_RANGE];
     pspec_status status = ps_answer_begin_checkpoints(&own, kind, &key, hooks, error);
@@ -140,7 +140,10 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
     }
     ps_answer_end(hooks);
     if (status == PSPEC_OK) {
-        status = write_files(out, kind, *kept, &own, format, hooks, error);
+        status = kind->tabulate(out, *kept, &own, error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_answer_write(out, kind, &own, format, hooks, error);
     }
     if (status == PSPEC_OK) {
         ps_answer_end_checkpoints(&own);

@@ -203,7 +203,7 @@ static pspec_status merge(ps_answer *out, pspec_context *context, const pspec_an
         shown[i] = ps_text_string(&names[i]);
         PS_TRY(ps_text_check(&names[i], &context->error));
     }
-    const ps_parts all = {tables, shown, num, "pspec_answer_merge"};
+    const ps_parts all = {tables, shown, num, "pspec_answer_merge", NULL};
     return ps_answer_merge(out, &all, &context->error);
 }
 

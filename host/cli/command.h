@@ -4,6 +4,7 @@
 
 #include "answers/kind.h"
 #include "base/watch.h"
+#include "ranks/ranks.h"
 
 #include <signal.h>
 #include <stdbool.h>
@@ -95,8 +96,9 @@ typedef struct ps_shown {
 ps_answer_hooks ps_shown_hooks(ps_shown *shown);
 
 /* Runs the command with these, and writes what they name. Differences that a check found are
- * PSPEC_ERROR_CHECK. */
-pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments,
+ * PSPEC_ERROR_CHECK. ranks: NULL of a process that is alone; else rank 0 shows and writes, and all
+ * have its status. */
+pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments, ps_ranks *ranks,
                           ps_error *error) PS_MUST_CHECK;
 
 /* The picture of pointspec bench: error against run time, a panel for every case. */

@@ -3,12 +3,14 @@
 #include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "pointspec_version.h"
 #include "request/options.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -37,6 +39,9 @@ static void prepare_process(void) {
 /* One line, whatever control characters came in with a name or value; build logs keep their lines.
  */
 static int report(const char *command, pspec_status status, ps_error *error) {
+    if (ps_ranks_find_own() > 0) {
+        return ps_exit_code(status); /* rank 0 says it */
+    }
     const bool nobody_reads = status == PSPEC_ERROR_IO && ps_signals_pipe_closed();
     const int code = nobody_reads ? PS_EXIT_PIPE : ps_exit_code(status);
     ps_signals_end(code);
@@ -118,12 +123,14 @@ static bool has_output(const ps_command *command, const ps_request *arguments) {
 }
 
 /* Finds what the words left open: where output goes, the device, and the cache, in *folder. */
-static pspec_status complete(const ps_command *command, ps_request *arguments, ps_text *folder,
-                             ps_error *error) {
+static pspec_status complete(const ps_command *command, ps_request *arguments,
+                             const ps_ranks *ranks, ps_text *folder, ps_error *error) {
     if (arguments->output == NULL && has_output(command, arguments)) {
         arguments->output = "-"; /* in the library NULL is no output */
     }
-    ps_terminal_settle(command, arguments);
+    if (ranks == NULL) { /* mpirun has a terminal of its own, whatever the output goes to */
+        ps_terminal_settle(command, arguments);
+    }
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->limits.device = getenv("POINTSPEC_DEVICE");
     }
@@ -144,8 +151,29 @@ static pspec_status blame_signal(pspec_status status, ps_error *error) {
                : status;
 }
 
+/* The module is beside the program where it was built, or where it was installed. */
+static pspec_status open_ranks(ps_ranks **out, ps_error *error) {
+    char program[PATH_MAX];
+    ps_text installed = {0};
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = '\0';
+    char *const slash = strrchr(program, '/');
+    program[slash != NULL ? slash - program : 0] = '\0';
+    ps_text_append(&installed, "%s/%s", program, PS_MODULES_FROM_PROGRAM);
+    pspec_status status = ps_text_check(&installed, error);
+    if (status == PSPEC_OK) {
+        const char *const folders[] = {program, ps_text_string(&installed), NULL};
+        status = ps_ranks_open(out, folders, error);
+    }
+    ps_text_free(&installed);
+    if (status == PSPEC_OK && ps_ranks_own(*out) > 0) {
+        ps_signals_end(PS_EXIT_INTERRUPTED); /* rank 0 says it, too */
+    }
+    return status;
+}
+
 /* words: those after "pointspec". */
-static int run_command(int num_words, char **words) {
+static int run_command(int num_words, char **words, ps_ranks *ranks) {
     ps_error error = {0};
     ps_request arguments;
     ps_text line = {0};
@@ -155,12 +183,13 @@ static int run_command(int num_words, char **words) {
         return report("", error.status, &error);
     }
     pspec_status status = parse(command, num_words, words, &arguments, &line, &error);
+    status = ps_ranks_agree(ranks, status, &error);
     const bool wants_help = status == PSPEC_OK && arguments.is_given[PS_OPTION_HELP];
-    if (wants_help) {
+    if (wants_help && ps_ranks_own(ranks) == 0) {
         ps_help_command(stdout, command);
-    } else if (status == PSPEC_OK &&
-               (status = complete(command, &arguments, &folder, &error)) == PSPEC_OK) {
-        status = blame_signal(ps_shown_run(command, &arguments, &error), &error);
+    } else if (status == PSPEC_OK && !wants_help &&
+               (status = complete(command, &arguments, ranks, &folder, &error)) == PSPEC_OK) {
+        status = blame_signal(ps_shown_run(command, &arguments, ranks, &error), &error);
     }
     ps_arguments_free(&arguments);
     ps_text_free(&folder);
@@ -252,6 +281,11 @@ int main(int argc, char **argv) {
     if (first[0] == '-') {
         return fail_program_option(first);
     }
-    return check_stack(&error) == PSPEC_OK ? run_command(argc - 1, argv + 1)
-                                           : report("", error.status, &error);
+    ps_ranks *ranks = NULL;
+    if (check_stack(&error) != PSPEC_OK || open_ranks(&ranks, &error) != PSPEC_OK) {
+        return report("", error.status, &error);
+    }
+    const int code = run_command(argc - 1, argv + 1, ranks);
+    ps_ranks_close(ranks);
+    return code;
 }

@@ -1,3 +1,4 @@
+#include "answers/ranks/ranks_work.h"
 #include "cli/command.h"
 #include "fields/table_cells.h"
 
@@ -113,14 +114,33 @@ static pspec_status run(ps_answer *out, const ps_command *command, const ps_requ
     return out->verdict.status;
 }
 
-pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments, ps_error *error) {
+/* Ranks but 0 are silent. */
+static pspec_status run_ranks(ps_answer *out, const ps_command *command,
+                              const ps_request *arguments, ps_ranks *ranks,
+                              const ps_answer_hooks *hooks, ps_error *error) {
+    const ps_answer_hooks silent = {.watch = {tell, hooks->payload}};
+    const bool is_first = ps_ranks_own(ranks) == 0;
+    const ps_answer_hooks *const own = is_first ? hooks : &silent;
+    ps_ranks_plan plan;
+    PS_TRY(ps_ranks_plan_work(&plan, ranks, command, arguments, own, error));
+    if (plan.is_shared) {
+        return ps_ranks_produce(out, ranks, &plan, command, arguments, own, error);
+    }
+    return ps_ranks_agree(ranks, is_first ? run(out, command, arguments, hooks, error) : PSPEC_OK,
+                          error);
+}
+
+pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments, ps_ranks *ranks,
+                          ps_error *error) {
     ps_shown shown = {.arguments = arguments,
                       .counted = command->counted,
                       .speaker = command->speaker != NULL ? command->speaker : "pointspec",
                       .is_streamed = command->makes_points};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
     ps_answer answer = {0};
-    const pspec_status status = run(&answer, command, arguments, &hooks, error);
+    const pspec_status status = ranks == NULL
+                                    ? run(&answer, command, arguments, &hooks, error)
+                                    : run_ranks(&answer, command, arguments, ranks, &hooks, error);
     ps_answer_free(&answer);
     return shown.has_printed && (fflush(stdout) != 0 || ferror(stdout))
                ? ps_fail(error, PSPEC_ERROR_IO, "cannot write standard output")

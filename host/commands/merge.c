@@ -35,7 +35,7 @@ static pspec_status load(parts *self, const ps_request *request, ps_error *error
 static pspec_status merge(ps_answer *out, parts *self, const ps_request *request, ps_error *error) {
     PS_TRY(load(self, request, error));
     const ps_parts all = {(const ps_table *const *)self->tables, self->names, self->num,
-                          request->command_line};
+                          request->command_line, NULL};
     return ps_answer_merge(out, &all, error);
 }
 

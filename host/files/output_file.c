@@ -169,6 +169,21 @@ pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *er
     return PSPEC_OK;
 }
 
+pspec_status ps_output_open_stream(ps_output_file **out, FILE *stream, ps_error *error) {
+    ps_output_file *file = NULL;
+    *out = NULL;
+    PS_TRY(PS_NEW(&file, 1, "output file", error));
+    file->name = strdup("a temporary file");
+    if (file->name == NULL) {
+        free(file);
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
+    }
+    file->stream = stream;
+    file->is_caller_owned = true;
+    *out = file;
+    return PSPEC_OK;
+}
+
 FILE *ps_output_stream(ps_output_file *file) {
     return file->stream;
 }

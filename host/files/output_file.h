@@ -23,6 +23,9 @@ const char *ps_output_ending(const char *path);
 
 /* An empty name and one that ends in .gz are PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) PS_MUST_CHECK;
+/* The same to a stream of the caller, a temporary file, which stays open. */
+pspec_status ps_output_open_stream(ps_output_file **out, FILE *stream,
+                                   ps_error *error) PS_MUST_CHECK;
 FILE *ps_output_stream(ps_output_file *file);
 /* fwrite to the stream that remembers why it failed, for check and commit; for large blocks, which
  * stdio does not keep to try again. */

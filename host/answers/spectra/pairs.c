@@ -12,6 +12,14 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     return ps_spectra_plan(planner, request, PS_QUESTION_PAIRS, error);
 }
 
+static pspec_status look_ahead(ps_outlook *out, const ps_request *request,
+                               const ps_answer_hooks *hooks, ps_error *error) {
+    if (request->plot != NULL) {
+        out->alone = "the picture of pairs needs the weights of all points";
+    }
+    return ps_spectra_look_ahead(out, request, PS_QUESTION_PAIRS, hooks, error);
+}
+
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
     return ps_spectra_compute(out, request, PS_QUESTION_PAIRS, hooks, error);
@@ -116,6 +124,7 @@ const ps_kind ps_kind_pairs = {
     .compute = compute,
     .tabulate = tabulate,
     .merge = merge,
+    .look_ahead = look_ahead,
     .discard = ps_spectra_discard,
     .renews = true,
     .fields = fields,

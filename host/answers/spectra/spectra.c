@@ -50,7 +50,8 @@ static void warn_of_standard_error(const ps_power_job *job, double standard_erro
 
 /* Nobody plans the range again: the other ranges have the same plan. */
 static void warn_of_tolerance(const ps_power_job *job, const ps_answer_hooks *hooks) {
-    if (job->runner.is_part && !(job->runner.accuracy.error <= job->problem.tolerance)) {
+    if (job->runner.is_part && !hooks->is_shared &&
+        !(job->runner.accuracy.error <= job->problem.tolerance)) {
         ps_answer_warn(hooks,
                        "the powers of these realizations need a more exact plan: the error is "
                        "%.2g, above the tolerance %g, and merge will refuse this range; give all "

@@ -74,4 +74,9 @@ extern const char *const ps_spectra_summary[];
  * profiles of it, which variances have, too (--bounds). */
 extern const ps_field_row ps_fields_powers[], ps_fields_shape[], ps_fields_profiles[];
 
+/* look_ahead of a row. */
+pspec_status ps_spectra_look_ahead(ps_outlook *out, const ps_request *request,
+                                   ps_question_kind kind, const ps_answer_hooks *hooks,
+                                   ps_error *error) PS_MUST_CHECK;
+
 #endif

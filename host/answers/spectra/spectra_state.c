@@ -31,7 +31,7 @@ static pspec_status add_asked(ps_table *table, const ps_request *request, ps_err
 static pspec_status read_asked(ps_request *out, const ps_parts *parts, ps_error *error) {
     const ps_table *const table = parts->tables[0];
     const ps_npy_array *const array = ps_table_find_array(table, asked_name);
-    *out = ps_request_default;
+    *out = parts->request != NULL ? *parts->request : ps_request_default;
     out->command_line = parts->command_line;
     if (array == NULL || !ps_spectrum_state_is_there(table, 0) || array->is_complex ||
         array->num != ASKED_SIZE ||
@@ -41,6 +41,10 @@ static pspec_status read_asked(ps_request *out, const ps_parts *parts, ps_error 
                        "angular and pairs have them in -o FILE.npz, but for --scatter",
                        parts->names[0]);
     }
+    if (parts->request != NULL) {
+        return PSPEC_OK;
+    }
+    out->wants_state = true;
     out->frequencies.per_ring = (uint64_t)array->data[PER_RING];
     out->accuracy.standard_error = array->data[STANDARD_ERROR];
     out->accuracy.floor = array->data[FLOOR];
@@ -152,12 +156,14 @@ static pspec_status tell_parts(ps_table *told, const ps_parts *parts, ps_error *
 static pspec_status tell(ps_table **out, const ps_parts *parts, size_t question,
                          size_t num_questions, ps_error *error) {
     PS_TRY(ps_table_create(out, "", NULL, 0, error));
+    ps_parts told_of = *parts;
+    told_of.num = parts->request != NULL ? 1 : parts->num; /* else they are of one job */
     for (const char *const *key = ps_told_keys; *key != NULL; key++) {
         if (strcmp(*key, "merged") != 0) {
-            PS_TRY(tell_key(*out, parts, *key, question, num_questions, error));
+            PS_TRY(tell_key(*out, &told_of, *key, question, num_questions, error));
         }
     }
-    return question == 0 ? tell_parts(*out, parts, error) : PSPEC_OK;
+    return question == 0 && parts->request == NULL ? tell_parts(*out, parts, error) : PSPEC_OK;
 }
 
 /* ---- merging --------------------------------------------------------------------------------- */
@@ -195,7 +201,8 @@ static pspec_status merge_sums(merged *self, const ps_parts *parts, size_t quest
         ps_bins_free(&bins);
         PS_TRY(status);
     }
-    return self->sums.num_all > 0 ? ps_ranges_close(&self->sums, error) : PSPEC_OK;
+    return self->sums.num_all > 0 ? ps_ranges_close(&self->sums, parts->request != NULL, error)
+                                  : PSPEC_OK;
 }
 
 static pspec_status look_at_errors(merged *self, const ps_request *request, ps_error *error) {
@@ -296,16 +303,31 @@ static pspec_status merge_all(merged *each, ps_measured *all, const ps_parts *pa
     return PSPEC_OK;
 }
 
+/* For the picture of a job. */
+static pspec_status copy_first_set(ps_table *table, const ps_parts *parts, ps_error *error) {
+    static const char name[] = "first_set";
+    const ps_npy_array *const set =
+        parts->request != NULL ? ps_table_find_array(parts->tables[0], name) : NULL;
+    ps_npy_array copy;
+    if (set == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_npy_make_array(&copy, set->rank, set->shape, false, error));
+    memcpy(copy.data, set->data, set->num * sizeof *copy.data);
+    return ps_table_add_array(table, name, false, &copy, error);
+}
+
 static pspec_status tabulate(ps_answer *out, merged *each, ps_measured *all, const ps_parts *parts,
                              size_t num, const ps_spectra_table *kind, ps_error *error) {
     ps_request request;
     PS_TRY(read_asked(&request, parts, error));
     PS_TRY(merge_all(each, all, parts, num, &request, error));
     PS_TRY(ps_spectra_make_table(&out->table, kind, &request, all, num, error));
-    for (size_t i = 0; i < num; i++) {
+    PS_TRY(copy_first_set(out->table, parts, error));
+    for (size_t i = 0; i < num && request.wants_state; i++) {
         PS_TRY(ps_spectrum_state_add(out->table, i, &each[i].sums, error));
     }
-    return add_asked(out->table, &request, error);
+    return request.wants_state ? add_asked(out->table, &request, error) : PSPEC_OK;
 }
 
 static pspec_status merge_in_order(ps_answer *out, const ps_parts *parts,

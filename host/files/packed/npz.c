@@ -32,25 +32,36 @@ static pspec_status write_records(ps_npz *npz, ps_text *records, ps_error *error
     return status;
 }
 
-static pspec_status open_all(ps_npz *npz, const char *path, ps_error *error) {
+/* path NULL: to the stream. */
+static pspec_status open_all(ps_npz *npz, const char *path, FILE *stream, ps_error *error) {
     npz->digest = XXH3_createState();
     if (npz->digest == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a digest");
     }
     XXH3_128bits_reset(npz->digest);
-    return ps_output_open(&npz->file, path, error);
+    return path != NULL ? ps_output_open(&npz->file, path, error)
+                        : ps_output_open_stream(&npz->file, stream, error);
 }
 
-pspec_status ps_npz_open(ps_npz **out, const char *path, uint64_t limit, ps_error *error) {
+static pspec_status open_one(ps_npz **out, const char *path, FILE *stream, uint64_t limit,
+                             ps_error *error) {
     ps_npz *npz = NULL;
     PS_TRY(PS_NEW(&npz, 1, "an archive", error));
     npz->records.limit = limit;
-    const pspec_status status = open_all(npz, path, error);
+    const pspec_status status = open_all(npz, path, stream, error);
     if (status != PSPEC_OK) {
         ps_npz_discard(&npz);
     }
     *out = npz;
     return status;
+}
+
+pspec_status ps_npz_open(ps_npz **out, const char *path, uint64_t limit, ps_error *error) {
+    return open_one(out, path, NULL, limit, error);
+}
+
+pspec_status ps_npz_open_stream(ps_npz **out, FILE *stream, uint64_t limit, ps_error *error) {
+    return open_one(out, NULL, stream, limit, error);
 }
 
 pspec_status ps_npz_add(ps_npz *npz, const ps_npz_array *array, ps_error *error) {

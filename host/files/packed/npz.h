@@ -12,6 +12,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 typedef struct ps_npz_array {
     const char *name; /* ASCII; no other array of the file has it */
@@ -35,6 +36,9 @@ typedef struct ps_npz ps_npz;
 /* Opens path as ps_output_open does. Sizes and places from `limit` on are written as ZIP64. */
 pspec_status ps_npz_open(ps_npz **out, const char *path, uint64_t limit,
                          ps_error *error) PS_MUST_CHECK;
+/* The same to a stream of the caller, a temporary file, which stays open. */
+pspec_status ps_npz_open_stream(ps_npz **out, FILE *stream, uint64_t limit,
+                                ps_error *error) PS_MUST_CHECK;
 /* Writes the array; nothing of it is kept. */
 pspec_status ps_npz_add(ps_npz *npz, const ps_npz_array *array, ps_error *error) PS_MUST_CHECK;
 /* Writes the digest and the directory, behind which nothing comes. *num_bytes: of the file. */

@@ -1,0 +1,108 @@
+/* Who does what: may the realizations of a job be shared, and how many are there? */
+#include "answers/ranks/ranks_work.h"
+
+#include "answers/checkpoints.h"
+#include "answers/output_check.h"
+#include "base/text.h"
+#include "request/options.h"
+#include "spectra/sum_nodes.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Every rank reads the inputs. */
+static pspec_status check_file(void *payload, const ps_request_file *input, ps_error *error) {
+    struct stat facts;
+    (void)payload;
+    return strcmp(input->path, "-") == 0 ||
+                   (stat(input->path, &facts) == 0 && !S_ISREG(facts.st_mode))
+               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s \"%s\" comes once",
+                         input->option.text, input->path)
+               : PSPEC_OK;
+}
+
+/* Why this is not shared, as far as the request says it, in *why; "": it may be. */
+static void look_at_request(ps_error *why, const ps_command *command, const ps_request *request) {
+    ps_request ranged = *request;
+    why->message[0] = '\0';
+    ranged.is_given[PS_OPTION_RANGE] = true;
+    ranged.forms[PS_OPTION_RANGE] = PS_FORM_LONG;
+    pspec_status status = PSPEC_OK;
+    if (command->look_ahead == NULL) {
+        status = ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s has no realizations that are shared", command->name);
+    } else if (request->is_given[PS_OPTION_RANGE]) {
+        status = ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "a range is not shared");
+    } else if (ps_option_pairs_check(request, PS_COMMAND_power, NULL) == PSPEC_OK) {
+        status = ps_option_pairs_check(&ranged, PS_COMMAND_power, why);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_request_visit_inputs(request, check_file, NULL, why);
+    }
+    if (status == PSPEC_OK) {
+        why->message[0] = '\0';
+    }
+}
+
+static void look_at_job(ps_error *why, const ps_outlook *outlook) {
+    if (outlook->alone != NULL) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s", outlook->alone);
+    } else if (outlook->num_realizations <= PS_SUM_BLOCK) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT,
+                "realizations are shared in blocks of %d, and there %s %llu", PS_SUM_BLOCK,
+                outlook->num_realizations == 1 ? "is" : "are",
+                (unsigned long long)outlook->num_realizations);
+    }
+}
+
+static void warn(const ps_ranks *ranks, const ps_ranks_plan *plan, const char *why,
+                 const ps_answer_hooks *hooks) {
+    const size_t num = ps_ranks_num(ranks);
+    const uint64_t blocks = (plan->num_realizations + PS_SUM_BLOCK - 1) / PS_SUM_BLOCK;
+    if (!plan->is_shared) {
+        ps_answer_warn(hooks, "rank 0 works alone, and the others of %zu ranks wait: %s", num, why);
+    } else if (blocks < num) {
+        ps_answer_warn(hooks,
+                       "%llu of %zu ranks have nothing to do: realizations are shared in blocks of "
+                       "%d, of which there are %llu",
+                       (unsigned long long)(num - blocks), num, PS_SUM_BLOCK,
+                       (unsigned long long)blocks);
+    }
+}
+
+/* Of rank 0. */
+static pspec_status plan(ps_ranks_plan *out, const ps_ranks *ranks, const ps_command *command,
+                         const ps_request *request, const ps_answer_hooks *hooks, ps_error *error) {
+    ps_error why = {0};
+    look_at_request(&why, command, request);
+    if (why.message[0] == '\0') {
+        ps_outlook outlook = {.counts = true};
+        ps_table_format format = PS_FORMAT_CSV;
+        PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
+        const pspec_status status = command->look_ahead(&outlook, request, hooks, error);
+        ps_text_free(&outlook.alike);
+        PS_TRY(status);
+        look_at_job(&why, &outlook);
+        out->num_realizations = outlook.num_realizations;
+    }
+    out->is_shared = why.message[0] == '\0';
+    warn(ranks, out, why.message, hooks);
+    return PSPEC_OK;
+}
+
+pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_command *command,
+                                const ps_request *request, const ps_answer_hooks *hooks,
+                                ps_error *error) {
+    ps_text lines = {0};
+    *out = (ps_ranks_plan){0};
+    ps_text_append(&lines, "program: ");
+    pspec_status status = ps_answer_identify_program(&lines, error);
+    ps_text_append(&lines, "command line: %s\n", request->command_line);
+    if (status == PSPEC_OK && ps_ranks_own(ranks) == 0) {
+        status = plan(out, ranks, command, request, hooks, error);
+    }
+    status = ps_ranks_compare(ranks, &lines, status, out, sizeof *out, error);
+    ps_text_free(&lines);
+    return status;
+}

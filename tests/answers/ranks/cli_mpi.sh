@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# cli_mpi.sh PROGRAM: several ranks under mpirun write what one process writes, to the bit; what has no ranges is done by
+# rank 0; an error of one rank is one sentence, and the end of all. Skipped (77) where there is no mpirun or no module.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../harness/harness.sh" mpi "$1"
+
+module=$(dirname "$program")/libpointspec_mpi.so
+if ! command -v mpirun >/dev/null || [[ ! -f $module ]]; then
+    echo "cli_mpi: skipped: no mpirun, or no $module" >&2
+    exit 77
+fi
+# Open MPI ends with much of what it has taken.
+export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_orte_execute_quiet=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+
+ranks() { # EXIT N ARGS...: standard output in out, standard error in err
+    local expected=$1 num=$2 code=0
+    shift 2
+    checked=$((checked + 1))
+    timeout 120 mpirun -n "$num" "$program" "$@" </dev/null >out 2>err || code=$?
+    # What mpirun itself says of an exit status is no sentence of ours.
+    grep '^pointspec' err >sentences || true
+    [[ $code == "$expected" ]] || complain "exit $code, not $expected, of $num ranks: $*: $(<err)"
+}
+sentence() { # PART: of the only one; "": there is none
+    if [[ -z $1 ]]; then
+        [[ ! -s sentences ]] || complain "$(<sentences)"
+    else
+        [[ $(wc -l <sentences) == 1 && $(<sentences) == *"$1"* ]] || complain "not \"$1\": $(<err)"
+    fi
+}
+is_same() { # N ARGS...: table, NPZ and arrays of one process and of N ranks
+    local num=$1 file
+    shift
+    rm -rf one several
+    mkdir one several
+    (cd one && "$program" "$@" -o answer.npz) || complain "one process: $*"
+    cd several
+    ranks 0 "$num" "$@" -o answer.npz
+    sentence ''
+    cd ..
+    rm -f several/{out,err,sentences}
+    [[ $(ls one) == "$(ls several)" ]] || complain "files of $num ranks: $(ls several)"
+    for file in one/*; do
+        cmp "$file" "several/${file#one/}" || complain "$file of $num ranks is another: $*"
+    done
+}
+
+awk 'BEGIN { srand(5); for (s = 0; s < 300; s++) { if (s) print "#"
+    for (i = 0; i < 5 + s % 3; i++) printf "%.9f %.9f %.9f\n", rand(), rand(), 0.5 + rand() } }' >sets.txt
+sets=$PWD/sets.txt
+is_same 2 power --engine host_direct -m 300 --sampler jittered --sampler white -n 9,16 -k 3
+is_same 3 power --engine host_direct --columns xyw -k 2 --normalize integral --full full.npy "$sets"
+is_same 2 angular --engine host_direct -m 300 --sampler white-sphere -n 4 -l 3
+is_same 3 pairs --engine host_direct --columns xyw --lift sphere -l 3 "$sets"
+if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
+    is_same 3 power -m 600 --sampler white -n 64 -k 8 --precision single
+fi
+job=(power --engine host_direct -m 300 --sampler jittered -n 9 -k 3)
+"$program" "${job[@]}" >one.csv
+ranks 0 4 "${job[@]}"
+cmp out one.csv || complain 'more ranks than blocks'
+sentence '1 of 4 ranks have nothing to do'
+ranks 0 2 "${job[@]}" --checkpoint kept --checkpoint-interval 1
+[[ $(sed 's/^# command: .*//' out) == "$(sed 's/^# command: .*//' one.csv)" ]] || complain "with a checkpoint: $(<out)"
+[[ -z $(ls kept* 2>/dev/null) ]] || complain 'a checkpoint is left'
+
+# What one rank does alone.
+alone() { # WHY ARGS...
+    local why=$1
+    shift
+    "$program" "$@" >one.csv
+    ranks 0 2 "$@"
+    sentence "rank 0 works alone, and the others of 2 ranks wait: $why"
+    cmp out one.csv || complain "of one rank of two: $*"
+}
+alone 'all realizations of a sampler have the same powers' power --engine host_direct -m 300 --sampler sobol -n 4 -k 1
+alone '--range does not go with --standard-error' "${job[@]}" --standard-error 0.1
+alone 'realizations are shared in blocks of 128, and there are 100' "${job[@]}" -m 100
+alone 'sample has no realizations' sample --sampler white -n 4
+
+# Errors: one sentence, and the exit status of one process.
+ranks 2 2 power --nonsense
+sentence 'pointspec power: unknown option --nonsense'
+ranks 1 2 "${job[@]}" -o nowhere/answer.csv
+sentence 'pointspec power: cannot write nowhere/answer.csv'
+awk '/^#/ { s++ } s == 200 && !/^#/ { $3 = 0 } { print }' sets.txt >zero.txt
+ranks 2 3 power --engine host_direct --columns xyw -k 1 zero.txt
+sentence 'set 201: all weights are 0'
+[[ ! -s out ]] || complain "after an error: $(<out)"
+command=mpi
+checked=$((checked + 1))
+mpirun -n 1 "$program" "${job[@]}" : -n 1 "$program" "${job[@]}" --seed 2 </dev/null >out 2>err && complain 'ranks of two jobs'
+grep '^pointspec' err >sentences
+sentence 'ranks of one job have the same command line: that of rank 1 is'
+
+# Without the module each rank would do the whole job.
+mkdir bare
+cp "$program" bare/pointspec
+checked=$((checked + 1))
+mpirun -n 2 bare/pointspec "${job[@]}" </dev/null >out 2>err && complain 'ranks without a module'
+grep '^pointspec' err >sentences
+sentence 'the module libpointspec_mpi.so is not beside the program'
+finish
