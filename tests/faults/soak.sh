@@ -3,10 +3,11 @@
 # SIGINT, and called again until they are done, for so long (default 1800); then what they wrote must be what a job wrote
 # that nobody killed. Kinds without checkpoints begin anew each time. Ranges are killed likewise, and merged.
 set -euo pipefail
-program=$(realpath "$1")
-seconds=${2:-1800} seed=${3:-$RANDOM}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+program=$scratch/pointspec # a copy: checkpoints of one that is built meanwhile would be those of another
+cp "$1" "$program"
+seconds=${2:-1800} seed=${3:-$RANDOM}
 cd "$scratch"
 export POINTSPEC_CACHE_DIR=$scratch/no-cache
 RANDOM=$seed
@@ -63,8 +64,9 @@ kills=0 jobs=0
 # Runs to its end, or is killed after a random time; 0: done.
 run_for_a_while() { # WORD...
     local signals=(KILL KILL TERM INT) code=0
-    timeout -k 10 -s "${signals[RANDOM % 4]}" "$((RANDOM % 3)).$((1 + RANDOM % 9))" "$program" "$@" --quiet \
-        >/dev/null 2>stderr || code=$?
+    # The shell would say which of its children was killed.
+    { timeout -k 10 -s "${signals[RANDOM % 4]}" "$((RANDOM % 3)).$((1 + RANDOM % 9))" "$program" "$@" --quiet \
+        >/dev/null 2>stderr || code=$?; } 2>/dev/null
     case $code in
     0) return 0 ;;
     124 | 130 | 137 | 143) kills=$((kills + 1)) && return 1 ;;
@@ -73,7 +75,7 @@ run_for_a_while() { # WORD...
 }
 
 run_to_the_end() { # WORD...
-    until run_for_a_while "$@" 2>/dev/null; do :; done
+    until run_for_a_while "$@"; do :; done
 }
 
 compare() { # WHAT: out.csv with the reference
