@@ -4,7 +4,6 @@
 #include "pointspec_version.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 pspec_status ps_answer_identify_program(ps_text *out, ps_error *error) {
     char digest[PS_DIGEST_BYTES];
@@ -51,9 +50,7 @@ static void add_question(ps_text *key, const ps_request *request, const ps_kind 
 static pspec_status add_file(void *payload, const ps_request_file *input, ps_error *error) {
     ps_text *const key = payload;
     char digest[PS_DIGEST_BYTES];
-    struct stat facts;
-    if (strcmp(input->path, "-") == 0 ||
-        (stat(input->path, &facts) == 0 && !S_ISREG(facts.st_mode))) {
+    if (ps_request_file_comes_once(input)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s \"%s\" comes once, and a job with --checkpoint reads its input again",
                        input->option.text, input->path);

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* The texts of the option in the request; *num is 0 where it was not given. */
 static const char *const *find_texts(size_t *num, const ps_request *request,
@@ -104,4 +105,10 @@ pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit
         }
     }
     return visit_points(request, visit, payload, error);
+}
+
+bool ps_request_file_comes_once(const ps_request_file *input) {
+    struct stat facts;
+    return strcmp(input->path, "-") == 0 ||
+           (stat(input->path, &facts) == 0 && !S_ISREG(facts.st_mode));
 }

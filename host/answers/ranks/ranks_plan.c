@@ -9,14 +9,11 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Every rank reads the inputs. */
 static pspec_status check_file(void *payload, const ps_request_file *input, ps_error *error) {
-    struct stat facts;
     (void)payload;
-    return strcmp(input->path, "-") == 0 ||
-                   (stat(input->path, &facts) == 0 && !S_ISREG(facts.st_mode))
+    return ps_request_file_comes_once(input)
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s \"%s\" comes once",
                          input->option.text, input->path)
                : PSPEC_OK;

@@ -191,7 +191,7 @@ static pspec_status rewind_rules(void *payload, ps_error *error) {
 
 static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    return ps_power_sets_skip(&job->rules.sets, num, error);
+    return ps_power_sets_skip(&job->rules.sets, num, tell, job, error);
 }
 
 /* Numbers of the result, as far as they are not made of the sums. */

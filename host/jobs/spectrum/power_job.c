@@ -213,7 +213,9 @@ static pspec_status rewind_sets(void *payload, ps_error *error) {
 /* What the device makes depends on the number of a realization, which the estimator counts. */
 static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
     ps_power_job *const job = payload;
-    return ps_power_job_leaves_points(job) ? PSPEC_OK : ps_power_sets_skip(&job->sets, num, error);
+    return ps_power_job_leaves_points(job)
+               ? PSPEC_OK
+               : ps_power_sets_skip(&job->sets, num, ps_power_job_tell, job, error);
 }
 
 static const ps_runner_kind kind = {.plan = plan,

@@ -183,22 +183,26 @@ pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t m
 
 /* ---- sets that nobody takes -------------------------------------------------------------- */
 
+/* Looked at and kept as sets that are taken; the rest of one that comes in blocks is read, too. */
 static pspec_status pass_next(ps_power_sets *sets, ps_error *error) {
     ps_point_set *const set = &sets->next;
-    const pspec_pattern pattern = {set->dimension, set->num_points, set->points, NULL};
     bool ends = sets->part.is_whole;
-    look_at(sets, &pattern, ends);
-    while (!ends) {
-        set->num_points = 0;
-        PS_TRY(ps_source_more(sets->source, set, sets->part.block_points, &ends, error));
+    PS_TRY(ends ? keep_first(sets, set, error) : PSPEC_OK);
+    for (bool is_last = false; !is_last;) {
+        const pspec_pattern block = show(sets, set, set->num_points, 0);
+        is_last = ends;
+        look_at(sets, &block, is_last);
+        if (!is_last) {
+            set->num_points = 0;
+            PS_TRY(ps_source_more(sets->source, set, sets->part.block_points, &ends, error));
+        }
     }
     sets->has_next = false;
     return PSPEC_OK;
 }
 
-pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num,
-                                pspec_status (*look)(void *payload, ps_error *error), void *payload,
-                                ps_passed_sets *passed, ps_error *error) {
+pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num, ps_look_at_sets *look,
+                                void *payload, ps_passed_sets *passed, ps_error *error) {
     bool has_set = true;
     for (*passed = (ps_passed_sets){0}; passed->num < num; passed->num++) {
         PS_TRY(look(payload, error));
@@ -211,6 +215,21 @@ pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num,
         PS_TRY(pass_next(sets, error));
     }
     return PSPEC_OK;
+}
+
+pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_look_at_sets *look,
+                                void *payload, ps_error *error) {
+    const uint64_t kept = sets->keeps_first && num > 0 ? 1 : 0;
+    ps_passed_sets first = {0};
+    ps_passed_sets rest = {0};
+    PS_TRY(ps_power_sets_pass(sets, kept, look, payload, &first, error));
+    const uint64_t skipped = ps_source_skip(sets->source, num - kept);
+    PS_TRY(ps_power_sets_pass(sets, num - kept - skipped, look, payload, &rest, error));
+    return first.num + skipped + rest.num == num
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "there are fewer sets than the %llu that the checkpoint has",
+                         (unsigned long long)num);
 }
 
 /* ---- sets in blocks ---------------------------------------------------------------------- */
@@ -271,38 +290,4 @@ pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
     PS_TRY(ps_estimator_add_stream(estimator, &stream, error));
     sets->has_next = false;
     return PSPEC_OK;
-}
-
-/* ---- sets that are left out -------------------------------------------------------------- */
-
-/* Reads the rest of a set that comes in blocks, and drops it. */
-static pspec_status pass_blocks(ps_power_sets *sets, ps_error *error) {
-    bool ends = sets->part.is_whole;
-    while (!ends) {
-        const pspec_pattern block = show(sets, &sets->next, sets->next.num_points, 0);
-        look_at(sets, &block, false);
-        sets->next.num_points = 0;
-        PS_TRY(ps_source_more(sets->source, &sets->next, sets->part.block_points, &ends, error));
-    }
-    const pspec_pattern last = show(sets, &sets->next, sets->next.num_points, 0);
-    look_at(sets, &last, true);
-    return PSPEC_OK;
-}
-
-pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_error *error) {
-    bool has_set = true;
-    uint64_t done = sets->keeps_first ? 0 : ps_source_skip(sets->source, num);
-    for (; done < num && has_set; done++) {
-        PS_TRY(ps_power_sets_peek(sets, &has_set, error));
-        if (has_set) {
-            PS_TRY(pass_blocks(sets, error));
-            PS_TRY(sets->part.is_whole ? keep_first(sets, &sets->next, error) : PSPEC_OK);
-            sets->has_next = false;
-            done += ps_source_skip(sets->source, num - done - 1);
-        }
-    }
-    return has_set ? PSPEC_OK
-                   : ps_fail(error, PSPEC_ERROR_INPUT,
-                             "there are fewer sets than the %llu that the checkpoint has",
-                             (unsigned long long)num);
 }

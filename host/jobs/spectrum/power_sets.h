@@ -83,21 +83,22 @@ uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
 typedef struct ps_passed_sets {
     uint64_t num, longest; /* the largest number of points of one */
 } ps_passed_sets;
-/* Passes over the next sets, num at most. look is asked before each, and may end it by a failure.
- */
-pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num,
-                                pspec_status (*look)(void *payload, ps_error *error), void *payload,
-                                ps_passed_sets *passed, ps_error *error) PS_MUST_CHECK;
+/* Asked before each; a failure ends it. */
+typedef pspec_status ps_look_at_sets(void *payload, ps_error *error);
+/* Passes over the next sets, num at most: they are read, for what is found out of all of them. */
+pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num, ps_look_at_sets *look,
+                                void *payload, ps_passed_sets *passed,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* Fills patterns[*num] with the next sets, `most` at most. The batch ends before a set that comes
  * in blocks, if the estimator can stream. Where *num is 0 and has_next is true, the next set is
  * such a one, for ps_power_sets_stream; where has_next is false, there are no more. */
 pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
-/* Leaves out so many of the next sets: those of a sampler are not made, but for the first where it
- * is kept; others are read, for what is found out of all of them. PSPEC_ERROR_INPUT where there are
- * fewer. */
-pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_error *error) PS_MUST_CHECK;
+/* The same of exactly so many, of which a sampler makes none but the first where it is kept.
+ * PSPEC_ERROR_INPUT where there are fewer. */
+pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_look_at_sets *look,
+                                void *payload, ps_error *error) PS_MUST_CHECK;
 /* Gives the estimator the next set in blocks. */
 pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
                                   pspec_normalization normalization, ps_error *error) PS_MUST_CHECK;

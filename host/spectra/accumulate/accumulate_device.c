@@ -277,10 +277,6 @@ ps_sums ps_device_accumulator_row(const ps_device_accumulator *accumulator, unsi
     return ps_device_states_row(&accumulator->states, row, accumulator->options.slots[frequency]);
 }
 
-void ps_device_accumulator_restart(ps_device_accumulator *accumulator) {
-    accumulator->states.count = 0;
-}
-
 typedef struct state_sums {
     const ps_device_accumulator *accumulator;
     ps_sums *sums;

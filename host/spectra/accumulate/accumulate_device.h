@@ -34,12 +34,11 @@ pspec_status ps_device_accumulator_walk(ps_device_accumulator *accumulator, ps_s
 /* Only with want_frequencies: [num_frequencies] */
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) PS_MUST_CHECK;
-/* The rows of these sums: read brings them to the host, restart begins with none. */
+/* The rows of these sums, which read brings to the host. */
 pspec_status ps_device_accumulator_read(ps_device_accumulator *accumulator,
                                         ps_error *error) PS_MUST_CHECK;
 ps_sums ps_device_accumulator_row(const ps_device_accumulator *accumulator, unsigned row,
                                   size_t frequency);
-void ps_device_accumulator_restart(ps_device_accumulator *accumulator);
 pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator, ps_mean *means,
                                                ps_error *error) PS_MUST_CHECK;
 

@@ -39,6 +39,6 @@ void ps_accumulator_restart(ps_accumulator *accumulator) {
     accumulator->bin_sums.count = 0;
     accumulator->frequency_sums.count = 0;
     if (accumulator->on_device != NULL) {
-        ps_device_accumulator_restart(accumulator->on_device);
+        ps_device_accumulator_reset(accumulator->on_device);
     }
 }
