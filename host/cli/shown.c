@@ -114,7 +114,7 @@ static pspec_status run(ps_answer *out, const ps_command *command, const ps_requ
     return out->verdict.status;
 }
 
-/* Ranks but 0 are silent. */
+/* Ranks but 0 are silent; NULL: the process is alone. */
 static pspec_status run_ranks(ps_answer *out, const ps_command *command,
                               const ps_request *arguments, ps_ranks *ranks,
                               const ps_answer_hooks *hooks, ps_error *error) {
@@ -138,9 +138,7 @@ pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments
                       .is_streamed = command->makes_points};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
     ps_answer answer = {0};
-    const pspec_status status = ranks == NULL
-                                    ? run(&answer, command, arguments, &hooks, error)
-                                    : run_ranks(&answer, command, arguments, ranks, &hooks, error);
+    const pspec_status status = run_ranks(&answer, command, arguments, ranks, &hooks, error);
     ps_answer_free(&answer);
     return shown.has_printed && (fflush(stdout) != 0 || ferror(stdout))
                ? ps_fail(error, PSPEC_ERROR_IO, "cannot write standard output")

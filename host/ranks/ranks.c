@@ -239,6 +239,9 @@ static pspec_status gather_all(ps_ranks *self, pspec_status status, ps_rank_byte
 
 pspec_status ps_ranks_gather(ps_ranks *self, pspec_status status, const ps_rank_bytes *own,
                              ps_rank_bytes *parts, ps_error *error) {
+    if (self == NULL) {
+        return status;
+    }
     if (self->own == 0) {
         return gather_all(self, status, parts, error);
     }
@@ -264,6 +267,9 @@ static pspec_status conclude_all(ps_ranks *self, pspec_status status, const void
 pspec_status ps_ranks_conclude(ps_ranks *self, pspec_status status, void *bytes, size_t num,
                                ps_error *error) {
     report verdict;
+    if (self == NULL) {
+        return status;
+    }
     if (self->own == 0) {
         return conclude_all(self, status, bytes, num, error);
     }
@@ -277,9 +283,6 @@ pspec_status ps_ranks_conclude(ps_ranks *self, pspec_status status, void *bytes,
 }
 
 pspec_status ps_ranks_agree(ps_ranks *self, pspec_status status, ps_error *error) {
-    if (self == NULL) {
-        return status;
-    }
     status = ps_ranks_gather(self, status, NULL, NULL, error);
     return ps_ranks_conclude(self, status, NULL, 0, error);
 }

@@ -41,7 +41,9 @@ size_t ps_ranks_own(const ps_ranks *ranks);
 /* Has a rank failed? Asked while a rank works, by the thread that has opened them. NULL: no. */
 bool ps_ranks_must_stop(ps_ranks *ranks);
 
-/* Hands in how far this rank came: status, with the sentence that *error has where it failed, and
+/* A process that is alone (NULL) has its own status for the verdict.
+ *
+ * Hands in how far this rank came: status, with the sentence that *error has where it failed, and
  * bytes. On rank 0 parts[number of ranks], zeros before, get the bytes of the others, to be freed
  * by ps_ranks_free, also after an error; NULL: they have none that is needed. The status is that of
  * the job there, and the sentence names the rank. Elsewhere parts may be NULL, and the status is
@@ -52,7 +54,7 @@ pspec_status ps_ranks_gather(ps_ranks *ranks, pspec_status status, const ps_rank
  * where it is PSPEC_OK. Every gather has one conclusion. */
 pspec_status ps_ranks_conclude(ps_ranks *ranks, pspec_status status, void *bytes, size_t num,
                                ps_error *error) PS_MUST_CHECK;
-/* Both, of ranks that have no bytes. NULL: the status. */
+/* Both, of ranks that have no bytes. */
 pspec_status ps_ranks_agree(ps_ranks *ranks, pspec_status status, ps_error *error) PS_MUST_CHECK;
 
 void ps_ranks_free(ps_rank_bytes *parts, size_t num);

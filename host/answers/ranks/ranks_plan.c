@@ -53,37 +53,78 @@ static void look_at_job(ps_error *why, const ps_outlook *outlook) {
     }
 }
 
+/* One process needs nobody to be told. */
 static void warn(const ps_ranks *ranks, const ps_ranks_plan *plan, const char *why,
                  const ps_answer_hooks *hooks) {
     const size_t num = ps_ranks_num(ranks);
-    const uint64_t blocks = (plan->num_realizations + PS_SUM_BLOCK - 1) / PS_SUM_BLOCK;
+    const uint64_t blocks = ps_parts_most(plan->num_realizations);
+    const unsigned long long idle = num - plan->num_parts;
+    if (ranks == NULL) {
+        return;
+    }
     if (!plan->is_shared) {
         ps_answer_warn(hooks, "rank 0 works alone, and the others of %zu ranks wait: %s", num, why);
     } else if (blocks < num) {
         ps_answer_warn(hooks,
                        "%llu of %zu ranks have nothing to do: realizations are shared in blocks of "
                        "%d, of which there are %llu",
-                       (unsigned long long)(num - blocks), num, PS_SUM_BLOCK,
-                       (unsigned long long)blocks);
+                       idle, num, PS_SUM_BLOCK, (unsigned long long)blocks);
+    } else if (plan->num_parts < num) {
+        ps_answer_warn(hooks,
+                       "%llu of %zu ranks have nothing to do: by its checkpoints the job was begun "
+                       "in %llu parts",
+                       idle, num, (unsigned long long)plan->num_parts);
     }
+}
+
+/* A job that has begun keeps its parts; found: how many by its checkpoints. */
+static pspec_status choose_parts(ps_ranks_plan *out, const ps_ranks *ranks, uint64_t found,
+                                 ps_error *error) {
+    const uint64_t most = ps_parts_most(out->num_realizations);
+    const uint64_t num = ps_ranks_num(ranks);
+    out->num_parts = found > 0 ? found : num < most ? num : most;
+    return found <= most
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_INPUT,
+                     "there are checkpoints of another job: it has %llu parts, and this one %llu "
+                     "blocks of %d realizations",
+                     (unsigned long long)found, (unsigned long long)most, PS_SUM_BLOCK);
+}
+
+static pspec_status look(ps_error *why, ps_ranks_plan *out, const ps_command *command,
+                         const ps_request *request, const ps_answer_hooks *hooks, ps_error *error) {
+    ps_outlook outlook = {.counts = true};
+    ps_table_format format = PS_FORMAT_CSV;
+    PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
+    const pspec_status status = command->look_ahead(&outlook, request, hooks, error);
+    ps_text_free(&outlook.alike);
+    PS_TRY(status);
+    look_at_job(why, &outlook);
+    out->num_realizations = outlook.num_realizations;
+    return PSPEC_OK;
 }
 
 /* Of rank 0. */
 static pspec_status plan(ps_ranks_plan *out, const ps_ranks *ranks, const ps_command *command,
                          const ps_request *request, const ps_answer_hooks *hooks, ps_error *error) {
+    const char *const path = request->limits.checkpoint.path;
+    uint64_t found = 0;
     ps_error why = {0};
     look_at_request(&why, command, request);
-    if (why.message[0] == '\0') {
-        ps_outlook outlook = {.counts = true};
-        ps_table_format format = PS_FORMAT_CSV;
-        PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
-        const pspec_status status = command->look_ahead(&outlook, request, hooks, error);
-        ps_text_free(&outlook.alike);
-        PS_TRY(status);
-        look_at_job(&why, &outlook);
-        out->num_realizations = outlook.num_realizations;
+    if (why.message[0] == '\0' && path != NULL) {
+        PS_TRY(ps_parts_find(&found, path, error));
     }
-    out->is_shared = why.message[0] == '\0';
+    if (found == 1) {
+        ps_fail(&why, PSPEC_ERROR_INPUT, "\"%s\" is the checkpoint of one process", path);
+    }
+    if (why.message[0] == '\0' && (ranks != NULL || found > 0)) {
+        PS_TRY(look(&why, out, command, request, hooks, error));
+        out->is_shared = why.message[0] == '\0';
+    }
+    if (out->is_shared) {
+        PS_TRY(choose_parts(out, ranks, found, error));
+    }
     warn(ranks, out, why.message, hooks);
     return PSPEC_OK;
 }
@@ -93,6 +134,12 @@ pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_co
                                 ps_error *error) {
     ps_text lines = {0};
     *out = (ps_ranks_plan){0};
+    if (ranks == NULL && request->limits.checkpoint.path == NULL) {
+        return PSPEC_OK;
+    }
+    if (ranks == NULL) {
+        return plan(out, ranks, command, request, hooks, error);
+    }
     ps_text_append(&lines, "program: ");
     pspec_status status = ps_answer_identify_program(&lines, error);
     ps_text_append(&lines, "command line: %s\n", request->command_line);

@@ -1,15 +1,16 @@
-/* A command of several ranks (ranks/ranks.h): each has a range of the realizations of the job, as
- * --range would have it, and rank 0 merges their answers and writes what one process would have
- * written, to the bit. What has no ranges is done by rank 0 alone, and the others wait. */
+/* A command of several ranks (ranks/ranks.h): each has some of the parts of the job
+ * (parts/parts.h), and rank 0 merges their answers and writes what one process would have written,
+ * to the bit. What has no parts is done by rank 0 alone, and the others wait. Ranks NULL are one
+ * process, which has parts where it goes on with a job that several have begun. */
 #ifndef PS_ANSWERS_RANKS_RANKS_WORK_H
 #define PS_ANSWERS_RANKS_RANKS_WORK_H
 
-#include "answers/kind.h"
+#include "answers/parts/parts.h"
 #include "ranks/ranks.h"
 
 /* What rank 0 has found, and all ranks know. */
 typedef struct ps_ranks_plan {
-    uint64_t num_realizations;
+    uint64_t num_realizations, num_parts;
     bool is_shared;
 } ps_ranks_plan;
 
@@ -24,6 +25,15 @@ pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_co
 pspec_status ps_ranks_produce(ps_answer *out, ps_ranks *ranks, const ps_ranks_plan *plan,
                               const ps_kind *kind, const ps_request *request,
                               const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+/* ---- tables as bytes (ranks_tables.c) -------------------------------------------------------- */
+
+/* Adds a table to the bytes, which the caller frees, also after an error. */
+pspec_status ps_ranks_pack(ps_rank_bytes *out, const ps_table *table,
+                           ps_error *error) PS_MUST_CHECK;
+/* The next table of the bytes, behind *at, with its name in sentences; freed by the caller. */
+pspec_status ps_ranks_unpack(ps_table **out, const ps_rank_bytes *bytes, size_t *at,
+                             const char *name, ps_error *error) PS_MUST_CHECK;
 
 /* ---- ranks that should be alike (ranks_alike.c) ---------------------------------------------- */
 

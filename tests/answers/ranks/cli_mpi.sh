@@ -30,6 +30,7 @@ sentence() { # PART: of the only one; "": there is none
         [[ $(wc -l <sentences) == 1 && $(<sentences) == *"$1"* ]] || complain "not \"$1\": $(<err)"
     fi
 }
+answer() { sed 's/^# command: .*//' "$1"; } # but for the command
 is_same() { # N ARGS...: table, NPZ and arrays of one process and of N ranks
     local num=$1 file
     shift
@@ -63,8 +64,56 @@ ranks 0 4 "${job[@]}"
 cmp out one.csv || complain 'more ranks than blocks'
 sentence '1 of 4 ranks have nothing to do'
 ranks 0 2 "${job[@]}" --checkpoint kept --checkpoint-interval 1
-[[ $(sed 's/^# command: .*//' out) == "$(sed 's/^# command: .*//' one.csv)" ]] || complain "with a checkpoint: $(<out)"
+[[ $(answer out) == "$(answer one.csv)" ]] || complain "with a checkpoint: $(<out)"
 [[ -z $(ls kept* 2>/dev/null) ]] || complain 'a checkpoint is left'
+
+# Killed twice at any moment, or done before, and ended by others: the parts are those of the first start.
+kill_ranks() { # N ARGS...
+    local num=$1 pid kids
+    shift
+    mpirun -n "$num" "$program" "$@" </dev/null >/dev/null 2>&1 &
+    pid=$!
+    wait_until "$pid" compgen -G 'kept-part-*-of-4.npz'
+    sleep "0.$((RANDOM % 1000))"
+    kids=$(pgrep -P "$pid" || true)
+    # shellcheck disable=SC2086 # several
+    kill -9 "$pid" $kids 2>/dev/null || true
+    wait "$pid" 2>/dev/null || true
+    for pid in $kids; do
+        while [[ -e /proc/$pid ]]; do sleep 0.02; done
+    done
+}
+job=("${job[@]}" -m 520)
+kept=("${job[@]}" --checkpoint kept.npz --checkpoint-interval 0)
+"$program" "${job[@]}" >one.csv
+for last in 3 1; do
+    kill_ranks 4 "${kept[@]}"
+    kill_ranks 2 "${kept[@]}"
+    if ((last > 1)); then
+        ranks 0 "$last" "${kept[@]}"
+    else
+        "$program" "${kept[@]}" >out
+    fi
+    [[ $(answer out) == "$(answer one.csv)" ]] || complain "killed twice, and ended by $last: $(<out)"
+    [[ -z $(ls kept* 2>/dev/null) ]] || complain "checkpoints are left: $(ls kept*)"
+done
+("$program" "${kept[@]}" >/dev/null 2>&1 & wait_until $! test -e kept.npz; kill -9 $! 2>/dev/null; wait $!) 2>/dev/null || true
+ranks 0 2 "${kept[@]}"
+sentence 'the others of 2 ranks wait: "kept.npz" is the checkpoint of one process'
+[[ $(answer out) == "$(answer one.csv)" ]] || complain "of a process that was killed: $(<out)"
+: >kept-part-2-of-4.npz.lock
+ranks 0 5 "${kept[@]}"
+sentence '1 of 5 ranks have nothing to do: by its checkpoints the job was begun in 4 parts'
+rm -f kept*
+: >kept-part-2-of-4.npz
+: >kept-part-1-of-3.npz.lock
+ranks 2 2 "${kept[@]}"
+sentence 'there are checkpoints "kept.npz" of a job of'
+rm -f kept*
+: >kept-part-6-of-6.npz
+ranks 2 2 "${kept[@]}"
+sentence 'checkpoints of another job: it has 6 parts, and this one 5 blocks'
+rm -f kept*
 
 # What one rank does alone.
 alone() { # WHY ARGS...
