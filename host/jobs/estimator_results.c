@@ -98,10 +98,10 @@ const ps_block_sums *ps_estimator_weighted_blocks(const ps_estimator *estimator)
 
 /* From what errors of ranges are put together. */
 static void find_amplitude_error(const ps_estimator *self, ps_spectrum_sums *out) {
-    const double share = self->accuracy.largest_share;
+    out->largest_share = self->accuracy.largest_share;
+    out->largest_power = ps_accumulator_largest(self->accumulator);
     if (self->options.problem.measure == PS_OF_PAIR_SUMS && !self->options.engine->sums_pairs) {
-        out->amplitude_error = own_error(self, ps_accumulator_largest(self->accumulator), share);
-        out->largest_share = share;
+        out->amplitude_error = own_error(self, out->largest_power, out->largest_share);
     }
 }
 

@@ -68,26 +68,28 @@ static pspec_status add_all(ps_runner *runner, ps_error *error) {
                : PSPEC_OK;
 }
 
-/* Errors grow with the number of points, too, of which a set may have more than were announced. */
-static void take_measured(ps_problem *problem, const ps_accuracy *accuracy) {
-    problem->expected_power = accuracy->largest_mean_power;
-    problem->weight_share = accuracy->largest_share;
-    if (accuracy->largest_points > problem->num_points) {
-        problem->num_points = accuracy->largest_points;
-        problem->planned_points = accuracy->largest_points;
+/* The plan for the powers and numbers of points that were measured. Errors grow with the number of
+ * points, too, of which a set may have more than were announced. */
+static pspec_status make_plan(ps_runner *runner, const ps_replan *measured, ps_error *error) {
+    ps_problem *const problem = runner->problem;
+    problem->expected_power = measured->mean_power;
+    problem->weight_share = measured->weight_share;
+    if (measured->num_points > problem->num_points) {
+        problem->num_points = measured->num_points;
+        problem->planned_points = measured->num_points;
     }
+    PS_TRY(runner->kind->plan(runner->job, error));
+    return ps_plan_require(runner->plan, problem, error);
 }
 
-/* The plan for the powers and numbers of points that were measured, if there is one; else all is as
- * it was. */
+/* If there is none, all is as it was. */
 static pspec_status plan_again(ps_runner *runner, ps_error *error) {
+    const ps_accuracy *const accuracy = &runner->accuracy;
+    const ps_replan measured = {runner->num_replans + 1, accuracy->largest_mean_power,
+                                accuracy->largest_share, accuracy->largest_points};
     const ps_plan plan = *runner->plan; /* `chosen` is right again once it is copied back */
     const ps_problem problem = *runner->problem;
-    take_measured(runner->problem, &runner->accuracy);
-    pspec_status status = runner->kind->plan(runner->job, error);
-    if (status == PSPEC_OK) {
-        status = ps_plan_require(runner->plan, runner->problem, error);
-    }
+    pspec_status status = make_plan(runner, &measured, error);
     if (status == PSPEC_OK) {
         status = runner->kind->rewind(runner->job, error);
     }
@@ -111,14 +113,11 @@ static bool is_settled(const ps_runner *runner) {
 }
 
 static pspec_status settle(ps_runner *runner, ps_error *error) {
-    enum {
-        MOST_PLANS = 2
-    }; /* the second has powers and points; one more, should another engine measure larger ones */
     PS_TRY(measure(runner, error));
     if (runner->is_part) {
         return PSPEC_OK;
     }
-    while (runner->num_replans < MOST_PLANS && !is_settled(runner)) {
+    while (runner->num_replans < PS_MOST_REPLANS && !is_settled(runner)) {
         PS_TRY(plan_again(runner, error));
         runner->num_replans++;
         PS_TRY(start(runner, error));
@@ -136,6 +135,10 @@ static pspec_status settle(ps_runner *runner, ps_error *error) {
 static pspec_status get_ready(ps_runner *runner, ps_error *error) {
     bool is_found = false;
     PS_TRY(ps_runner_read_plan(runner, &is_found, error));
+    if (!is_found && runner->replan.num > 0) {
+        runner->num_replans = (unsigned)runner->replan.num;
+        PS_TRY(make_plan(runner, &runner->replan, error));
+    }
     if (runner->estimator == NULL || is_found) {
         PS_TRY(start(runner, error));
         return is_found ? ps_runner_read_state(runner, error) : PSPEC_OK;

@@ -5,14 +5,14 @@
  * Kinds of jobs differ in what they give the estimator and in what they keep of it: ps_runner_kind.
  * What concerns every job belongs here, and has its place: a checkpoint is written between two
  * calls of `give`, where also `tell` is called, and read by a job that begins
- * (runner_checkpoint.c); a range of realizations is a part, which is planned as the whole job,
- * once; several devices are several estimators instead of the one that `start` makes; ranks bring
- * their accuracies together at the beginning of `settle`, so that all of them plan again, or none.
+ * (runner_checkpoint.c); a range of realizations is a part, which is planned as the whole job, and
+ * does not plan again: who has all parts tells them what their next plan is for (`replan`).
  */
 #ifndef PS_JOBS_RUNNER_H
 #define PS_JOBS_RUNNER_H
 
 #include "jobs/estimator.h"
+#include "plan/replan.h"
 #include "spectra/sequential.h"
 
 typedef struct ps_runner_kind {
@@ -53,8 +53,9 @@ typedef struct ps_runner {
     double standard_error; /* at which realizations stop; 0: nobody asked */
     bool is_sequential;    /* they do stop there */
     /* These are some of the realizations of a job, whose powers decide together whether another
-     * plan is needed: whoever merges them looks at the errors */
+     * plan is needed: whoever merges them looks at the errors, and says which plan this is */
     bool is_part;
+    ps_replan replan;
     /* Amplitudes alone are asked of the estimator, whose errors no power changes */
     bool has_no_accuracy;
     const ps_checkpoint_spec *spec; /* NULL: no checkpoints */
@@ -82,7 +83,7 @@ pspec_status ps_runner_run(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
 /* Opens the checkpoint, where one was asked for, for the job of the plan. */
 pspec_status ps_runner_open_checkpoint(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
 /* What is there before an estimator is: the plan that the job follows. *is_found: there is a
- * checkpoint. */
+ * checkpoint of it, and not of a plan before that of a part. */
 pspec_status ps_runner_read_plan(ps_runner *runner, bool *is_found, ps_error *error) PS_MUST_CHECK;
 /* The rest, into the new estimator of that plan. */
 pspec_status ps_runner_read_state(ps_runner *runner, ps_error *error) PS_MUST_CHECK;

@@ -65,6 +65,13 @@ pspec_status ps_runner_read_plan(ps_runner *runner, bool *is_found, ps_error *er
         return PSPEC_OK;
     }
     PS_TRY(walk_plan(runner, found, error));
+    if (runner->num_replans < runner->replan.num) {
+        runner->num_done = 0;
+        runner->is_complete = false;
+        *is_found = false;
+        ps_checkpoint_forget(runner->checkpoint);
+        return PSPEC_OK;
+    }
     return runner->num_replans > 0 ? runner->kind->plan(runner->job, error) : PSPEC_OK;
 }
 

@@ -7,6 +7,7 @@
 #include "base/status.h"
 #include "frequencies/frequencies_spec.h"
 #include "integrands/integrand.h"
+#include "plan/replan.h"
 #include "plan/specs.h"
 #include "plots/plot.h"
 #include "points/points.h"
@@ -145,8 +146,9 @@ typedef struct ps_request {
     uint64_t counts[PS_MAX_COUNTS];       /* 1024 alone unless given */
     uint64_t num_realizations;            /* 1 unless given */
     ps_realization_range range;           /* of them; {0} unless given: all */
-    unsigned dimension;                   /* 2 unless given, 1..6 */
-    uint64_t seed;                        /* 1 unless given */
+    const ps_replan *replans; /* of a range: of each question; NULL: first plans, as options have */
+    unsigned dimension;       /* 2 unless given, 1..6 */
+    uint64_t seed;            /* 1 unless given */
     size_t num_sources; /* samplers and sets, as they were said; 0: the points are those of files */
     ps_source_words sources[PS_MAX_SAMPLERS];
     size_t num_integrands;

@@ -85,6 +85,19 @@ static double find_larger(double a, double b) {
     return a >= b || isnan(a) ? a : b;
 }
 
+void ps_spectrum_sums_join_errors(ps_spectrum_sums *sums, const ps_spectrum_sums *next) {
+    sums->error = find_larger(sums->error, next->error);
+    sums->amplitude_error = find_larger(sums->amplitude_error, next->amplitude_error);
+    sums->largest_share = find_larger(sums->largest_share, next->largest_share);
+    sums->largest_power = find_larger(sums->largest_power, next->largest_power);
+    if (sums->amplitude_error > 0) {
+        sums->error = ps_pair_sums_error(sums->amplitude_error, sums->largest_share);
+    }
+    if (next->totals.largest_points > sums->totals.largest_points) {
+        sums->totals.largest_points = next->totals.largest_points;
+    }
+}
+
 /* The self-check of a job is that of its first set, which the first range has. */
 pspec_status ps_spectrum_sums_join(ps_spectrum_sums *sums, const ps_spectrum_sums *next,
                                    const char *const names[2], ps_error *error) {
@@ -97,15 +110,7 @@ pspec_status ps_spectrum_sums_join(ps_spectrum_sums *sums, const ps_spectrum_sum
     if (next->totals.smallest_points < totals->smallest_points) {
         totals->smallest_points = next->totals.smallest_points;
     }
-    if (next->totals.largest_points > totals->largest_points) {
-        totals->largest_points = next->totals.largest_points;
-    }
-    sums->error = find_larger(sums->error, next->error);
-    sums->amplitude_error = find_larger(sums->amplitude_error, next->amplitude_error);
-    sums->largest_share = find_larger(sums->largest_share, next->largest_share);
-    if (sums->amplitude_error > 0) {
-        sums->error = ps_pair_sums_error(sums->amplitude_error, sums->largest_share);
-    }
+    ps_spectrum_sums_join_errors(sums, next);
     sums->length_error = find_larger(sums->length_error, next->length_error);
     return PSPEC_OK;
 }

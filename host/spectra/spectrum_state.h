@@ -15,7 +15,8 @@
  *
  * Of a range of the realizations of a job also what ranges are put together from (sum_nodes.h):
  *
- *     state_range        the range, the realizations of the job, precision and tolerance
+ *     state_range        the range, the realizations of the job, precision and tolerance, and what
+ *                        the plan was made for, and another would be
  *     state_parts        [parts][14], the realizations of every node, and the sums of its totals
  *     state_part_bins    [parts][bins][4], and likewise
  *     state_part_powers
@@ -41,6 +42,10 @@ pspec_status ps_spectrum_state_read_range(ps_spectrum_sums *sums, const ps_table
                                           size_t question, const char *name,
                                           ps_error *error) PS_MUST_CHECK;
 
+pspec_status ps_spectrum_state_read_errors_of_range(ps_spectrum_sums *sums, const ps_table *table,
+                                                    size_t question, const char *name,
+                                                    ps_error *error) PS_MUST_CHECK;
+
 /* Has the table state of that question? */
 bool ps_spectrum_state_is_there(const ps_table *table, size_t question);
 
@@ -50,5 +55,10 @@ bool ps_spectrum_state_is_there(const ps_table *table, size_t question);
 pspec_status ps_spectrum_state_read(ps_spectrum_sums *out, ps_bins *bins, const ps_table *table,
                                     size_t question, const char *name,
                                     ps_error *error) PS_MUST_CHECK;
+/* The same without any sums: totals, errors, and what plans are made for. There is nothing to be
+ * freed. */
+pspec_status ps_spectrum_state_read_errors(ps_spectrum_sums *out, const ps_table *table,
+                                           size_t question, const char *name,
+                                           ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -42,7 +42,8 @@ enum {
 };
 
 /* Places of state_range: realizations of the range and of the job, which sums are in single
- * precision, the tolerance, and what an error follows from; and the columns of state_parts. */
+ * precision, the tolerance, what an error follows from, and what this plan was made for and another
+ * would be; and the columns of state_parts. */
 enum {
     RANGE_FIRST,
     RANGE_END,
@@ -52,6 +53,11 @@ enum {
     RANGE_TOLERANCE,
     RANGE_AMPLITUDE_ERROR,
     RANGE_SHARE,
+    RANGE_POWER,
+    RANGE_PLANS,
+    RANGE_PLANNED_POWER,
+    RANGE_PLANNED_SHARE,
+    RANGE_PLANNED_POINTS,
     RANGE_SIZE
 };
 enum { PART_FIRST, PART_NUM, PART_TOTALS, PART_SIZE = PART_TOTALS + 3 * SUM_SIZE };

@@ -36,6 +36,11 @@ static pspec_status put_range(ps_table *table, size_t question, const ps_spectru
     data[RANGE_TOLERANCE] = sums->tolerance;
     data[RANGE_AMPLITUDE_ERROR] = sums->amplitude_error;
     data[RANGE_SHARE] = sums->largest_share;
+    data[RANGE_POWER] = sums->largest_power;
+    data[RANGE_PLANS] = (double)sums->planned.num;
+    data[RANGE_PLANNED_POWER] = sums->planned.mean_power;
+    data[RANGE_PLANNED_SHARE] = sums->planned.weight_share;
+    data[RANGE_PLANNED_POINTS] = (double)sums->planned.num_points;
     return PSPEC_OK;
 }
 
@@ -111,7 +116,10 @@ static bool is_range(const double *numbers) {
            is_count(numbers[RANGE_ALL]) && numbers[RANGE_FIRST] < numbers[RANGE_END] &&
            numbers[RANGE_END] <= numbers[RANGE_ALL] && is_flag(numbers[RANGE_SINGLE_BINS]) &&
            is_flag(numbers[RANGE_SINGLE_POWERS]) && numbers[RANGE_TOLERANCE] > 0 &&
-           numbers[RANGE_AMPLITUDE_ERROR] >= 0 && numbers[RANGE_SHARE] >= 0;
+           numbers[RANGE_AMPLITUDE_ERROR] >= 0 && numbers[RANGE_SHARE] >= 0 &&
+           numbers[RANGE_POWER] >= 0 && is_count(numbers[RANGE_PLANS]) &&
+           numbers[RANGE_PLANNED_POWER] >= 0 && numbers[RANGE_PLANNED_SHARE] >= 0 &&
+           is_count(numbers[RANGE_PLANNED_POINTS]);
 }
 
 /* Number n of them: the one behind those before, of realizations that can be a node. */
@@ -160,22 +168,45 @@ static pspec_status read_parts(const reader *in, ps_spectrum_sums *sums, const d
                : fail(in, "state_parts");
 }
 
+/* *numbers: state_range; NULL: the table is of no range. */
+static pspec_status read_numbers(const reader *in, ps_spectrum_sums *sums, const double **numbers) {
+    const ps_npy_array *range = NULL;
+    *numbers = NULL;
+    if (ps_table_find_array(in->table, ps_state_name_of("state_range", in->question).text) ==
+        NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(find(in, "state_range", 1, (size_t[]){RANGE_SIZE}, &range));
+    const double *const found = *numbers = range->data;
+    if (!is_range(found)) {
+        return fail(in, "state_range");
+    }
+    sums->num_all = (uint64_t)found[RANGE_ALL];
+    sums->tolerance = found[RANGE_TOLERANCE];
+    sums->amplitude_error = found[RANGE_AMPLITUDE_ERROR];
+    sums->largest_share = found[RANGE_SHARE];
+    sums->largest_power = found[RANGE_POWER];
+    sums->planned = (ps_replan){(uint64_t)found[RANGE_PLANS], found[RANGE_PLANNED_POWER],
+                                found[RANGE_PLANNED_SHARE], (uint64_t)found[RANGE_PLANNED_POINTS]};
+    return PSPEC_OK;
+}
+
+pspec_status ps_spectrum_state_read_errors_of_range(ps_spectrum_sums *sums, const ps_table *table,
+                                                    size_t question, const char *name,
+                                                    ps_error *error) {
+    const reader in = {table, question, name, error};
+    const double *numbers = NULL;
+    return read_numbers(&in, sums, &numbers);
+}
+
 pspec_status ps_spectrum_state_read_range(ps_spectrum_sums *sums, const ps_table *table,
                                           size_t question, const char *name, ps_error *error) {
     const reader in = {table, question, name, error};
-    const ps_npy_array *range = NULL;
-    if (ps_table_find_array(table, ps_state_name_of("state_range", question).text) == NULL) {
+    const double *numbers = NULL;
+    PS_TRY(read_numbers(&in, sums, &numbers));
+    if (numbers == NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(find(&in, "state_range", 1, (size_t[]){RANGE_SIZE}, &range));
-    const double *const numbers = range->data;
-    if (!is_range(numbers)) {
-        return fail(&in, "state_range");
-    }
-    sums->num_all = (uint64_t)numbers[RANGE_ALL];
-    sums->tolerance = numbers[RANGE_TOLERANCE];
-    sums->amplitude_error = numbers[RANGE_AMPLITUDE_ERROR];
-    sums->largest_share = numbers[RANGE_SHARE];
     sums->nodes = (ps_sum_nodes){
         .sizes = {[PS_NODE_BINS] = sums->num_bins,
                   [PS_NODE_POWERS] = sums->powers != NULL ? sums->frequencies.num : 0,

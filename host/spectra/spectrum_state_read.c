@@ -280,3 +280,12 @@ pspec_status ps_spectrum_state_read(ps_spectrum_sums *out, ps_bins *bins, const 
     }
     return status;
 }
+
+pspec_status ps_spectrum_state_read_errors(ps_spectrum_sums *out, const ps_table *table,
+                                           size_t question, const char *name, ps_error *error) {
+    reader in = {table, question, name, NULL, error};
+    *out = (ps_spectrum_sums){0};
+    PS_TRY(find_question(&in));
+    PS_TRY(read_totals(&in, out));
+    return ps_spectrum_state_read_errors_of_range(out, table, question, name, error);
+}

@@ -8,6 +8,7 @@
 #ifndef PS_SPECTRA_SPECTRUM_SUMS_H
 #define PS_SPECTRA_SPECTRUM_SUMS_H
 
+#include "plan/replan.h"
 #include "spectra/spectrum.h"
 #include "spectra/sum_nodes.h"
 
@@ -33,6 +34,8 @@ typedef struct ps_spectrum_sums {
     /* The error of pair sums of coefficients follows from theirs, and the largest share of a weight
      * (engines/error_units.h), which may be those of different ranges; 0: it is the engine's */
     double amplitude_error, largest_share;
+    double largest_power; /* as ps_accuracy has it */
+    ps_replan planned;    /* what the plan was for */
 } ps_spectrum_sums;
 
 /* Copies the frequencies; all sums are 0. */
@@ -62,6 +65,8 @@ void ps_spectrum_sums_flatten(ps_spectrum_sums *sums);
  * both in sentences. */
 pspec_status ps_spectrum_sums_join(ps_spectrum_sums *sums, const ps_spectrum_sums *next,
                                    const char *const names[2], ps_error *error) PS_MUST_CHECK;
+/* The error of both, larger ones of which are taken into that of sums. */
+void ps_spectrum_sums_join_errors(ps_spectrum_sums *sums, const ps_spectrum_sums *next);
 /* Behind the last: flattens. Where that is all of the job, they are now the sums of the job, with
  * its bits. */
 void ps_spectrum_sums_close(ps_spectrum_sums *sums);

@@ -52,6 +52,15 @@ pspec_status ps_part_answer(ps_answer *out, const ps_part *part, const ps_answer
  * written: is_written. */
 void ps_part_end(ps_part *part, bool is_written);
 
+/* Tables of all parts. Their powers decide together whether they are planned once more, as those of
+ * one process do: *is_again: all parts are to be begun and answered anew, with what they follow
+ * then, replans[num_questions], in the request that they are made of. That is so, too, where some
+ * have gone on from checkpoints of a later plan than others. PSPEC_ERROR_TOLERANCE: there have been
+ * enough plans. */
+pspec_status ps_parts_plan_again(bool *is_again, ps_replan *replans, size_t num_questions,
+                                 const ps_table *const *tables, const char *const *names,
+                                 size_t num, ps_error *error) PS_MUST_CHECK;
+
 /* Merges tables[num] of all parts, in any order, to the answer of the job, and writes the files
  * that its request names. names: of the parts, in sentences. *out is freed by ps_answer_free, also
  * after an error. */

@@ -4,17 +4,26 @@
 
 #include <stdlib.h>
 
+/* What rank 0 says after a round: it was the last, or all parts are answered with other plans. */
+typedef struct verdict {
+    bool is_again;
+    ps_replan replans[]; /* of each question */
+} verdict;
+
 /* The work of this rank. */
 typedef struct work {
     ps_ranks *ranks;
     const ps_ranks_plan *plan;
     const ps_kind *kind;
-    const ps_request *request; /* as it was asked */
-    ps_dealt own;              /* parts of this rank, one after the other; it may have none */
-    ps_part *parts;            /* [own.num] */
-    ps_answer *answers;        /* [own.num] of them */
+    ps_request request; /* as it was asked, and the plans that parts follow */
+    ps_dealt own;       /* parts of this rank, one after the other; it may have none */
+    ps_part *parts;     /* [own.num] */
+    ps_answer *answers; /* [own.num] of them */
     ps_answer_hooks hooks;
     const ps_watch *watch; /* that of who asked */
+    size_t num_questions;
+    verdict *next;
+    size_t verdict_bytes;
 } work;
 
 static ps_dealt deal(const work *self, size_t rank) {
@@ -35,7 +44,7 @@ static pspec_status begin(work *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->parts, self->own.num, "parts of a job", error));
     PS_TRY(PS_NEW(&self->answers, self->own.num, "answers of parts", error));
     for (size_t i = 0; i < self->own.num; i++) {
-        PS_TRY(ps_part_begin(&self->parts[i], self->kind, self->request, plan->num_realizations,
+        PS_TRY(ps_part_begin(&self->parts[i], self->kind, &self->request, plan->num_realizations,
                              plan->num_parts, self->own.first + i, &self->hooks, error));
     }
     return PSPEC_OK;
@@ -65,6 +74,8 @@ static void end(work *self, bool is_written) {
     }
     free(self->parts);
     free(self->answers);
+    self->parts = NULL;
+    self->answers = NULL;
 }
 
 /* ---- those of all ranks, on rank 0 ----------------------------------------------------------- */
@@ -104,16 +115,20 @@ static pspec_status take_parts(gathered *job, const work *self, ps_rank_bytes *b
     return PSPEC_OK;
 }
 
-static pspec_status finish(ps_answer *out, const work *self, ps_rank_bytes *bytes,
-                           ps_error *error) {
+static pspec_status finish(ps_answer *out, work *self, ps_rank_bytes *bytes, ps_error *error) {
+    const size_t num_parts = self->plan->num_parts;
     gathered all = {0};
     pspec_status status = take_parts(&all, self, bytes, error);
+    const ps_table *const *const tables = (const ps_table *const *)all.tables;
     if (status == PSPEC_OK) {
-        status =
-            ps_parts_finish(out, self->kind, self->request, (const ps_table *const *)all.tables,
-                            all.names, self->plan->num_parts, &self->hooks, error);
+        status = ps_parts_plan_again(&self->next->is_again, self->next->replans,
+                                     self->num_questions, tables, all.names, num_parts, error);
     }
-    for (size_t i = self->own.num; all.tables != NULL && i < self->plan->num_parts; i++) {
+    if (status == PSPEC_OK && !self->next->is_again) {
+        status = ps_parts_finish(out, self->kind, &self->request, tables, all.names, num_parts,
+                                 &self->hooks, error);
+    }
+    for (size_t i = self->own.num; tables != NULL && i < num_parts; i++) {
         ps_table_destroy(all.tables[i]);
     }
     ps_pool_free(&all.memory);
@@ -126,7 +141,7 @@ static pspec_status finish(ps_answer *out, const work *self, ps_rank_bytes *byte
 static pspec_status compare_jobs(const work *self, ps_error *error) {
     ps_outlook outlook = {0};
     const pspec_status status =
-        self->own.num > 0 ? self->kind->look_ahead(&outlook, self->request, &self->hooks, error)
+        self->own.num > 0 ? self->kind->look_ahead(&outlook, &self->request, &self->hooks, error)
                           : PSPEC_OK;
     const pspec_status compared =
         ps_ranks_compare(self->ranks, &outlook.alike, status, NULL, 0, error);
@@ -134,7 +149,8 @@ static pspec_status compare_jobs(const work *self, ps_error *error) {
     return compared;
 }
 
-static pspec_status run(ps_answer *out, work *self, ps_error *error) {
+/* Parts with the plans of the request: all of them, and what comes of it. */
+static pspec_status go_round(ps_answer *out, work *self, ps_error *error) {
     const size_t num = ps_ranks_num(self->ranks);
     ps_rank_bytes own = {0};
     ps_rank_bytes *bytes = NULL;
@@ -151,7 +167,26 @@ static pspec_status run(ps_answer *out, work *self, ps_error *error) {
     }
     free(own.data);
     ps_ranks_free(bytes, num);
-    return ps_ranks_conclude(self->ranks, status, NULL, 0, error);
+    status = ps_ranks_conclude(self->ranks, status, self->next, self->verdict_bytes, error);
+    end(self, status == PSPEC_OK && !self->next->is_again);
+    return status;
+}
+
+static pspec_status run(ps_answer *out, work *self, ps_error *error) {
+    char *data = NULL;
+    self->verdict_bytes = sizeof(verdict) + self->num_questions * sizeof(ps_replan);
+    pspec_status status = PS_NEW(&data, self->verdict_bytes, "plans", error);
+    status = ps_ranks_agree(self->ranks, status, error);
+    self->next = (verdict *)(void *)data;
+    while (status == PSPEC_OK) {
+        status = go_round(out, self, error);
+        if (status != PSPEC_OK || !self->next->is_again) {
+            break;
+        }
+        self->request.replans = self->next->replans;
+    }
+    free(data);
+    return status;
 }
 
 pspec_status ps_ranks_produce(ps_answer *out, ps_ranks *ranks, const ps_ranks_plan *plan,
@@ -160,17 +195,14 @@ pspec_status ps_ranks_produce(ps_answer *out, ps_ranks *ranks, const ps_ranks_pl
     work self = {.ranks = ranks,
                  .plan = plan,
                  .kind = kind,
-                 .request = request,
+                 .request = *request,
                  .hooks = *hooks,
-                 .watch = &hooks->watch};
+                 .watch = &hooks->watch,
+                 .num_questions = ps_request_num_questions(request)};
     *out = (ps_answer){0};
     self.hooks.watch = (ps_watch){tell, &self};
     self.hooks.is_shared = true;
     self.own = deal(&self, ps_ranks_own(ranks));
-    pspec_status status = compare_jobs(&self, error);
-    if (status == PSPEC_OK) {
-        status = run(out, &self, error);
-    }
-    end(&self, status == PSPEC_OK);
-    return status;
+    const pspec_status status = compare_jobs(&self, error);
+    return status == PSPEC_OK ? run(out, &self, error) : status;
 }

@@ -185,6 +185,9 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_request *argument
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, kind);
         out->questions[i].limits.checkpoint.part = (unsigned)i;
+        if (arguments->replans != NULL) {
+            out->questions[i].replan = arguments->replans[i];
+        }
         if (out->files[i].num > 0) {
             out->questions[i].paths = out->files[i].paths;
             out->questions[i].num_paths = out->files[i].num;

@@ -13,8 +13,7 @@ pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *part
 
 /* ps_spectrum_sums_close; PSPEC_ERROR_TOLERANCE where that is all of a job, for whose powers, which
  * are known no sooner, it would have been planned once more. */
-pspec_status ps_ranges_close(ps_spectrum_sums *sums, bool are_of_ranks,
-                             ps_error *error) PS_MUST_CHECK;
+pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) PS_MUST_CHECK;
 
 /* The header entry number `index` of that key, or a missing one; how many there are. */
 ps_cell ps_entry_find(const ps_table *table, const char *key, size_t index);

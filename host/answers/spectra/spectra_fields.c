@@ -81,9 +81,8 @@ const ps_field_row ps_fields_powers[] = {
      "frequencies that a ring has and their mean |k|, [bins][2]"},
     {"state_range", "", PS_STATE, OF_ALL, ranged,
      "A, B and M of the range, whether sums of bins and of frequencies are in single precision, "
-     "the "
-     "tolerance, and of pairs what their error follows from: that of coefficients, and the largest "
-     "sum w^2 / (sum |w|)^2"},
+     "the tolerance, of pairs the error of coefficients, largest sum w^2 / (sum |w|)^2 and mean "
+     "power, and the plan: which, for which mean power, share and N"},
     {"state_parts", "", PS_STATE, OF_ALL, ranged,
      "what ranges are put together from, [parts][14]: first realization, number of them, sums of "
      "N, of W^2 / V and of W"},

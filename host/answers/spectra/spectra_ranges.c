@@ -219,13 +219,13 @@ pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *part
 
 /* ---- the whole job --------------------------------------------------------------------------- */
 
-pspec_status ps_ranges_close(ps_spectrum_sums *sums, bool are_of_ranks, ps_error *error) {
+pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) {
     ps_spectrum_sums_close(sums);
     return sums->num_all > 0 || sums->error <= sums->tolerance
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_TOLERANCE,
                          "the powers of these realizations need a more exact plan: the error is "
-                         "%.2g, above the tolerance %g; run %s again with a smaller --tol, or with "
-                         "--precision double",
-                         sums->error, sums->tolerance, are_of_ranks ? "all ranks" : "the ranges");
+                         "%.2g, above the tolerance %g; run the ranges again with a smaller --tol, "
+                         "or with --precision double",
+                         sums->error, sums->tolerance);
 }

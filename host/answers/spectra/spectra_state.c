@@ -91,17 +91,32 @@ static void append_cell(ps_text *out, const ps_cell *cell) {
     }
 }
 
+/* That of a question, whose entries end with `skipped`. */
+static ps_cell find_entry(const ps_table *table, const char *key, size_t question, size_t index) {
+    const char *name = NULL;
+    size_t at = 0;
+    for (size_t i = 0; i < ps_table_num_meta(table) && at <= question; i++) {
+        const ps_cell cell = ps_table_meta(table, i, &name);
+        if (at == question && strcmp(name, key) == 0 && index-- == 0) {
+            return cell;
+        }
+        at += strcmp(name, "skipped") == 0;
+    }
+    return PS_MISSING;
+}
+
 /* What all parts tell, or each of it once: "1; 2". */
-static pspec_status tell_entry(ps_table *told, const ps_parts *parts, const char *key, size_t index,
-                               ps_error *error) {
+static pspec_status tell_entry(ps_table *told, const ps_parts *parts, const char *key,
+                               size_t question, size_t index, bool *is_there, ps_error *error) {
     ps_text text = {0};
     ps_cell first = PS_MISSING;
     size_t num = 0;
     for (size_t p = 0; p < parts->num; p++) {
-        const ps_cell cell = ps_entry_find(parts->tables[p], key, index);
+        const ps_cell cell = find_entry(parts->tables[p], key, question, index);
         bool is_new = cell.kind != PS_CELL_MISSING;
+        *is_there = *is_there || is_new;
         for (size_t before = 0; is_new && before < p; before++) {
-            const ps_cell other = ps_entry_find(parts->tables[before], key, index);
+            const ps_cell other = find_entry(parts->tables[before], key, question, index);
             is_new = !ps_cells_are_same(&cell, &other);
         }
         if (is_new) {
@@ -119,20 +134,12 @@ static pspec_status tell_entry(ps_table *told, const ps_parts *parts, const char
     return status;
 }
 
-/* Values of a key that only some questions have are told with the first: which they are of is
- * nowhere. */
 static pspec_status tell_key(ps_table *told, const ps_parts *parts, const char *key,
-                             size_t question, size_t num_questions, ps_error *error) {
-    size_t num = 0;
-    for (size_t p = 0; p < parts->num; p++) {
-        const size_t of_part = ps_entry_count(parts->tables[p], key);
-        num = of_part > num ? of_part : num;
-    }
-    if (num == num_questions) {
-        return tell_entry(told, parts, key, question, error);
-    }
-    for (size_t i = 0; question == 0 && i < num; i++) {
-        PS_TRY(tell_entry(told, parts, key, i, error));
+                             size_t question, ps_error *error) {
+    bool is_there = true;
+    for (size_t index = 0; is_there; index++) {
+        is_there = false;
+        PS_TRY(tell_entry(told, parts, key, question, index, &is_there, error));
     }
     return PSPEC_OK;
 }
@@ -153,14 +160,13 @@ static pspec_status tell_parts(ps_table *told, const ps_parts *parts, ps_error *
     return PSPEC_OK;
 }
 
-static pspec_status tell(ps_table **out, const ps_parts *parts, size_t question,
-                         size_t num_questions, ps_error *error) {
+static pspec_status tell(ps_table **out, const ps_parts *parts, size_t question, ps_error *error) {
     PS_TRY(ps_table_create(out, "", NULL, 0, error));
     ps_parts told_of = *parts;
     told_of.num = parts->request != NULL ? 1 : parts->num; /* else they are of one job */
     for (const char *const *key = ps_told_keys; *key != NULL; key++) {
         if (strcmp(*key, "merged") != 0) {
-            PS_TRY(tell_key(*out, &told_of, *key, question, num_questions, error));
+            PS_TRY(tell_key(*out, &told_of, *key, question, error));
         }
     }
     return question == 0 && parts->request == NULL ? tell_parts(*out, parts, error) : PSPEC_OK;
@@ -201,8 +207,7 @@ static pspec_status merge_sums(merged *self, const ps_parts *parts, size_t quest
         ps_bins_free(&bins);
         PS_TRY(status);
     }
-    return self->sums.num_all > 0 ? ps_ranges_close(&self->sums, parts->request != NULL, error)
-                                  : PSPEC_OK;
+    return self->sums.num_all > 0 ? ps_ranges_close(&self->sums, error) : PSPEC_OK;
 }
 
 static pspec_status look_at_errors(merged *self, const ps_request *request, ps_error *error) {
@@ -295,7 +300,7 @@ static pspec_status merge_all(merged *each, ps_measured *all, const ps_parts *pa
         request->normalization = each[i].sums.normalization;
         request->frequencies.path = is_list ? "" : NULL;
         PS_TRY(finish(&each[i], &all[i], request, error));
-        PS_TRY(tell(&all[i].told, parts, i, num, error));
+        PS_TRY(tell(&all[i].told, parts, i, error));
         all[i].lead = find_lead(parts->tables[0], row);
         PS_TRY(compare_leads(parts, &all[i].lead, row, error));
         row += is_list ? set->num : each[i].spectrum.num_bins;

@@ -304,7 +304,8 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
                               .standard_error = job->question->accuracy.standard_error,
                               .is_sequential = job->needs.sequential,
                               .spec = &job->question->limits.checkpoint,
-                              .is_part = job->question->range.end > 0};
+                              .is_part = job->question->range.end > 0,
+                              .replan = job->question->replan};
     PS_TRY(ps_runner_run(&job->runner, error));
     PS_TRY(ps_power_range_end(job, error));
     return finish(job, error);
@@ -315,6 +316,8 @@ pspec_status ps_power_job_sums(ps_power_job *job, ps_spectrum_sums *out, ps_erro
     out->num_equal = job->needs.one_realization ? job->spectrum.num_realizations : 0;
     out->num_all = job->question->range.end > 0 ? job->num_all : 0;
     out->tolerance = job->problem.tolerance;
+    out->planned = (ps_replan){job->runner.num_replans, job->problem.expected_power,
+                               job->problem.weight_share, job->problem.num_points};
     return PSPEC_OK;
 }
 

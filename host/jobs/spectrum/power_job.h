@@ -29,6 +29,7 @@ typedef struct ps_power_question {
     ps_source *source;          /* borrowed, of the files, at their first set; NULL: opened here */
     uint64_t num_sets;          /* the first of the files alone; 0: all */
     ps_realization_range range; /* the others are left to other jobs; not with num_sets */
+    ps_replan replan;           /* of a range: what the plan of all of them is for */
 
     /* degrees, where points are on the sphere; frequencies are then not looked at */
     bool on_sphere;

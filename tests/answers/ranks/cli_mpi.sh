@@ -58,6 +58,24 @@ is_same 3 pairs --engine host_direct --columns xyw --lift sphere -l 3 "$sets"
 if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     is_same 3 power -m 600 --sampler white -n 64 -k 8 --precision single
 fi
+
+# Powers of all parts decide together on another plan, each question for itself.
+awk 'BEGIN { for (r = 0; r < 300; r++) { if (r) print "#"
+    for (j = 0; j < 300; j++) print 0.5 + 1e-4 * (j % 17) + 1e-6 * r, 0.5 + 1e-4 * (j % 19) } }' >clusters.txt
+clusters=$PWD/clusters.txt
+is_planned_twice() { # N ARGS...
+    is_same "$@"
+    "$program" "${@:2}" >out
+    [[ $(<out) == *planned_twice* ]] || complain "planned once: $*"
+}
+if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
+    is_planned_twice 2 power -k 8 --full full.npy "$clusters"
+    is_planned_twice 3 angular --lift sphere -l 8 "$clusters"
+    is_planned_twice 3 pairs --lift sphere -l 8 "$clusters"
+    is_planned_twice 2 power --sampler white --sampler regular -n 64,256 --no-skip --no-self-check -m 300 -k 20
+    ranks 3 2 power --precision single -k 8 "$clusters"
+    sentence 'tolerance 1e-06 cannot be reached: the smallest error is'
+fi
 job=(power --engine host_direct -m 300 --sampler jittered -n 9 -k 3)
 "$program" "${job[@]}" >one.csv
 ranks 0 4 "${job[@]}"
