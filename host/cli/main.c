@@ -261,6 +261,16 @@ static pspec_status check_stack(ps_error *error) {
                          (unsigned long long)limit.rlim_cur >> 10, LEAST_BYTES >> 10);
 }
 
+/* Words that are answered without a command. */
+static bool is_about_program(const char *word) {
+    static const char *const words[] = {"--version", "-V", "--help", "-h", "help"};
+    size_t i = 0;
+    while (i < sizeof words / sizeof words[0] && strcmp(word, words[i]) != 0) {
+        i++;
+    }
+    return i < sizeof words / sizeof words[0];
+}
+
 int main(int argc, char **argv) {
     ps_error error = {0};
     prepare_process();
@@ -268,6 +278,9 @@ int main(int argc, char **argv) {
         return complain_of_nothing();
     }
     const char *const first = argv[1];
+    if (ps_ranks_find_own() > 0 && is_about_program(first)) {
+        return PS_EXIT_DONE; /* rank 0 says it */
+    }
     if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0) {
         printf("pointspec %s\n", pspec_version());
         return finish_output();

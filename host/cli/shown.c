@@ -122,12 +122,15 @@ static pspec_status run_ranks(ps_answer *out, const ps_command *command,
     const bool is_first = ps_ranks_own(ranks) == 0;
     const ps_answer_hooks *const own = is_first ? hooks : &silent;
     ps_ranks_plan plan;
-    PS_TRY(ps_ranks_plan_work(&plan, ranks, command, arguments, own, error));
-    if (plan.is_shared) {
-        return ps_ranks_produce(out, ranks, &plan, command, arguments, own, error);
+    pspec_status status = ps_ranks_plan_work(&plan, ranks, command, arguments, own, error);
+    if (status == PSPEC_OK && plan.job.is_shared) {
+        status = ps_ranks_produce(out, ranks, &plan, command, arguments, own, error);
+    } else if (status == PSPEC_OK) {
+        status = is_first ? run(out, command, arguments, hooks, error) : PSPEC_OK;
+        status = ps_ranks_agree(ranks, status, error);
     }
-    return ps_ranks_agree(ranks, is_first ? run(out, command, arguments, hooks, error) : PSPEC_OK,
-                          error);
+    ps_ranks_plan_free(&plan);
+    return status;
 }
 
 pspec_status ps_shown_run(const ps_command *command, const ps_request *arguments, ps_ranks *ranks,

@@ -39,7 +39,7 @@ bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
 
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
     return batch->should_stop != NULL && batch->should_stop(batch->payload)
-               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted")
                : PSPEC_OK;
 }
 

@@ -10,7 +10,7 @@ void ps_scout_close(ps_scout *scout) {
 
 static pspec_status go_on(const ps_source_options *options, ps_error *error) {
     return options->should_stop != NULL && options->should_stop(options->payload)
-               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled while points were counted")
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted while points were counted")
                : PSPEC_OK;
 }
 

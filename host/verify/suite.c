@@ -92,7 +92,7 @@ pspec_status ps_suite_check(const ps_suite *suite, const ps_suite_options *optio
 
 pspec_status ps_suite_go_on(const ps_suite_options *options, ps_error *error) {
     return options->should_stop != NULL && options->should_stop(options->payload)
-               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted")
                : PSPEC_OK;
 }
 

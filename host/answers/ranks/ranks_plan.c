@@ -57,32 +57,32 @@ static void look_at_job(ps_error *why, const ps_outlook *outlook) {
 static void warn(const ps_ranks *ranks, const ps_ranks_plan *plan, const char *why,
                  const ps_answer_hooks *hooks) {
     const size_t num = ps_ranks_num(ranks);
-    const uint64_t blocks = ps_parts_most(plan->num_realizations);
-    const unsigned long long idle = num - plan->num_parts;
+    const uint64_t blocks = ps_parts_most(plan->job.num_realizations);
+    const unsigned long long idle = num - plan->job.num_parts;
     if (ranks == NULL) {
         return;
     }
-    if (!plan->is_shared) {
+    if (!plan->job.is_shared) {
         ps_answer_warn(hooks, "rank 0 works alone, and the others of %zu ranks wait: %s", num, why);
     } else if (blocks < num) {
         ps_answer_warn(hooks,
                        "%llu of %zu ranks have nothing to do: realizations are shared in blocks of "
                        "%d, of which there are %llu",
                        idle, num, PS_SUM_BLOCK, (unsigned long long)blocks);
-    } else if (plan->num_parts < num) {
+    } else if (plan->job.num_parts < num) {
         ps_answer_warn(hooks,
                        "%llu of %zu ranks have nothing to do: by its checkpoints the job was begun "
                        "in %llu parts",
-                       idle, num, (unsigned long long)plan->num_parts);
+                       idle, num, (unsigned long long)plan->job.num_parts);
     }
 }
 
 /* A job that has begun keeps its parts; found: how many by its checkpoints. */
 static pspec_status choose_parts(ps_ranks_plan *out, const ps_ranks *ranks, uint64_t found,
                                  ps_error *error) {
-    const uint64_t most = ps_parts_most(out->num_realizations);
+    const uint64_t most = ps_parts_most(out->job.num_realizations);
     const uint64_t num = ps_ranks_num(ranks);
-    out->num_parts = found > 0 ? found : num < most ? num : most;
+    out->job.num_parts = found > 0 ? found : num < most ? num : most;
     return found <= most
                ? PSPEC_OK
                : ps_fail(
@@ -92,17 +92,14 @@ static pspec_status choose_parts(ps_ranks_plan *out, const ps_ranks *ranks, uint
                      (unsigned long long)found, (unsigned long long)most, PS_SUM_BLOCK);
 }
 
-static pspec_status look(ps_error *why, ps_ranks_plan *out, const ps_command *command,
-                         const ps_request *request, const ps_answer_hooks *hooks, ps_error *error) {
-    ps_outlook outlook = {.counts = true};
-    ps_table_format format = PS_FORMAT_CSV;
-    PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
-    const pspec_status status = command->look_ahead(&outlook, request, hooks, error);
-    ps_text_free(&outlook.alike);
-    PS_TRY(status);
-    look_at_job(why, &outlook);
-    out->num_realizations = outlook.num_realizations;
-    return PSPEC_OK;
+/* counts: sets in files, too. */
+static pspec_status look(ps_outlook *outlook, ps_ranks_plan *out, bool counts,
+                         const ps_command *command, const ps_request *request,
+                         const ps_answer_hooks *hooks, ps_error *error) {
+    *outlook = (ps_outlook){.counts = counts};
+    const pspec_status status = command->look_ahead(outlook, request, hooks, error);
+    out->alike = outlook->alike;
+    return status;
 }
 
 /* Of rank 0. */
@@ -119,14 +116,34 @@ static pspec_status plan(ps_ranks_plan *out, const ps_ranks *ranks, const ps_com
         ps_fail(&why, PSPEC_ERROR_INPUT, "\"%s\" is the checkpoint of one process", path);
     }
     if (why.message[0] == '\0' && (ranks != NULL || found > 0)) {
-        PS_TRY(look(&why, out, command, request, hooks, error));
-        out->is_shared = why.message[0] == '\0';
+        ps_outlook outlook;
+        ps_table_format format = PS_FORMAT_CSV;
+        PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
+        PS_TRY(look(&outlook, out, true, command, request, hooks, error));
+        look_at_job(&why, &outlook);
+        out->job.num_realizations = outlook.num_realizations;
+        out->job.is_shared = why.message[0] == '\0';
     }
-    if (out->is_shared) {
+    if (out->job.is_shared) {
         PS_TRY(choose_parts(out, ranks, found, error));
     }
     warn(ranks, out, why.message, hooks);
     return PSPEC_OK;
+}
+
+/* Of the others, at the same time. */
+static void prepare(ps_ranks_plan *out, const ps_command *command, const ps_request *request,
+                    const ps_answer_hooks *hooks) {
+    ps_error why = {0};
+    ps_outlook outlook;
+    look_at_request(&why, command, request);
+    if (why.message[0] == '\0') {
+        (void)look(&outlook, out, false, command, request, hooks, &out->failure);
+    }
+}
+
+void ps_ranks_plan_free(ps_ranks_plan *plan) {
+    ps_text_free(&plan->alike);
 }
 
 pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_command *command,
@@ -145,8 +162,10 @@ pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_co
     ps_text_append(&lines, "command line: %s\n", request->command_line);
     if (status == PSPEC_OK && ps_ranks_own(ranks) == 0) {
         status = plan(out, ranks, command, request, hooks, error);
+    } else if (status == PSPEC_OK) {
+        prepare(out, command, request, hooks);
     }
-    status = ps_ranks_compare(ranks, &lines, status, out, sizeof *out, error);
+    status = ps_ranks_compare(ranks, &lines, status, &out->job, sizeof out->job, error);
     ps_text_free(&lines);
     return status;
 }

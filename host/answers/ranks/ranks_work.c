@@ -27,7 +27,7 @@ typedef struct work {
 } work;
 
 static ps_dealt deal(const work *self, size_t rank) {
-    return ps_parts_deal(self->plan->num_parts, ps_ranks_num(self->ranks), rank);
+    return ps_parts_deal(self->plan->job.num_parts, ps_ranks_num(self->ranks), rank);
 }
 
 static int tell(const ps_watch_report *report, void *payload) {
@@ -44,8 +44,9 @@ static pspec_status begin(work *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->parts, self->own.num, "parts of a job", error));
     PS_TRY(PS_NEW(&self->answers, self->own.num, "answers of parts", error));
     for (size_t i = 0; i < self->own.num; i++) {
-        PS_TRY(ps_part_begin(&self->parts[i], self->kind, &self->request, plan->num_realizations,
-                             plan->num_parts, self->own.first + i, &self->hooks, error));
+        PS_TRY(ps_part_begin(&self->parts[i], self->kind, &self->request,
+                             plan->job.num_realizations, plan->job.num_parts, self->own.first + i,
+                             &self->hooks, error));
     }
     return PSPEC_OK;
 }
@@ -100,7 +101,7 @@ static pspec_status take_part(gathered *job, const work *self, size_t rank, size
 
 static pspec_status take_parts(gathered *job, const work *self, ps_rank_bytes *bytes,
                                ps_error *error) {
-    const size_t num_parts = self->plan->num_parts;
+    const size_t num_parts = self->plan->job.num_parts;
     PS_TRY(PS_POOL_NEW(&job->memory, &job->tables, num_parts, "answers", error));
     PS_TRY(PS_POOL_NEW(&job->memory, &job->names, num_parts, "answers", error));
     for (size_t rank = 0; rank < ps_ranks_num(self->ranks); rank++) {
@@ -116,7 +117,7 @@ static pspec_status take_parts(gathered *job, const work *self, ps_rank_bytes *b
 }
 
 static pspec_status finish(ps_answer *out, work *self, ps_rank_bytes *bytes, ps_error *error) {
-    const size_t num_parts = self->plan->num_parts;
+    const size_t num_parts = self->plan->job.num_parts;
     gathered all = {0};
     pspec_status status = take_parts(&all, self, bytes, error);
     const ps_table *const *const tables = (const ps_table *const *)all.tables;
@@ -137,16 +138,16 @@ static pspec_status finish(ps_answer *out, work *self, ps_rank_bytes *bytes, ps_
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-/* Devices and plans of all ranks are those of rank 0. */
+/* Devices and plans of all ranks that have something to do are those of rank 0. */
 static pspec_status compare_jobs(const work *self, ps_error *error) {
-    ps_outlook outlook = {0};
-    const pspec_status status =
-        self->own.num > 0 ? self->kind->look_ahead(&outlook, &self->request, &self->hooks, error)
-                          : PSPEC_OK;
-    const pspec_status compared =
-        ps_ranks_compare(self->ranks, &outlook.alike, status, NULL, 0, error);
-    ps_text_free(&outlook.alike);
-    return compared;
+    static const ps_text nothing;
+    const bool has_parts = self->own.num > 0;
+    const ps_error *const failure = &self->plan->failure;
+    if (has_parts && failure->status != PSPEC_OK) {
+        *error = *failure;
+    }
+    return ps_ranks_compare(self->ranks, has_parts ? &self->plan->alike : &nothing,
+                            has_parts ? failure->status : PSPEC_OK, NULL, 0, error);
 }
 
 /* Parts with the plans of the request: all of them, and what comes of it. */

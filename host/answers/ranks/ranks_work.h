@@ -8,17 +8,25 @@
 #include "answers/parts/parts.h"
 #include "ranks/ranks.h"
 
-/* What rank 0 has found, and all ranks know. */
 typedef struct ps_ranks_plan {
-    uint64_t num_realizations, num_parts;
-    bool is_shared;
+    /* What rank 0 has found, and all ranks know. */
+    struct {
+        uint64_t num_realizations, num_parts;
+        bool is_shared;
+    } job;
+    /* What this rank has found meanwhile: what it should have in common with the others, or why it
+     * cannot do its share, which is nobody's concern where rank 0 fails first, or works alone */
+    ps_text alike;
+    ps_error failure;
 } ps_ranks_plan;
 
 /* Refuses ranks of other programs and command lines, and what a command refuses early; hooks are
- * those of this rank, and hear on rank 0 of ranks that have nothing to do. */
+ * those of this rank, and hear on rank 0 of ranks that have nothing to do. *out is freed by
+ * ps_ranks_plan_free, also after an error. */
 pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_command *command,
                                 const ps_request *request, const ps_answer_hooks *hooks,
                                 ps_error *error) PS_MUST_CHECK;
+void ps_ranks_plan_free(ps_ranks_plan *plan);
 
 /* ps_answer_produce of a plan that is shared; on ranks but 0 *out has no table, and nothing is
  * written. Ranks of other devices, or whose plans are others, are refused. */

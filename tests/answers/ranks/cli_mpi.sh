@@ -162,6 +162,26 @@ mpirun -n 1 "$program" "${job[@]}" : -n 1 "$program" "${job[@]}" --seed 2 </dev/
 grep '^pointspec' err >sentences
 sentence 'ranks of one job have the same command line: that of rank 1 is'
 
+# What needs no command is said once.
+for word in --version --help; do
+    checked=$((checked + 1))
+    mpirun -n 3 "$program" "$word" </dev/null >out 2>err || complain "$word of 3 ranks: $(<err)"
+    "$program" "$word" | cmp - out || complain "$word is not said once: $(<out)"
+done
+
+# An interrupt of one rank is the word that one process has for it.
+checked=$((checked + 1))
+mpirun -n 2 "$program" "${job[@]}" -m 1e9 </dev/null >out 2>err &
+pid=$!
+wait_until "$pid" pgrep -P "$pid"
+for rank in $(pgrep -P "$pid"); do
+    wait_until_it_catches "$rank"
+    last=$rank
+done
+kill -TERM "$last"
+wait "$pid" && complain 'interrupted, and done'
+[[ $(grep -c '^pointspec power: .*interrupted' err) == 1 ]] || complain "interrupted: $(<err)"
+
 # Without the module each rank would do the whole job.
 mkdir bare
 cp "$program" bare/pointspec
