@@ -115,7 +115,7 @@ cl_int clSetKernelArg(cl_kernel kernel, cl_uint index, size_t bytes, const void 
 }
 
 /* A line "SOURCE KERNEL GROUP LOCAL-BYTES OPTIONS"; the text of a program begins with the name of
- * its source (host/device/kernel_source.c). */
+ * its source (host/device/programs/kernel_source.c). */
 static void write_down(cl_command_queue queue, cl_kernel kernel, size_t group) {
     cl_program program = NULL;
     cl_device_id id = NULL;

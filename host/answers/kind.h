@@ -102,6 +102,7 @@ double ps_compared_variance_bound(const ps_both_tables *both, const char *value)
 typedef struct ps_outlook {
     bool counts;               /* asked: how many realizations there are in files, too */
     uint64_t num_realizations; /* 0: unknown */
+    unsigned num_jobs;         /* one after the other, of so many realizations each */
     const char *alone;         /* why ranks do not share them; NULL: they may */
     ps_text alike; /* lines "thing: value" that ranks have alike: devices and plans; freed by who
                       asked, also after an error */

@@ -1,4 +1,5 @@
 /* The public library: a question answered, or planned. */
+#include "answers/devices/devices_work.h"
 #include "api/question.h"
 #include "base/memory.h"
 #include "commands/plan.h"
@@ -192,7 +193,7 @@ static pspec_status produce(ps_answer *out, const ps_command *row, pspec_questio
         PS_TRY(ps_kind_without_device(row, ps_context_open_device(question->context)));
     }
     const ps_answer_hooks hooks = hooks_of(question);
-    return ps_answer_produce(out, row, request, &hooks, error);
+    return ps_devices_produce(out, row, request, &hooks, error);
 }
 
 static pspec_status answer(pspec_answer **out, asking *self, bool is_plan, ps_error *error) {

@@ -1,3 +1,4 @@
+#include "answers/devices/devices_work.h"
 #include "answers/ranks/ranks_work.h"
 #include "cli/command.h"
 #include "fields/table_cells.h"
@@ -104,7 +105,7 @@ ps_answer_hooks ps_shown_hooks(ps_shown *shown) {
 static pspec_status run(ps_answer *out, const ps_command *command, const ps_request *arguments,
                         const ps_answer_hooks *hooks, ps_error *error) {
     PS_TRY(command->run != NULL ? command->run(out, arguments, hooks, error)
-                                : ps_answer_produce(out, command, arguments, hooks, error));
+                                : ps_devices_produce(out, command, arguments, hooks, error));
     if (command->makes_folder) {
         PS_TRY(ps_table_write(out->table, "-", PS_FORMAT_CSV, error));
     }

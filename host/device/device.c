@@ -1,4 +1,5 @@
 /* Finding, describing, choosing and opening devices. */
+#include "device/choice.h"
 #include "device/device_private.h"
 #include "device/drivers.h"
 
@@ -6,13 +7,11 @@
 #include "base/process/process_lock.h"
 #include "base/text.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
-enum { MAX_PLATFORMS = 16, MAX_DEVICES = 64 };
+enum { MAX_PLATFORMS = 16, MAX_DEVICES = PS_SELECTORS_MOST };
 
 /* ---- listing ----------------------------------------------------------------------------- */
 
@@ -185,123 +184,75 @@ pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_e
     return status;
 }
 
-/* ---- choosing ---------------------------------------------------------------------------- */
-
-static bool contains_ignoring_case(const char *text, const char *part) {
-    if (part[0] == '\0') {
-        return true;
-    }
-    for (; *text != '\0'; text++) {
-        size_t i = 0;
-        while (part[i] != '\0' &&
-               tolower((unsigned char)text[i]) == tolower((unsigned char)part[i])) {
-            i++;
-        }
-        if (part[i] == '\0') {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool device_matches(const ps_device_limits *limits, const char *selector) {
-    if (strcasecmp(selector, "gpu") == 0) {
-        return limits->is_gpu;
-    }
-    if (strcasecmp(selector, "cpu") == 0) {
-        return limits->is_cpu;
-    }
-    if (strcasecmp(selector, "accelerator") == 0) {
-        return !limits->is_gpu && !limits->is_cpu;
-    }
-    return contains_ignoring_case(limits->name, selector);
-}
-
-bool ps_device_is_simulator(const ps_device_limits *limits) {
-    return contains_ignoring_case(limits->platform, "oclgrind") ||
-           contains_ignoring_case(limits->name, "oclgrind");
-}
-
-bool ps_device_is_pocl(const ps_device_limits *limits) {
-    return strcmp(limits->platform, "Portable Computing Language") == 0;
-}
-
-/* First device that matches selector, rather no simulator; num_devices when none does. */
-static size_t find_match(const ps_device_limits *limits, size_t num_devices, const char *selector) {
-    size_t simulator = num_devices;
-    for (size_t i = 0; i < num_devices; i++) {
-        if (!device_matches(&limits[i], selector)) {
-            continue;
-        }
-        if (!ps_device_is_simulator(&limits[i])) {
-            return i;
-        }
-        simulator = simulator < num_devices ? simulator : i;
-    }
-    return simulator;
-}
-
-/* A simulator calls itself GPU and CPU at once, and is slower than either by a factor of thousands:
- * the last choice. */
-static size_t choose_default(const ps_device_limits *limits, size_t num_devices) {
-    static const char *const kinds[] = {"gpu", "cpu", ""}; /* any name contains the last */
-    size_t index = 0;
-    for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++) {
-        index = find_match(limits, num_devices, kinds[kind]);
-        if (index < num_devices && !ps_device_is_simulator(&limits[index])) {
-            return index;
-        }
-    }
-    return index; /* there are only simulators */
-}
-
-pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
-                              const char *selector, size_t *index, ps_error *error) {
-    if (selector == NULL || selector[0] == '\0') {
-        *index = choose_default(limits, num_devices);
-        return PSPEC_OK;
-    }
-    if (selector[strspn(selector, "0123456789")] == '\0') {
-        const unsigned long long number = strtoull(selector, NULL, 10);
-        *index = number < num_devices ? (size_t)number : num_devices;
-    } else {
-        *index = find_match(limits, num_devices, selector);
-    }
-    if (*index < num_devices) {
-        return PSPEC_OK;
-    }
-    ps_text names = {0};
-    for (size_t i = 0; i < num_devices; i++) {
-        ps_text_append(&names, "%snumber %zu, \"%s\"", i > 0 ? "; " : "", i, limits[i].name);
-    }
-    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no OpenCL device fits \"%s\"; %s %s", selector,
-            num_devices == 1 ? "the only one is" : "there are", ps_text_string(&names));
-    ps_text_free(&names);
-    return PSPEC_ERROR_INVALID_ARGUMENT;
-}
-
 /* ---- opening ----------------------------------------------------------------------------- */
+
+/* Sub-devices are made for good, and all at once: one is kept. */
+static pspec_status split(ps_device *device, const ps_choice *choice, ps_error *error) {
+    const size_t units = device->limits.compute_units;
+    cl_device_partition_property counts[PS_SELECTORS_MOST + 3] = {CL_DEVICE_PARTITION_BY_COUNTS};
+    cl_device_id shares[PS_SELECTORS_MOST];
+    cl_uint num = 0;
+    for (unsigned i = 0; i < choice->num_shares; i++) { /* zeros end them */
+        counts[i + 1] =
+            (cl_device_partition_property)(ps_share_begin(units, i + 1,
+                                                          (unsigned)choice->num_shares) -
+                                           ps_share_begin(units, i, (unsigned)choice->num_shares));
+    }
+    PS_TRY_CL(clCreateSubDevices(device->id, counts, (cl_uint)choice->num_shares, shares, &num),
+              error);
+    device->id = shares[choice->share];
+    device->is_share = true;
+    for (size_t i = 0; i < num; i++) {
+        if (i != choice->share) {
+            clReleaseDevice(shares[i]);
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status take_share(ps_device *device, const ps_choice *choice, ps_error *error) {
+    const ps_device_limits *const limits = &device->limits;
+    questions ask = {device->id, PSPEC_OK, error};
+    const unsigned most = query_uint(&ask, CL_DEVICE_PARTITION_MAX_SUB_DEVICES);
+    PS_TRY(ask.status);
+    if (choice->num_shares > most || choice->num_shares > limits->compute_units) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "\"%s\", of %u compute units, is not split into %zu shares%s", limits->name,
+                       limits->compute_units, choice->num_shares,
+                       most > 0 ? "" : ": its driver splits no device");
+    }
+    PS_TRY(split(device, choice, error));
+    return read_limits(device->id, &device->limits, error);
+}
+
+static void remember_own(ps_device *device) {
+    const ps_device_limits *const limits = &device->limits;
+    device->own_max_allocation = limits->max_allocation_bytes;
+    device->own_local_bytes = limits->local_bytes;
+    device->own_float_lanes = limits->native_float_lanes;
+    device->own_double_lanes = limits->native_double_lanes;
+    device->own_unified_memory = limits->has_unified_memory;
+    device->own_dedicated_local_memory = limits->has_dedicated_local_memory;
+}
 
 static pspec_status choose_among(const cl_device_id *devices, size_t num_devices,
                                  const char *selector, ps_device *device, ps_error *error) {
     ps_device_limits limits[MAX_DEVICES];
-    size_t index = 0;
+    ps_choice choice;
     for (size_t i = 0; i < num_devices; i++) {
         PS_TRY(read_limits(devices[i], &limits[i], error));
     }
-    PS_TRY(ps_device_choose(limits, num_devices, selector, &index, error));
-    if (ps_device_is_pocl(&limits[index])) {
+    PS_TRY(ps_device_choose_share(&choice, limits, num_devices, selector, error));
+    if (ps_device_is_pocl(&limits[choice.index])) {
         PS_TRY(ps_drivers_check_pocl(error));
         PS_TRY(ps_kept_list(&device->kept, error));
     }
-    device->id = devices[index];
-    device->limits = limits[index];
-    device->own_max_allocation = limits[index].max_allocation_bytes;
-    device->own_local_bytes = limits[index].local_bytes;
-    device->own_float_lanes = limits[index].native_float_lanes;
-    device->own_double_lanes = limits[index].native_double_lanes;
-    device->own_unified_memory = limits[index].has_unified_memory;
-    device->own_dedicated_local_memory = limits[index].has_dedicated_local_memory;
+    device->id = devices[choice.index];
+    device->limits = limits[choice.index];
+    if (choice.num_shares > 0) {
+        PS_TRY(take_share(device, &choice, error));
+    }
+    remember_own(device);
     if (device->limits.is_gpu && !ps_device_is_simulator(&device->limits)) {
         ps_device_set_builders(device, ps_workers_most());
     }
@@ -365,12 +316,19 @@ void ps_device_close(ps_device *device) {
     if (device->context != NULL) {
         clReleaseContext(device->context);
     }
+    if (device->is_share) {
+        clReleaseDevice(device->id);
+    }
     ps_process_unlock();
     free(device);
 }
 
 const ps_device_limits *ps_device_get_limits(const ps_device *device) {
     return device != NULL ? &device->limits : NULL;
+}
+
+void ps_device_set_name(ps_device *device, const char *name) {
+    snprintf(device->limits.name, sizeof device->limits.name, "%s", name);
 }
 
 pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures, ps_error *error) {

@@ -58,7 +58,7 @@ bool ps_device_is_simulator(const ps_device_limits *limits);
 /* Index of the device that selector means: an index, "cpu", "gpu", "accelerator" or a part of a
  * name (case does not matter); NULL or "" is the first GPU, else the first CPU, else the first.
  * Simulators come after all others of their kind, and are the default only where there is nothing
- * else. */
+ * else. Of several devices (device/choice.h) it is the first. */
 pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
                               const char *selector, size_t *index, ps_error *error) PS_MUST_CHECK;
 
@@ -70,6 +70,8 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
                             ps_error *error) PS_MUST_CHECK;
 void ps_device_close(ps_device *device);
 const ps_device_limits *ps_device_get_limits(const ps_device *device); /* NULL: of NULL */
+/* What answers call it from now on: all devices that share their work. */
+void ps_device_set_name(ps_device *device, const char *name);
 /* What the planner is to know of the device from now on; copied. */
 pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures,
                                    ps_error *error) PS_MUST_CHECK;

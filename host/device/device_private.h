@@ -59,6 +59,7 @@ struct ps_device {
     bool own_unified_memory;         /* see ps_device_set_unified_memory */
     bool own_dedicated_local_memory; /* see ps_device_set_dedicated_local_memory */
     cl_device_id id;
+    bool is_share; /* a sub-device, which is released */
     cl_context context;
     cl_command_queue queue;
     cl_command_queue uploads; /* of twins; NULL: there are none, or the kind has one queue */

@@ -28,7 +28,8 @@ typedef struct ps_realization_range {
 /* Where the work is done, and in what memory. */
 typedef struct ps_limits_spec {
     ps_plan_constraints constraints; /* engine, precision and memory that somebody asked for */
-    const char *device;              /* selector; NULL: the default */
+    const char *device;              /* selector (device/choice.h); NULL: the default */
+    bool mixed;                      /* devices of different kinds may share a job */
     const char *cache_folder;        /* of what can be made again, such as figures; NULL: none */
     uint64_t kept_bytes;             /* what sets of samplers may take in it */
     bool profile;                    /* kernels are timed */

@@ -317,13 +317,15 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
                           OF(0, READERS | SUITES | BIT(sample) | BIT(run) | BIT(devices) |
                                     BIT(doctor)),
-                          .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
-                                  "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
-                                  "CPU)",
+                          .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name; "
+                                  "several: 0,1, gpu:all, cpu:split=2 "
+                                  "(default: POINTSPEC_DEVICE, else the first GPU, else CPU)",
                           TEXT(limits.device)},
+    [PS_OPTION_MIXED] = {NAMED("mixed", 0, NULL), OF(0, READERS | BIT(run)),
+                         .help = "devices of different kinds may share a job, with bits of neither",
+                         FLAG(limits.mixed)},
     [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, BIT(run)),
-                         .help = "what the cache of results may take on the disk; 0: nothing is "
-                                 "taken from it or kept (default 1e9)",
+                         .help = "disk for the cache of results; 0: none is used (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
     [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"),
                              OF(0, READERS | BIT(sample) | BIT(run)),
@@ -335,8 +337,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               FILE_OUT(limits.checkpoint.path)},
     [PS_OPTION_CHECKPOINT_SECONDS] =
         {NAMED("checkpoint-interval", 0, "SECONDS"), OF(0, LONG),
-         .help =
-             "between two checkpoints (default: at most a hundredth of the time); 0: each batch",
+         .help = "between two checkpoints (default: at most 1 % of the time); 0: each batch",
          COUNT(limits.checkpoint.interval), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_PREFETCH] = {NAMED("prefetch", 0, NULL), OF(0, BIT(sample)),
                             .help = "write no points: make and keep those that are not yet",
@@ -384,8 +385,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          OF(0, READERS | SUITES | SETLESS | BIT(sample) | BIT(convert) | BIT(run)),
                          .help = "no progress line, no remarks", FLAG(quiet)},
     [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
-                         .help = "leave out the cases that take more than a second or so",
-                         FLAG(quick)},
+                         .help = "leave out cases of more than a second or so", FLAG(quick)},
     [PS_OPTION_SCENES] = {NAMED("scenes", 0, NULL), OF(0, BIT(bench)),
                           .help = "time the scenes that are named instead, with and without skips, "
                                   "and compare the answers",

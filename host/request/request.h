@@ -99,6 +99,7 @@ typedef enum ps_option_id {
     PS_OPTION_CASE,               /* --case NAME */
     PS_OPTION_CALIBRATE,          /* --calibrate */
     PS_OPTION_DEVICE,             /* --device SELECTOR */
+    PS_OPTION_MIXED,              /* --mixed */
     PS_OPTION_MEMORY,             /* --memory SIZE */
     PS_OPTION_CACHE,              /* --cache BYTES */
     PS_OPTION_KEPT_SETS,          /* --kept-sets BYTES */

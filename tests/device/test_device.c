@@ -1,7 +1,7 @@
 /* Building kernels, launching them, limits of a device, buffers and the profile. */
 #include "harness_kernels.h"
 
-#include "device/kernel_source.h"
+#include "device/programs/kernel_source.h"
 
 #include <stdio.h>
 #include <stdlib.h>

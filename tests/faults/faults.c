@@ -3,6 +3,7 @@
 
 #include <execinfo.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -25,7 +26,8 @@ static struct {
     fault_class wanted_class;
     unsigned long wanted_call; /* 0: none */
     bool and_all_after, kills; /* the whole process, before the call */
-    const char *failed;        /* name of the first call that failed */
+    bool loses;         /* all calls after it of its thread, whose device is lost, fail, too */
+    const char *failed; /* name of the first call that failed */
 } plan;
 
 static bool is_at_same_place(fault_class kind) {
@@ -39,20 +41,34 @@ static bool is_at_same_place(fault_class kind) {
     return is_same;
 }
 
-static bool count_call(fault_class kind, const char *name, bool can_go_on) {
+/* Devices of one process are called by a thread each. */
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+
+static _Thread_local bool is_lost;
+
+static bool count_locked(fault_class kind, const char *name, bool can_go_on) {
     const bool is_repeated = kind != FAULT_OPENCL && is_at_same_place(kind);
     plan.calls[kind] += !is_repeated;
     if (plan.wanted_call == 0 || kind != plan.wanted_class) {
         return false;
     }
     const bool is_due = (plan.calls[kind] == plan.wanted_call && !is_repeated) ||
-                        (plan.and_all_after && can_go_on && plan.calls[kind] >= plan.wanted_call);
+                        (plan.and_all_after && can_go_on && plan.calls[kind] >= plan.wanted_call) ||
+                        (is_lost && can_go_on);
+    is_lost = is_lost || (is_due && plan.loses);
     if (is_due && plan.kills) {
         raise(SIGKILL);
     }
     if (is_due && plan.failed == NULL) {
         plan.failed = name;
     }
+    return is_due;
+}
+
+static bool count_call(fault_class kind, const char *name, bool can_go_on) {
+    pthread_mutex_lock(&mutex);
+    const bool is_due = count_locked(kind, name, can_go_on);
+    pthread_mutex_unlock(&mutex);
     return is_due;
 }
 
@@ -74,6 +90,7 @@ static void read_plan(void) {
             plan.wanted_call = strtoul(text + length + 1, &end, 10);
             plan.and_all_after = *end == '+';
             plan.kills = *end == '!';
+            plan.loses = *end == '@';
         }
     }
 }
@@ -89,13 +106,16 @@ static size_t num_outstanding;
 static size_t num_unknown; /* given back without having been taken */
 
 void fault_gain(const void *thing, const char *by) {
+    pthread_mutex_lock(&mutex);
     if (thing != NULL && num_outstanding < MOST_THINGS) {
         outstanding[num_outstanding].thing = thing;
         outstanding[num_outstanding++].by = by;
     }
+    pthread_mutex_unlock(&mutex);
 }
 
 void fault_lose(const void *thing) {
+    pthread_mutex_lock(&mutex);
     size_t i = num_outstanding;
     while (i > 0 && outstanding[i - 1].thing != thing) {
         i--;
@@ -105,6 +125,7 @@ void fault_lose(const void *thing) {
     } else if (thing != NULL) {
         num_unknown++;
     }
+    pthread_mutex_unlock(&mutex);
 }
 
 /* ---- the report ---------------------------------------------------------------------------- */

@@ -69,6 +69,21 @@ WRAPPER(clGetDeviceInfo, cl_int,
     return code;
 }
 
+/* Shares of a device. */
+WRAPPER(clCreateSubDevices, cl_int,
+        (cl_device_id id, const cl_device_partition_property *properties, cl_uint room,
+         cl_device_id *shares, cl_uint *num)) {
+    if (fault_is_due(FAULT_OPENCL, "clCreateSubDevices")) {
+        return CL_DEVICE_PARTITION_FAILED;
+    }
+    const cl_int code = __real_clCreateSubDevices(id, properties, room, shares, num);
+    for (cl_uint i = 0; code == CL_SUCCESS && i < *num; i++) {
+        fault_gain(shares[i], "clCreateSubDevices");
+    }
+    return code;
+}
+RELEASE(clReleaseDevice, cl_device_id)
+
 /* ---- contexts, queues, memory -------------------------------------------------------------- */
 
 CREATE(clCreateContext, cl_context, CL_DEVICE_NOT_AVAILABLE,

@@ -25,6 +25,8 @@ pspec_status ps_part_begin(ps_part *out, const ps_kind *kind, const ps_request *
     ps_request *const own = &out->request;
     *out = (ps_part){.kind = kind, .request = *request};
     own->range = ps_parts_range(num_realizations, num_parts, part);
+    own->range.first += request->range.first;
+    own->range.end += request->range.first;
     own->wants_state = true;
     own->is_given[PS_OPTION_RANGE] = true;
     own->said[PS_OPTION_RANGE] = out->range;
@@ -56,6 +58,17 @@ void ps_part_end(ps_part *part, bool is_written) {
 
 /* ---- all of them ----------------------------------------------------------------------------- */
 
+pspec_status ps_parts_merge(ps_answer *out, const ps_request *request,
+                            const ps_table *const *tables, const char *const *names, size_t num,
+                            ps_error *error) {
+    const ps_parts merged = {.tables = tables,
+                             .names = names,
+                             .num = num,
+                             .command_line = request->command_line,
+                             .request = request};
+    return ps_answer_merge(out, &merged, error);
+}
+
 pspec_status ps_parts_finish(ps_answer *out, const ps_kind *kind, const ps_request *request,
                              const ps_table *const *tables, const char *const *names, size_t num,
                              const ps_answer_hooks *hooks, ps_error *error) {
@@ -64,11 +77,6 @@ pspec_status ps_parts_finish(ps_answer *out, const ps_kind *kind, const ps_reque
     *out = (ps_answer){0};
     PS_TRY(ps_table_choose_format(&format, own.format, own.output, error));
     own.wants_state = own.wants_state || format == PS_FORMAT_NPZ;
-    const ps_parts merged = {.tables = tables,
-                             .names = names,
-                             .num = num,
-                             .command_line = own.command_line,
-                             .request = &own};
-    PS_TRY(ps_answer_merge(out, &merged, error));
+    PS_TRY(ps_parts_merge(out, &own, tables, names, num, error));
     return ps_answer_write(out, kind, &own, format, hooks, error);
 }

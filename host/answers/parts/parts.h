@@ -39,7 +39,8 @@ typedef struct ps_part {
     ps_text checkpoint, key;
 } ps_part;
 
-/* Part number `part`, from 0, of num_parts. *out is ended by ps_part_end, also after an error.
+/* Part number `part`, from 0, of num_parts that num_realizations are cut into: those of the job, or
+ * of the range that the request names. *out is ended by ps_part_end, also after an error.
  * hooks hear of checkpoints until then. */
 pspec_status ps_part_begin(ps_part *out, const ps_kind *kind, const ps_request *request,
                            uint64_t num_realizations, uint64_t num_parts, uint64_t part,
@@ -61,9 +62,13 @@ pspec_status ps_parts_plan_again(bool *is_again, ps_replan *replans, size_t num_
                                  const ps_table *const *tables, const char *const *names,
                                  size_t num, ps_error *error) PS_MUST_CHECK;
 
-/* Merges tables[num] of all parts, in any order, to the answer of the job, and writes the files
- * that its request names. names: of the parts, in sentences. *out is freed by ps_answer_free, also
- * after an error. */
+/* Merges tables[num] of all parts, in any order, to the answer of the job, or of the range that the
+ * request names. names: of the parts, in sentences. *out is freed by ps_answer_free, also after an
+ * error. */
+pspec_status ps_parts_merge(ps_answer *out, const ps_request *request,
+                            const ps_table *const *tables, const char *const *names, size_t num,
+                            ps_error *error) PS_MUST_CHECK;
+/* The same, and writes the files that the request names. */
 pspec_status ps_parts_finish(ps_answer *out, const ps_kind *kind, const ps_request *request,
                              const ps_table *const *tables, const char *const *names, size_t num,
                              const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;

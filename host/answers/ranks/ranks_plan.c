@@ -4,6 +4,7 @@
 #include "answers/checkpoints.h"
 #include "answers/output_check.h"
 #include "base/text.h"
+#include "device/choice.h"
 #include "request/options.h"
 #include "spectra/sum_nodes.h"
 
@@ -151,7 +152,8 @@ pspec_status ps_ranks_plan_work(ps_ranks_plan *out, ps_ranks *ranks, const ps_co
                                 ps_error *error) {
     ps_text lines = {0};
     *out = (ps_ranks_plan){0};
-    if (ranks == NULL && request->limits.checkpoint.path == NULL) {
+    if (ranks == NULL &&
+        (request->limits.checkpoint.path == NULL || ps_selector_is_list(request->limits.device))) {
         return PSPEC_OK;
     }
     if (ranks == NULL) {

@@ -27,6 +27,7 @@ static pspec_status add(ps_outlook *out, ps_power_job *job, ps_error *error) {
         out->alone = "all realizations of a sampler have the same powers, and one stands for all";
     }
     out->num_realizations = job->num_realizations;
+    out->num_jobs++;
     return out->counts && job->question->sampler == NULL ? count(&out->num_realizations, job, error)
                                                          : PSPEC_OK;
 }

@@ -137,9 +137,21 @@ static pspec_status refuse(const char *name, const char *key, const ps_cell *is,
     return status;
 }
 
-/* How many realizations there are at once may be less where memory is. */
+/* Words of how many realizations there are at once, which no bit depends on: of most engines, and
+ * of torus_direct. */
+static bool are_batches(const char *a, const char *b) {
+    static const char *const names[] = {"at_once=", "group="};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const size_t length = strlen(names[i]);
+        if (strncmp(a, names[i], length) == 0 && strncmp(b, names[i], length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* There may be fewer at once where memory is refused. */
 static bool are_same_engines(const char *a, const char *b) {
-    static const char batch[] = "at_once=";
     const char *words[2];
     size_t lengths[2];
     bool is_same = true;
@@ -149,9 +161,7 @@ static bool are_same_engines(const char *a, const char *b) {
         if (!has_a || !has_b) {
             return has_a == has_b;
         }
-        const bool are_batches = strncmp(words[0], batch, sizeof batch - 1) == 0 &&
-                                 strncmp(words[1], batch, sizeof batch - 1) == 0;
-        is_same = are_batches ||
+        is_same = are_batches(words[0], words[1]) ||
                   (lengths[0] == lengths[1] && memcmp(words[0], words[1], lengths[0]) == 0);
     }
     return false;
@@ -163,14 +173,20 @@ static bool are_same_entries(const char *key, const ps_cell *a, const ps_cell *b
             are_same_engines(a->text, b->text));
 }
 
+/* Devices of different kinds may have different engines. */
+static bool may_differ(const char *key, const ps_request *request) {
+    return request != NULL && request->limits.mixed &&
+           (strcmp(key, "precision") == 0 || strcmp(key, "engine") == 0);
+}
+
 static pspec_status compare(const ps_table *a, const ps_table *b, const char *name,
-                            ps_error *error) {
+                            const ps_request *request, ps_error *error) {
     for (const char *const *key = common; *key != NULL; key++) {
         const size_t num_a = ps_entry_count(a, *key);
         const size_t num_b = ps_entry_count(b, *key);
         for (size_t i = 0; i < num_a || i < num_b; i++) {
             const ps_cell cells[] = {ps_entry_find(a, *key, i), ps_entry_find(b, *key, i)};
-            if (!are_same_entries(*key, &cells[0], &cells[1])) {
+            if (!are_same_entries(*key, &cells[0], &cells[1]) && !may_differ(*key, request)) {
                 return refuse(name, *key, &cells[1], &cells[0], error);
             }
         }
@@ -204,7 +220,7 @@ pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *part
         }
     }
     for (size_t p = 1; p < parts->num; p++) {
-        PS_TRY(compare(parts->tables[0], parts->tables[p], parts->names[p], error));
+        PS_TRY(compare(parts->tables[0], parts->tables[p], parts->names[p], parts->request, error));
         for (size_t i = p; i > 0 && find_first(tables[i]) < find_first(tables[i - 1]); i--) {
             const ps_table *const table = tables[i];
             const char *const name = names[i];

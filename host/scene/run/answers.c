@@ -1,4 +1,5 @@
 /* Every question of a scene, from the cache or computed. */
+#include "answers/devices/devices_work.h"
 #include "answers/checkpoints.h"
 #include "base/clock.h"
 #include "base/memory.h"
@@ -150,7 +151,7 @@ static pspec_status make_answer(ps_run *run, ps_run_question *question, ps_error
         status = ps_answer_begin_checkpoints(&request, kind, &key, &run->hooks, error);
     }
     if (status == PSPEC_OK) {
-        status = ps_answer_make(&question->answer, kind, &request, &hooks, error);
+        status = ps_devices_make(&question->answer, kind, &request, &hooks, error);
     }
     ps_text_free(&path);
     ps_text_free(&key);

@@ -2,7 +2,7 @@
  * disk, by their own version. */
 #include "device/device_private.h"
 #include "device/drivers.h"
-#include "device/kernel_source.h"
+#include "device/programs/kernel_source.h"
 
 #include "base/memory.h"
 #include "base/text.h"

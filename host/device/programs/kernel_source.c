@@ -1,5 +1,5 @@
 /* Kernel text from disk or from the program, with its includes put in place. */
-#include "device/kernel_source.h"
+#include "device/programs/kernel_source.h"
 
 #include "base/memory.h"
 
