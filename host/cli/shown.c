@@ -1,6 +1,7 @@
 #include "answers/devices/devices_work.h"
 #include "answers/ranks/ranks_work.h"
 #include "cli/command.h"
+#include "device/choice.h"
 #include "fields/table_cells.h"
 
 #include <stdio.h>
@@ -115,6 +116,19 @@ static pspec_status run(ps_answer *out, const ps_command *command, const ps_requ
     return out->verdict.status;
 }
 
+/* Ranks of one machine share its devices. */
+static pspec_status take_devices(ps_request *own, ps_text *selector, const ps_ranks *ranks,
+                                 ps_error *error) {
+    size_t num = 0;
+    const size_t local = ps_ranks_find_local(&num);
+    if (ranks == NULL || !ps_selector_is_list(own->limits.device)) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_devices_of_rank(selector, own->limits.device, local, num, error));
+    own->limits.device = ps_text_string(selector);
+    return PSPEC_OK;
+}
+
 /* Ranks but 0 are silent; NULL: the process is alone. */
 static pspec_status run_ranks(ps_answer *out, const ps_command *command,
                               const ps_request *arguments, ps_ranks *ranks,
@@ -123,14 +137,23 @@ static pspec_status run_ranks(ps_answer *out, const ps_command *command,
     const bool is_first = ps_ranks_own(ranks) == 0;
     const ps_answer_hooks *const own = is_first ? hooks : &silent;
     ps_ranks_plan plan;
-    pspec_status status = ps_ranks_plan_work(&plan, ranks, command, arguments, own, error);
+    ps_request request = *arguments;
+    ps_text selector = {0};
+    pspec_status status = take_devices(&request, &selector, ranks, error);
+    status = ps_ranks_agree(ranks, status, error);
+    if (status != PSPEC_OK) {
+        ps_text_free(&selector);
+        return status;
+    }
+    status = ps_ranks_plan_work(&plan, ranks, command, &request, own, error);
     if (status == PSPEC_OK && plan.job.is_shared) {
-        status = ps_ranks_produce(out, ranks, &plan, command, arguments, own, error);
+        status = ps_ranks_produce(out, ranks, &plan, command, &request, own, error);
     } else if (status == PSPEC_OK) {
-        status = is_first ? run(out, command, arguments, hooks, error) : PSPEC_OK;
+        status = is_first ? run(out, command, &request, hooks, error) : PSPEC_OK;
         status = ps_ranks_agree(ranks, status, error);
     }
     ps_ranks_plan_free(&plan);
+    ps_text_free(&selector);
     return status;
 }
 

@@ -50,6 +50,16 @@ size_t ps_ranks_find_own(void) {
     return own > 0 ? (size_t)own : 0;
 }
 
+size_t ps_ranks_find_local(size_t *num) {
+    static const char *const own[] = {"OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID",
+                                      "SLURM_LOCALID", NULL};
+    static const char *const all[] = {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", NULL};
+    const long number = find_number(own);
+    const long local = find_number(all);
+    *num = local > 0 ? (size_t)local : 0;
+    return number > 0 ? (size_t)number : 0;
+}
+
 /* ---- the module -------------------------------------------------------------------------- */
 
 /* Plugins of Open MPI look for its symbols among the global ones. It stays until the process ends.

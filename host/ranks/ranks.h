@@ -27,6 +27,9 @@ typedef struct ps_rank_bytes {
  * nobody else was started with. */
 size_t ps_ranks_find_own(void);
 
+/* The same among those of its machine, of which there are *num; 0: nobody knows. */
+size_t ps_ranks_find_local(size_t *num);
+
 /* *out is NULL where the process is alone. folders: where the module may be, ended by NULL. Several
  * ranks without the module are PSPEC_ERROR_IO: each would do the whole job. */
 pspec_status ps_ranks_open(ps_ranks **out, const char *const *folders,

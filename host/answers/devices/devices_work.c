@@ -1,6 +1,7 @@
 #include "answers/devices/devices_work.h"
 
 #include "answers/devices/crew.h"
+#include "answers/output_check.h"
 #include "answers/parts/sharing.h"
 #include "base/memory.h"
 #include "device/kind.h"
@@ -54,32 +55,54 @@ static pspec_status find_devices(ps_selectors *out, ps_text *names, const ps_req
     return status;
 }
 
+pspec_status ps_devices_of_rank(ps_text *out, const char *selector, size_t own, size_t num,
+                                ps_error *error) {
+    ps_selectors all;
+    ps_device_limits *limits = NULL;
+    size_t num_devices = 0;
+    PS_TRY(ps_device_list(&limits, &num_devices, error));
+    const pspec_status status = ps_selectors_find(&all, limits, num_devices, selector, error);
+    free(limits);
+    PS_TRY(status);
+    const size_t step = num > 0 && num < all.num ? num : all.num;
+    for (size_t i = own % step; i < all.num; i += step) {
+        ps_text_append(out, "%s%s", out->length > 0 ? "," : "", all.of[i].text);
+    }
+    return ps_text_check(out, error);
+}
+
 /* ---- which parts ----------------------------------------------------------------------------- */
 
 /* So many of a device that the last ones leave few idle, and what each begins with (an engine, its
  * comparison with the referee) is little of its work. */
 enum { PARTS_OF_DEVICE = 4 };
 
-static pspec_status count_parts(uint64_t *out, const ps_crew_task *task, ps_error *error) {
-    const uint64_t most = ps_parts_most(task->num_realizations);
-    const uint64_t wanted = PARTS_OF_DEVICE * (uint64_t)task->selectors->num;
-    const char *const path = task->request->limits.checkpoint.path;
-    *out = 0;
-    if (path != NULL) {
-        PS_TRY(ps_parts_find(out, path, error));
-    }
-    *out = *out > 0 ? *out : wanted < most ? wanted : most;
-    return PSPEC_OK;
-}
-
 /* The parts, or why the first device does it all; "": it does not. */
 static pspec_status plan(ps_crew_task *task, ps_error *why, ps_error *error) {
-    ps_sharing sharing;
-    PS_TRY(ps_sharing_find(&sharing, task->kind, task->request, task->hooks, error));
-    *why = sharing.why;
-    task->num_realizations = sharing.num_realizations;
-    task->num_jobs = sharing.num_jobs;
-    return why->message[0] == '\0' ? count_parts(&task->num_parts, task, error) : PSPEC_OK;
+    const ps_request *const request = task->request;
+    ps_outlook outlook = {.counts = request->range.end == 0};
+    ps_table_format format = PS_FORMAT_CSV;
+    uint64_t found = 0;
+    ps_sharing_look(why, task->kind, request);
+    if (why->message[0] == '\0') {
+        PS_TRY(ps_sharing_find_begun(&found, why, request, error));
+    }
+    if (why->message[0] != '\0') {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_answer_check_outputs(&format, task->kind, request, task->hooks, error));
+    const pspec_status status = task->kind->look_ahead(&outlook, request, task->hooks, error);
+    ps_text_free(&outlook.alike);
+    PS_TRY(status);
+    task->num_jobs = outlook.num_jobs;
+    task->num_realizations =
+        outlook.counts ? outlook.num_realizations : request->range.end - request->range.first;
+    ps_sharing_look_at_job(why, &outlook, task->num_realizations);
+    return why->message[0] != '\0'
+               ? PSPEC_OK
+               : ps_sharing_choose_parts(&task->num_parts, found,
+                                         PARTS_OF_DEVICE * (uint64_t)task->selectors->num,
+                                         task->num_realizations, error);
 }
 
 static void warn(const ps_crew_task *task, const ps_error *why) {

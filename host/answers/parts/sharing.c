@@ -1,6 +1,6 @@
 #include "answers/parts/sharing.h"
 
-#include "answers/output_check.h"
+#include "answers/parts/parts.h"
 #include "request/options.h"
 #include "spectra/sum_nodes.h"
 
@@ -23,8 +23,7 @@ static pspec_status check_options(const ps_request *request, ps_error *why) {
                : PSPEC_OK;
 }
 
-static pspec_status look_at_request(const ps_command *command, const ps_request *request,
-                                    ps_error *why) {
+static pspec_status look(ps_error *why, const ps_command *command, const ps_request *request) {
     if (command->look_ahead == NULL) {
         return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s has no realizations that are shared",
                        command->name);
@@ -36,35 +35,44 @@ static pspec_status look_at_request(const ps_command *command, const ps_request 
     return ps_request_visit_inputs(request, check_file, NULL, why);
 }
 
-static pspec_status look_at_job(const ps_outlook *outlook, uint64_t num, ps_error *why) {
-    if (outlook->alone != NULL) {
-        return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s", outlook->alone);
+void ps_sharing_look(ps_error *why, const ps_command *command, const ps_request *request) {
+    if (look(why, command, request) == PSPEC_OK) {
+        why->message[0] = '\0';
     }
-    return num > PS_SUM_BLOCK
-               ? PSPEC_OK
-               : ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "realizations are shared in blocks of %d, and there %s %llu", PS_SUM_BLOCK,
-                         num == 1 ? "is" : "are", (unsigned long long)num);
 }
 
-pspec_status ps_sharing_find(ps_sharing *out, const ps_command *command, const ps_request *request,
-                             const ps_answer_hooks *hooks, ps_error *error) {
-    ps_outlook outlook = {.counts = request->range.end == 0};
-    ps_table_format format = PS_FORMAT_CSV;
-    *out = (ps_sharing){0};
-    if (look_at_request(command, request, &out->why) != PSPEC_OK) {
-        return PSPEC_OK;
+void ps_sharing_look_at_job(ps_error *why, const ps_outlook *outlook, uint64_t num_realizations) {
+    if (outlook->alone != NULL) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s", outlook->alone);
+    } else if (num_realizations <= PS_SUM_BLOCK) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT,
+                "realizations are shared in blocks of %d, and there %s %llu", PS_SUM_BLOCK,
+                num_realizations == 1 ? "is" : "are", (unsigned long long)num_realizations);
     }
-    out->why.message[0] = '\0';
-    PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
-    const pspec_status status = command->look_ahead(&outlook, request, hooks, error);
-    ps_text_free(&outlook.alike);
-    PS_TRY(status);
-    out->num_jobs = outlook.num_jobs;
-    out->num_realizations =
-        outlook.counts ? outlook.num_realizations : request->range.end - request->range.first;
-    if (look_at_job(&outlook, out->num_realizations, &out->why) == PSPEC_OK) {
-        out->why.message[0] = '\0';
+}
+
+pspec_status ps_sharing_find_begun(uint64_t *found, ps_error *why, const ps_request *request,
+                                   ps_error *error) {
+    const char *const path = request->limits.checkpoint.path;
+    *found = 0;
+    if (path != NULL) {
+        PS_TRY(ps_parts_find(found, path, error));
+    }
+    if (*found == 1) {
+        ps_fail(why, PSPEC_ERROR_INPUT, "\"%s\" is the checkpoint of one process", path);
     }
     return PSPEC_OK;
+}
+
+pspec_status ps_sharing_choose_parts(uint64_t *num_parts, uint64_t found, uint64_t wanted,
+                                     uint64_t num_realizations, ps_error *error) {
+    const uint64_t most = ps_parts_most(num_realizations);
+    *num_parts = found > 0 ? found : wanted < most ? wanted : most;
+    return found <= most
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_INPUT,
+                     "there are checkpoints of another job: it has %llu parts, and this one %llu "
+                     "blocks of %d realizations",
+                     (unsigned long long)found, (unsigned long long)most, PS_SUM_BLOCK);
 }

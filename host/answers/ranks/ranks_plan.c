@@ -3,6 +3,7 @@
 
 #include "answers/checkpoints.h"
 #include "answers/output_check.h"
+#include "answers/parts/sharing.h"
 #include "base/text.h"
 #include "device/choice.h"
 #include "request/options.h"
@@ -11,46 +12,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Every rank reads the inputs. */
-static pspec_status check_file(void *payload, const ps_request_file *input, ps_error *error) {
-    (void)payload;
-    return ps_request_file_comes_once(input)
-               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s \"%s\" comes once",
-                         input->option.text, input->path)
-               : PSPEC_OK;
-}
-
 /* Why this is not shared, as far as the request says it, in *why; "": it may be. */
 static void look_at_request(ps_error *why, const ps_command *command, const ps_request *request) {
-    ps_request ranged = *request;
-    why->message[0] = '\0';
-    ranged.is_given[PS_OPTION_RANGE] = true;
-    ranged.forms[PS_OPTION_RANGE] = PS_FORM_LONG;
-    pspec_status status = PSPEC_OK;
-    if (command->look_ahead == NULL) {
-        status = ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has no realizations that are shared", command->name);
-    } else if (request->is_given[PS_OPTION_RANGE]) {
-        status = ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "a range is not shared");
-    } else if (ps_option_pairs_check(request, PS_COMMAND_power, NULL) == PSPEC_OK) {
-        status = ps_option_pairs_check(&ranged, PS_COMMAND_power, why);
-    }
-    if (status == PSPEC_OK) {
-        status = ps_request_visit_inputs(request, check_file, NULL, why);
-    }
-    if (status == PSPEC_OK) {
-        why->message[0] = '\0';
-    }
-}
-
-static void look_at_job(ps_error *why, const ps_outlook *outlook) {
-    if (outlook->alone != NULL) {
-        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s", outlook->alone);
-    } else if (outlook->num_realizations <= PS_SUM_BLOCK) {
-        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT,
-                "realizations are shared in blocks of %d, and there %s %llu", PS_SUM_BLOCK,
-                outlook->num_realizations == 1 ? "is" : "are",
-                (unsigned long long)outlook->num_realizations);
+    if (request->is_given[PS_OPTION_RANGE]) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "a range is not shared");
+    } else {
+        ps_sharing_look(why, command, request);
     }
 }
 
@@ -78,21 +45,6 @@ static void warn(const ps_ranks *ranks, const ps_ranks_plan *plan, const char *w
     }
 }
 
-/* A job that has begun keeps its parts; found: how many by its checkpoints. */
-static pspec_status choose_parts(ps_ranks_plan *out, const ps_ranks *ranks, uint64_t found,
-                                 ps_error *error) {
-    const uint64_t most = ps_parts_most(out->job.num_realizations);
-    const uint64_t num = ps_ranks_num(ranks);
-    out->job.num_parts = found > 0 ? found : num < most ? num : most;
-    return found <= most
-               ? PSPEC_OK
-               : ps_fail(
-                     error, PSPEC_ERROR_INPUT,
-                     "there are checkpoints of another job: it has %llu parts, and this one %llu "
-                     "blocks of %d realizations",
-                     (unsigned long long)found, (unsigned long long)most, PS_SUM_BLOCK);
-}
-
 /* counts: sets in files, too. */
 static pspec_status look(ps_outlook *outlook, ps_ranks_plan *out, bool counts,
                          const ps_command *command, const ps_request *request,
@@ -106,27 +58,24 @@ static pspec_status look(ps_outlook *outlook, ps_ranks_plan *out, bool counts,
 /* Of rank 0. */
 static pspec_status plan(ps_ranks_plan *out, const ps_ranks *ranks, const ps_command *command,
                          const ps_request *request, const ps_answer_hooks *hooks, ps_error *error) {
-    const char *const path = request->limits.checkpoint.path;
     uint64_t found = 0;
     ps_error why = {0};
     look_at_request(&why, command, request);
-    if (why.message[0] == '\0' && path != NULL) {
-        PS_TRY(ps_parts_find(&found, path, error));
-    }
-    if (found == 1) {
-        ps_fail(&why, PSPEC_ERROR_INPUT, "\"%s\" is the checkpoint of one process", path);
+    if (why.message[0] == '\0') {
+        PS_TRY(ps_sharing_find_begun(&found, &why, request, error));
     }
     if (why.message[0] == '\0' && (ranks != NULL || found > 0)) {
         ps_outlook outlook;
         ps_table_format format = PS_FORMAT_CSV;
         PS_TRY(ps_answer_check_outputs(&format, command, request, hooks, error));
         PS_TRY(look(&outlook, out, true, command, request, hooks, error));
-        look_at_job(&why, &outlook);
+        ps_sharing_look_at_job(&why, &outlook, outlook.num_realizations);
         out->job.num_realizations = outlook.num_realizations;
         out->job.is_shared = why.message[0] == '\0';
     }
     if (out->job.is_shared) {
-        PS_TRY(choose_parts(out, ranks, found, error));
+        PS_TRY(ps_sharing_choose_parts(&out->job.num_parts, found, ps_ranks_num(ranks),
+                                       out->job.num_realizations, error));
     }
     warn(ranks, out, why.message, hooks);
     return PSPEC_OK;

@@ -1,5 +1,6 @@
 #include "answers/ranks/ranks_work.h"
 
+#include "answers/devices/devices_work.h"
 #include "base/memory.h"
 
 #include <stdlib.h>
@@ -55,7 +56,10 @@ static pspec_status begin(work *self, ps_error *error) {
 static pspec_status compute(const work *self, ps_rank_bytes *bytes, ps_error *error) {
     for (size_t i = 0; i < self->own.num; i++) {
         ps_answer *const answer = &self->answers[i];
-        PS_TRY(ps_part_answer(answer, &self->parts[i], &self->hooks, error));
+        const pspec_status status =
+            ps_devices_make(answer, self->kind, &self->parts[i].request, &self->hooks, error);
+        ps_answer_end(&self->hooks);
+        PS_TRY(status);
         if (ps_ranks_own(self->ranks) > 0) {
             PS_TRY(ps_ranks_pack(bytes, answer->table, error));
             ps_answer_free(answer);

@@ -76,6 +76,16 @@ if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     ranks 3 2 power --precision single -k 8 "$clusters"
     sentence 'tolerance 1e-06 cannot be reached: the smallest error is'
 fi
+# Ranks of a machine share its devices.
+if "$program" power --engine torus_direct --sampler white -n 4 -k 1 --device cpu:split=2/1 >out 2>err; then
+    "$program" power -m 600 --sampler white -n 64 -k 8 --full one.npy >one.csv
+    for num in 2 3; do
+        ranks 0 $num power -m 600 --sampler white -n 64 -k 8 --device cpu:split=2 --full several.npy
+        sentence ''
+        cmp one.npy several.npy || complain "$num ranks with two devices"
+        cmp <(grep -v '^# command' one.csv) <(grep -v '^# command' out) || complain "$num ranks with two devices"
+    done
+fi
 job=(power --engine host_direct -m 300 --sampler jittered -n 9 -k 3)
 "$program" "${job[@]}" >one.csv
 ranks 0 4 "${job[@]}"
