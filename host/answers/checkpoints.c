@@ -66,15 +66,25 @@ static void say(const char *sentence, void *payload) {
     ps_answer_warn(payload, "%s", sentence);
 }
 
+unsigned ps_answer_num_checkpoints(const ps_request *request, const ps_kind *kind) {
+    return (unsigned)(kind->count_jobs != NULL ? kind->count_jobs(request)
+                                               : ps_request_num_questions(request));
+}
+
 pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kind, ps_text *key,
                                          const ps_answer_hooks *hooks, ps_error *error) {
     ps_checkpoint_spec *const spec = &request->limits.checkpoint;
     if (spec->path == NULL) {
         return PSPEC_OK;
     }
+    spec->num_parts = ps_answer_num_checkpoints(request, kind);
     if (request->reading.given.num > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "checkpoint: sets in memory are not known again; files and samplers are");
+    }
+    if (request->integrands_given.num > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "checkpoint: functions of a caller are not known again");
     }
     PS_TRY(ps_answer_identify_program(key, error));
     add_question(key, request, kind);
@@ -87,7 +97,6 @@ pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kin
 
 void ps_answer_end_checkpoints(const ps_request *request) {
     if (request->limits.checkpoint.path != NULL) {
-        ps_checkpoint_remove(request->limits.checkpoint.path,
-                             (unsigned)ps_request_num_questions(request));
+        ps_checkpoint_remove(request->limits.checkpoint.path, request->limits.checkpoint.num_parts);
     }
 }

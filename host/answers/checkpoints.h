@@ -10,6 +10,7 @@
 pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kind, ps_text *key,
                                          const ps_answer_hooks *hooks,
                                          ps_error *error) PS_MUST_CHECK;
+unsigned ps_answer_num_checkpoints(const ps_request *request, const ps_kind *kind);
 /* Removes those that there are, for their answer is written. */
 void ps_answer_end_checkpoints(const ps_request *request);
 

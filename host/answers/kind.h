@@ -163,6 +163,9 @@ typedef struct ps_command {
     /* What can be refused is refused before the first hour of work: do the options fit together? */
     pspec_status (*check_question)(const ps_request *request, ps_error *error);
 
+    /* How many jobs with a checkpoint each it is; NULL: one for each of its questions. */
+    size_t (*count_jobs)(const ps_request *request);
+
     /* The answer. All the work: *out is what the following are made of, given to discard, also
      * after an error. It borrows from the request. *out is NULL before, or of a row that renews
      * what it was before of a request that differs in sets of the caller alone. */

@@ -38,9 +38,8 @@ typedef struct ps_runner_kind {
      * takes what the job has of its own to a checkpoint or from one; NULL: it has nothing */
     pspec_status (*skip)(void *job, uint64_t num, ps_error *error);
     ps_snapshot_walk *walk;
-    /* After a call of `give` that was cancelled the estimator tells how many were added: there is
-     * nothing else that they change */
-    bool is_all_in_estimator;
+    /* How many were added, after a call of `give` that was cancelled; false: one of them in part */
+    bool (*count)(void *job, uint64_t *num);
 } ps_runner_kind;
 
 typedef struct ps_runner {

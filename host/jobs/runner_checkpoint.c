@@ -2,9 +2,6 @@
 #include "device/kind.h"
 #include "jobs/runner.h"
 
-#include <inttypes.h>
-#include <string.h>
-
 /* ---- the file -------------------------------------------------------------------------------- */
 
 /* What bits depend on, beside the question: the kind of device, engine and precision of the first
@@ -84,43 +81,11 @@ pspec_status ps_runner_read_state(ps_runner *runner, ps_error *error) {
 /* ---- writing --------------------------------------------------------------------------------- */
 
 pspec_status ps_runner_save(ps_runner *runner, ps_error *error) {
-    ps_checkpoint *const checkpoint = runner->checkpoint;
-    if (checkpoint == NULL) {
-        return PSPEC_OK;
-    }
-    const bool is_last = runner->is_complete && ps_checkpoint_is_saved(checkpoint);
-    return is_last || ps_checkpoint_is_due(checkpoint)
-               ? ps_checkpoint_save(checkpoint, walk, runner, error)
-               : PSPEC_OK;
-}
-
-/* Engines say no more than that they were cancelled. */
-static void name_realizations(ps_error *error, const ps_runner *runner) {
-    static const char reason[] = "interrupted";
-    if (strncmp(error->message, reason, sizeof reason - 1) != 0) {
-        ps_fail(error, PSPEC_ERROR_CANCELLED, "%s after %" PRIu64 " realizations", reason,
-                runner->num_done);
-    }
+    return ps_checkpoint_keep(runner->checkpoint, runner->is_complete, walk, runner, error);
 }
 
 pspec_status ps_runner_save_cancelled(ps_runner *runner, pspec_status status, ps_error *error) {
-    const bool is_whole = runner->kind->is_all_in_estimator;
-    ps_checkpoint *const checkpoint = runner->checkpoint;
-    ps_error none;
-    if (status != PSPEC_ERROR_CANCELLED || checkpoint == NULL || error == NULL) {
-        return status;
-    }
-    if (is_whole) {
-        runner->num_done = ps_estimator_num_realizations(runner->estimator);
-    }
-    if (is_whole && ps_checkpoint_save(checkpoint, walk, runner, &none) != PSPEC_OK) {
-        return status;
-    }
-    if (!ps_checkpoint_is_saved(checkpoint)) {
-        return status;
-    }
-    name_realizations(error, runner);
-    const ps_error said = *error;
-    return ps_fail(error, status, "%s; the same command goes on from \"%s\"", said.message,
-                   ps_checkpoint_name(checkpoint));
+    const bool is_whole = runner->kind->count(runner->job, &runner->num_done);
+    return ps_checkpoint_keep_cancelled(runner->checkpoint, status, runner->num_done,
+                                        is_whole ? walk : NULL, runner, error);
 }

@@ -296,6 +296,15 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
     return next_from_files(source, set, part, has_set, error);
 }
 
+pspec_status ps_source_next_whole(ps_source *source, ps_point_set *set, bool *has_set,
+                                  ps_error *error) {
+    ps_source_part part;
+    PS_TRY(ps_source_next(source, set, &part, has_set, error));
+    return !*has_set || part.is_whole
+               ? PSPEC_OK
+               : ps_source_more(source, set, SIZE_MAX, &part.is_whole, error);
+}
+
 uint64_t ps_source_num_sets(const ps_source *source) {
     const ps_point_options *const options = &source->options.points;
     uint64_t num = 0;

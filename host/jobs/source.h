@@ -58,6 +58,9 @@ typedef struct ps_source_part {
  * twice. */
 pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
                             bool *has_set, ps_error *error) PS_MUST_CHECK;
+/* The same, whole, whatever its size is. */
+pspec_status ps_source_next_whole(ps_source *source, ps_point_set *set, bool *has_set,
+                                  ps_error *error) PS_MUST_CHECK;
 /* Appends at most max_points more of the set that came last, or *ends. */
 pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
                             ps_error *error) PS_MUST_CHECK;

@@ -28,6 +28,7 @@ static const option_pair pairs[] = {
      "more realizations do not mend the error of the choice", 0},
     {PS_OPTION_CHECKPOINT, PS_OPTION_COEFFICIENTS, "it has sums, and nothing of single sets", 0},
     {PS_OPTION_CHECKPOINT, PS_OPTION_SCATTER, "it has sums, and nothing of single sets", 0},
+    {PS_OPTION_CHECKPOINT, PS_OPTION_HOMOGENEOUS, "phases are of single sets, which it has not", 0},
     {PS_OPTION_CHECKPOINT, PS_OPTION_WEIGHTS_OUT, "it has sums, and nothing of single sets", 0},
     {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR,
      "coefficients are of sets whose number is known before", 0},

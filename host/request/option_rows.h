@@ -50,7 +50,7 @@
     (SPECTRA | LOBES | BIT(variance) | BIT(interpolation) | BIT(occlusion) | BIT(light))
 #define PLANE (BIT(power) | BIT(check) | BIT(variance))
 #define ROUND (SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation) | BIT(occlusion))
-#define LONG (SPECTRA | BIT(quadrature) | BIT(run))
+#define LONG (READERS | BIT(run))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (READERS | SUITES | SETLESS | BIT(merge) | BIT(devices))
 

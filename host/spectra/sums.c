@@ -221,3 +221,14 @@ size_t ps_block_sums_deviations(const ps_block_sums *blocks, double *out) {
     }
     return num;
 }
+
+pspec_status ps_block_sums_walk(ps_block_sums *blocks, ps_snapshot *snapshot, const char *name,
+                                ps_error *error) {
+    char of_sums[64];
+    uint64_t counts[] = {blocks->count, blocks->length};
+    PS_TRY(ps_snapshot_counts(snapshot, name, counts, 2, error));
+    snprintf(of_sums, sizeof of_sums, "%s_sums", name);
+    blocks->count = counts[0];
+    blocks->length = counts[1];
+    return ps_snapshot_doubles(snapshot, of_sums, blocks->sums, PS_MOST_BLOCKS, error);
+}

@@ -75,6 +75,9 @@ typedef struct ps_block_sums {
 } ps_block_sums;
 
 void ps_block_sums_add(ps_block_sums *blocks, double x);
+/* Takes them to a checkpoint or from one, under names that begin with this. */
+pspec_status ps_block_sums_walk(ps_block_sums *blocks, ps_snapshot *snapshot, const char *name,
+                                ps_error *error) PS_MUST_CHECK;
 /* What blocks are off, from their share of the mean: their products, summed, are the covariance of
  * two means, and their squares the squared standard error of one. out[PS_MOST_BLOCKS], 0 behind the
  * last; returns how many there are, 0 where there is no error: of fewer than two blocks. */

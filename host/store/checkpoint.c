@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -250,10 +251,6 @@ void ps_checkpoint_close(ps_checkpoint *checkpoint) {
     free(checkpoint);
 }
 
-const char *ps_checkpoint_name(const ps_checkpoint *checkpoint) {
-    return ps_text_string(&checkpoint->path);
-}
-
 ps_snapshot *ps_checkpoint_found(ps_checkpoint *checkpoint) {
     return checkpoint->file != NULL ? &checkpoint->found : NULL;
 }
@@ -281,10 +278,6 @@ bool ps_checkpoint_is_due(const ps_checkpoint *checkpoint) {
     const double interval =
         checkpoint->interval < UINT64_MAX ? (double)checkpoint->interval : automatic;
     return ps_clock_seconds() - checkpoint->begun >= interval;
-}
-
-bool ps_checkpoint_is_saved(const ps_checkpoint *checkpoint) {
-    return checkpoint->is_saved;
 }
 
 /* *walked: what the walk itself came to, whose errors are not those of the file. */
@@ -322,4 +315,40 @@ pspec_status ps_checkpoint_save(ps_checkpoint *checkpoint, ps_snapshot_walk *wal
                    ps_text_string(&checkpoint->path), reason.message);
     }
     return PSPEC_OK;
+}
+
+pspec_status ps_checkpoint_keep(ps_checkpoint *checkpoint, bool is_complete, ps_snapshot_walk *walk,
+                                void *payload, ps_error *error) {
+    const bool is_last = is_complete && checkpoint != NULL && checkpoint->is_saved;
+    return checkpoint != NULL && (is_last || ps_checkpoint_is_due(checkpoint))
+               ? ps_checkpoint_save(checkpoint, walk, payload, error)
+               : PSPEC_OK;
+}
+
+/* Engines say no more than that they were cancelled. */
+static void name_realizations(ps_error *error, uint64_t num_done) {
+    static const char reason[] = "interrupted";
+    if (strncmp(error->message, reason, sizeof reason - 1) != 0) {
+        ps_fail(error, PSPEC_ERROR_CANCELLED, "%s after %" PRIu64 " realizations", reason,
+                num_done);
+    }
+}
+
+pspec_status ps_checkpoint_keep_cancelled(ps_checkpoint *checkpoint, pspec_status status,
+                                          uint64_t num_done, ps_snapshot_walk *walk, void *payload,
+                                          ps_error *error) {
+    ps_error none;
+    if (status != PSPEC_ERROR_CANCELLED || checkpoint == NULL || error == NULL) {
+        return status;
+    }
+    if (walk != NULL && ps_checkpoint_save(checkpoint, walk, payload, &none) != PSPEC_OK) {
+        return status;
+    }
+    if (!checkpoint->is_saved) {
+        return status;
+    }
+    name_realizations(error, num_done);
+    const ps_error said = *error;
+    return ps_fail(error, status, "%s; the same command goes on from \"%s\"", said.message,
+                   ps_text_string(&checkpoint->path));
 }

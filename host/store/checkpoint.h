@@ -43,11 +43,12 @@ typedef pspec_status ps_snapshot_walk(void *payload, ps_snapshot *snapshot, ps_e
 
 /* What is asked for. Texts are borrowed. */
 typedef struct ps_checkpoint_spec {
-    const char *path;  /* NULL: there is none */
-    unsigned part;     /* of several jobs of a command, each with a file: PATH, PATH-2, .. */
-    const char *key;   /* lines of "what value" that jobs of the same bits have alike */
-    uint64_t interval; /* seconds between two; UINT64_MAX: at most a hundredth of the time */
-    ps_log log;        /* hears of what went wrong */
+    const char *path;   /* NULL: there is none */
+    unsigned part;      /* of several jobs of a command, each with a file: PATH, PATH-2, .. */
+    unsigned num_parts; /* of the command; 0: not known yet */
+    const char *key;    /* lines of "what value" that jobs of the same bits have alike */
+    uint64_t interval;  /* seconds between two; UINT64_MAX: at most a hundredth of the time */
+    ps_log log;         /* hears of what went wrong */
 } ps_checkpoint_spec;
 
 typedef struct ps_checkpoint ps_checkpoint;
@@ -61,7 +62,6 @@ pspec_status ps_checkpoint_path(ps_text *out, const char *path, unsigned part,
 pspec_status ps_checkpoint_open(ps_checkpoint **out, const ps_checkpoint_spec *spec,
                                 const char *more, ps_error *error) PS_MUST_CHECK;
 void ps_checkpoint_close(ps_checkpoint *checkpoint); /* NULL is allowed */
-const char *ps_checkpoint_name(const ps_checkpoint *checkpoint);
 
 /* The state that was there, to be walked through; NULL: the job begins. */
 ps_snapshot *ps_checkpoint_found(ps_checkpoint *checkpoint);
@@ -73,8 +73,15 @@ bool ps_checkpoint_is_due(const ps_checkpoint *checkpoint);
 /* Writes one in place of the last. An error is one of the walk, and no fault of the file. */
 pspec_status ps_checkpoint_save(ps_checkpoint *checkpoint, ps_snapshot_walk *walk, void *payload,
                                 ps_error *error) PS_MUST_CHECK;
-/* Was one written, or found, and not refused since? */
-bool ps_checkpoint_is_saved(const ps_checkpoint *checkpoint);
+/* For jobs between two realizations: writes one where it is time, and where all are done and there
+ * is one already, whose job need not do them again. */
+pspec_status ps_checkpoint_keep(ps_checkpoint *checkpoint, bool is_complete, ps_snapshot_walk *walk,
+                                void *payload, ps_error *error) PS_MUST_CHECK;
+/* Where a job was cancelled after so many realizations: writes one, whatever the time, and says so
+ * in the error. walk NULL: the job is in the middle of one, and keeps the last. Returns status. */
+pspec_status ps_checkpoint_keep_cancelled(ps_checkpoint *checkpoint, pspec_status status,
+                                          uint64_t num_done, ps_snapshot_walk *walk, void *payload,
+                                          ps_error *error);
 
 /* Removes the files of so many parts, whose answer is written. */
 void ps_checkpoint_remove(const char *path, unsigned num_parts);

@@ -15,6 +15,8 @@ for i in 1 2 3; do
     "$program" sample --sampler jittered -n 16 --seed $i -o "$i.dat"
 done
 
+printf 'v -1 -1 -2\nv 1 -1 -2\nv 1 1 -2\nv -1 1 -2\nf 1 2 3 4\n' >quad.obj
+
 kill_at() { # NUMBER WORD...
     local number=$1
     shift
@@ -58,6 +60,10 @@ try power --engine torus_direct --sampler jittered -n 16 -k 4 -m 400
 try power --engine host_direct 1.dat 2.dat 3.dat -k 4
 try pairs --engine host_direct --sampler white-sphere -n 6 -l 3 -m 132
 try quadrature --engine host_direct --sampler white-hemisphere -n 4 -l 4 -m 24 --brdf diffuse
+try variance --engine host_direct --sampler white -n 4 -k 3 -m 12 --integrand disk
+try occlusion --mesh quad.obj --image 8x8 --reference 16 --sampler white-sphere -n 4,8 -m 9
+try interpolation --integrand map:width=16 --sampler white-sphere -n 8 -m 12
+try shade --integrand map:width=16 --brdf diffuse --engine host_direct --sampler white-hemisphere -n 4 -l 4 -m 12
 try power --engine host_direct --sampler white --sampler jittered -n 4,9 -k 3 -m 12
 
 # Clusters, whose powers are near N: all parts are planned once more.

@@ -49,14 +49,14 @@ saved=(
     "pairs --sampler healpix-jittered -n 768 -m 60000 -l 64"
     "quadrature --brdf glossy:n=30 --sampler white-hemisphere -n 512 -m 20000"
     "quadrature --brdf diffuse --weights optimal --sampler white-hemisphere -n 256 -m 1500"
+    "variance --sampler jittered -n 64,256 -m 100000 --integrand disk --shifts 40"
+    "check --against saved.npz --sampler jittered -n 256 -m 300000 --seed 3"
+    "shade --sampler white-hemisphere --brdf glossy:n=30 --integrand map:width=128 -n 64 -m 200 --shifts 300"
+    "interpolation --sampler white-sphere --integrand map:width=128 -n 100,200 -m 800"
+    "occlusion --mesh quad.obj --sampler white-sphere -n 16,64 -m 1000 --image 128x128 --reference 4096"
 )
 begun_anew=(
-    "variance --sampler jittered -n 64,256 -m 8 --integrand disk"
-    "check --against saved.npz --sampler jittered -n 256 -m 32 --seed 3"
     "truncation --brdf glossy:n=30 -l 20"
-    "shade --sampler fibonacci-hemisphere --brdf glossy:n=30 --integrand map:width=128 -n 64 --shifts 100"
-    "interpolation --sampler fibonacci --integrand map:width=128 -n 100"
-    "occlusion --mesh quad.obj --sampler fibonacci -n 16 --image 32x32 --reference 64"
     "light --integrand map:width=128 -l 20"
 )
 kills=0 jobs=0

@@ -235,7 +235,7 @@ static void one_quad(void **state) {
     asked.options.camera.width = 5;
     add_quad(&asked, low[0], low[1], height, x, y);
     make_view(&view, &asked, 1);
-    assert_ok(ps_reference_make(&reference, &view, 40000, SEED, device, NULL, error));
+    assert_ok(ps_reference_make(&reference, &view, 40000, SEED, device, NULL, NULL, error));
     assert_int_equal(reference.num_rays, 40000);
     for (size_t i = 0; i < view.num_pixels; i++) {
         const double pixel = 0.2 * 5 / 24;
@@ -277,7 +277,7 @@ static void white_points(void **state) {
     add_quad(&asked, -4.5, -4.5, height, x, y);
     asked.options.radius = radius;
     make_view(&view, &asked, 1);
-    assert_ok(ps_reference_make(&reference, &view, 4096, SEED, device, NULL, error));
+    assert_ok(ps_reference_make(&reference, &view, 4096, SEED, device, NULL, NULL, error));
     assert_true(fabs(reference.mean - v) <
                 6 * sqrt(reference.variance / (double)view.num_pixels) + 1e-6);
     for (int i = 0; i < 3; i++) {

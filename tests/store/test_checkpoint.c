@@ -51,7 +51,7 @@ static void save(const char *path, const char *key) {
     assert_ok(open_one(&checkpoint, path, key, &heard, error));
     assert_true(ps_checkpoint_is_due(checkpoint));
     assert_ok(ps_checkpoint_save(checkpoint, walk, &own, error));
-    assert_true(ps_checkpoint_is_saved(checkpoint) && heard == 0);
+    assert_int_equal(heard, 0);
     ps_checkpoint_close(checkpoint);
 }
 
@@ -63,13 +63,11 @@ static void what_is_read_was_written(void **state) {
     test_path(*state, "job.npz", path);
     assert_ok(open_one(&checkpoint, path, "power\n", &heard, error));
     assert_null(ps_checkpoint_found(checkpoint));
-    assert_false(ps_checkpoint_is_saved(checkpoint));
     ps_checkpoint_close(checkpoint);
     assert_int_equal(test_folder_count(*state, false), 0); /* the lock goes, too */
 
     save(path, "power\n");
     assert_ok(open_one(&checkpoint, path, "power\n", &heard, error));
-    assert_string_equal(ps_checkpoint_name(checkpoint), path);
     assert_true(ps_snapshot_is_read(ps_checkpoint_found(checkpoint)));
     assert_ok(walk(&found, ps_checkpoint_found(checkpoint), error));
     assert_memory_equal(found.sums, known.sums, sizeof known.sums);

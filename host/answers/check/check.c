@@ -65,7 +65,7 @@ static pspec_status check_both(const ps_request *request, ps_error *error) {
         const bool is_of_points = ps_options[id].source != PS_OF_BOTH || id == PS_OPTION_POINTS ||
                                   id == PS_OPTION_WEIGHTS || id == PS_OPTION_ENGINE ||
                                   id == PS_OPTION_TOLERANCE || id == PS_OPTION_PRECISION ||
-                                  id == PS_OPTION_PROFILE;
+                                  id == PS_OPTION_PROFILE || id == PS_OPTION_CHECKPOINT;
         if (request->is_given[id] && is_of_points) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                            "%s does not go with two saved spectra, \"%s\" and \"%s\": nothing is "

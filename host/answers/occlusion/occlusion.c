@@ -85,7 +85,9 @@ static ps_occlusion_question make_question(ps_occlusion *self, const ps_request 
         .memory_limit = request->limits.constraints.memory_limit,
         .num_images = count_images(self),
         .name = request->num_sources > 0 ? ps_request_name(request, i) : NULL,
-        .watch = &self->watch};
+        .watch = &self->watch,
+        .checkpoint = request->limits.checkpoint};
+    out.checkpoint.part = (unsigned)i + 1;
     out.point_options.domain = PS_DOMAIN_SPHERE;
     out.point_options.ignore_weights = true;
     return out;
@@ -114,6 +116,11 @@ static pspec_status make_questions(ps_occlusion *self, const ps_request *request
         }
     }
     return PSPEC_OK;
+}
+
+/* The reference is the first. */
+static size_t count_jobs(const ps_request *request) {
+    return ps_request_num_questions(request) + 1;
 }
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
@@ -225,7 +232,7 @@ static pspec_status look(ps_occlusion *self, const ps_request *request, ps_error
     options.camera = choose_camera(request, &self->mesh);
     PS_TRY(ps_view_make(&self->view, &self->mesh, &options, &self->watch, error));
     return ps_reference_make(&self->reference, &self->view, request->num_reference, request->seed,
-                             self->device, &self->watch, error);
+                             self->device, &request->limits.checkpoint, &self->watch, error);
 }
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
@@ -304,6 +311,7 @@ const ps_kind ps_kind_occlusion = {
     .has_arrays = true,
     .check_question = check_question,
     .plan = plan,
+    .count_jobs = count_jobs,
     .compute = compute,
     .tabulate = ps_occlusion_tabulate,
     .discard = discard,

@@ -13,6 +13,12 @@ typedef struct variances {
     ps_error verdict;       /* on --tail */
 } variances;
 
+/* A spectrum and the trials beside it, unless nothing is measured. */
+static size_t count_jobs(const ps_request *request) {
+    const bool measures = !request->is_given[PS_OPTION_SHIFTS] || request->num_shifts > 0;
+    return ps_request_num_questions(request) * (measures ? 2 : 1);
+}
+
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     ps_variance_list list;
     const pspec_status status = ps_variance_list_make(&list, request, error);
@@ -246,6 +252,7 @@ const ps_kind ps_kind_variance = {
     .counted = "realizations",
     .check_question = check_question,
     .plan = plan,
+    .count_jobs = count_jobs,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

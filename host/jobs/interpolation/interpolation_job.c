@@ -1,6 +1,7 @@
 #include "jobs/interpolation/interpolation_job.h"
 
 #include "base/memory.h"
+#include "jobs/set_loop.h"
 #include "math/neumaier.h"
 #include "math/sobolev.h"
 
@@ -13,37 +14,12 @@
 static const double call_pairs = 1 << 26;
 static const double call_pixels = 1 << 14;
 
-bool ps_interpolation_is_dense(const ps_interpolation_question *question, size_t num_points) {
-    return num_points <= PS_INTERPOLATION_MOST_DENSE &&
-           ps_kernel_system_is_dense(num_points, question->limits.constraints.memory_limit);
-}
-
-/* Values and solutions. */
-static size_t numbers_of_point(const ps_interpolation_question *question) {
-    return 2 * question->panorama->num;
-}
-
 static size_t pixels_of(const ps_interpolation_question *question) {
     return question->panorama->width * question->panorama->height;
 }
 
 static size_t num_rows(const ps_interpolation_question *question) {
     return question->num_smoothness * question->panorama->num;
-}
-
-uint64_t ps_interpolation_bytes(const ps_interpolation_question *question, size_t num_points) {
-    const uint64_t own = numbers_of_point(question) * (uint64_t)num_points;
-    const uint64_t images = question->keeps_images ? num_rows(question) : 0;
-    return ps_kernel_system_bytes(num_points, ps_interpolation_is_dense(question, num_points)) +
-           (own + (images + question->panorama->num) * pixels_of(question)) * sizeof(double);
-}
-
-/* A set that is the same every time is interpolated at once. */
-uint64_t ps_interpolation_num_sets(const ps_interpolation_question *question) {
-    const ps_sampler_request *const sampler = question->sampler;
-    const bool is_same = sampler != NULL && !question->no_skip && !sampler->homogenize &&
-                         ps_sampler_has_constant_power(sampler);
-    return is_same ? 1 : question->num_realizations;
 }
 
 /* ---- create -------------------------------------------------------------------------------- */
@@ -148,8 +124,8 @@ static pspec_status make_room(ps_interpolation_job *job, size_t num_points, ps_e
     job->block = job->directions = NULL;
     job->most_points = num_points;
     job->rows_of_block = fit < (double)panorama->height ? (size_t)fit + 1 : panorama->height;
-    PS_TRY(ps_allocate_for(&job->block, num_points,
-                           numbers_of_point(job->question) * sizeof(double), "values", error));
+    PS_TRY(ps_allocate_for(&job->block, num_points, 2 * panorama->num * sizeof(double), "values",
+                           error));
     job->values = job->block;
     job->alpha = job->values + panorama->num * num_points;
     PS_TRY(PS_NEW(&job->directions, job->rows_of_block * panorama->width * (3 + panorama->num),
@@ -189,8 +165,9 @@ static size_t num_functions(const interpolant *self) {
     return self->job->question->panorama->num;
 }
 
+/* With the set. */
 static ps_interpolation_row *row_of(const interpolant *self, size_t function) {
-    return &self->job->rows[self->index * num_functions(self) + function];
+    return &self->job->next_rows[self->index * num_functions(self) + function];
 }
 
 static void evaluate(const interpolant *self, size_t num, const double *at, double *values) {
@@ -326,11 +303,14 @@ static pspec_status interpolate(const interpolant *self) {
 static pspec_status use_set(ps_interpolation_job *job, ps_error *error) {
     ps_point_set *const set = &job->sets.sets[0];
     const bool is_first = job->num_realizations == 0;
+    const size_t bytes = num_rows(job->question) * sizeof *job->rows;
     PS_TRY(take_values(job, set, error));
+    memcpy(job->next_rows, job->rows, bytes);
     for (size_t s = 0; s < job->question->num_smoothness; s++) {
         const interpolant one = {job, set, s, error};
         PS_TRY(interpolate(&one));
     }
+    memcpy(job->rows, job->next_rows, bytes);
     job->num_realizations++;
     job->num_points += set->num_points;
     if (is_first || set->num_points < job->smallest_points) {
@@ -344,23 +324,62 @@ static pspec_status use_set(ps_interpolation_job *job, ps_error *error) {
 
 /* ---- all of them --------------------------------------------------------------------------- */
 
+static pspec_status give(void *payload, uint64_t num_done, size_t *num, ps_error *error) {
+    ps_interpolation_job *const job = payload;
+    const ps_interpolation_question *const question = job->question;
+    PS_TRY(ps_watch_tell(&question->watch, "realizations", num_done,
+                         ps_interpolation_num_sets(question), NULL, error));
+    PS_TRY(ps_power_sets_fill(&job->sets, false, 1, num, error));
+    return *num > 0 ? use_set(job, error) : PSPEC_OK;
+}
+
+static pspec_status look(void *payload, ps_error *error) {
+    const ps_interpolation_job *const job = payload;
+    return ps_watch_tell(&job->question->watch, "sets passed over", 0, 0, NULL, error);
+}
+
+static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+    ps_interpolation_job *const job = payload;
+    return ps_power_sets_skip(&job->sets, num, look, job, error);
+}
+
+static size_t num_images(const ps_interpolation_question *question) {
+    return question->keeps_images ? num_rows(question) : 0;
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    ps_interpolation_job *const job = payload;
+    const ps_interpolation_question *const question = job->question;
+    uint64_t counts[] = {job->num_realizations, job->num_points, job->smallest_points,
+                         job->largest_points};
+    enum { REALIZATIONS, POINTS, SMALLEST, LARGEST, NUM };
+    PS_TRY(ps_snapshot_counts(snapshot, "sets", counts, NUM, error));
+    PS_TRY(ps_snapshot_bytes(snapshot, "rows", job->rows, num_rows(question) * sizeof *job->rows,
+                             error));
+    job->num_realizations = counts[REALIZATIONS];
+    job->num_points = counts[POINTS];
+    job->smallest_points = counts[SMALLEST];
+    job->largest_points = counts[LARGEST];
+    return ps_snapshot_doubles(snapshot, "images", job->images,
+                               num_images(question) * pixels_of(question), error);
+}
+
 pspec_status ps_interpolation_job_run(ps_interpolation_job *job, ps_error *error) {
     const ps_interpolation_question *const question = job->question;
-    const size_t num_images = question->keeps_images ? num_rows(question) : 0;
-    size_t num = 0;
-    PS_TRY(PS_NEW(&job->rows, num_rows(question), "errors", error));
-    if (num_images > 0) {
-        PS_TRY(ps_allocate_for(&job->images, num_images, pixels_of(question) * sizeof(double),
-                               "images", error));
+    ps_set_loop loop = {.job = job,
+                        .give = give,
+                        .skip = skip,
+                        .walk = walk,
+                        .spec = &question->limits.checkpoint,
+                        .device = job->device};
+    PS_TRY(PS_NEW(&job->rows, 2 * num_rows(question), "errors", error));
+    job->next_rows = job->rows + num_rows(question);
+    if (num_images(question) > 0) {
+        PS_TRY(ps_allocate_for(&job->images, num_images(question),
+                               pixels_of(question) * sizeof(double), "images", error));
     }
     PS_TRY(ps_power_sets_allocate(&job->sets, 1, error));
-    do {
-        PS_TRY(ps_watch_tell(&question->watch, "realizations", job->num_realizations,
-                             ps_interpolation_num_sets(question), NULL, error));
-        PS_TRY(ps_power_sets_fill(&job->sets, false, 1, &num, error));
-        PS_TRY(num > 0 ? use_set(job, error) : PSPEC_OK);
-    } while (num > 0);
-    return PSPEC_OK;
+    return ps_set_loop_run(&loop, error);
 }
 
 const ps_interpolation_row *ps_interpolation_job_row(const ps_interpolation_job *job,

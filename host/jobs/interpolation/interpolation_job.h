@@ -60,7 +60,8 @@ typedef struct ps_interpolation_job {
     size_t rows_of_block;
     uint64_t num_realizations;
     uint64_t num_points, smallest_points, largest_points; /* in all; of the smallest set, .. */
-    ps_interpolation_row *rows;                           /* [num_smoothness][functions] */
+    ps_interpolation_row *rows;      /* [num_smoothness][functions] of the sets that are done, */
+    ps_interpolation_row *next_rows; /* and the same with the one that is being done */
     double *images; /* of the first set, [num_smoothness][functions][height][width]; NULL */
 } ps_interpolation_job;
 

@@ -4,6 +4,28 @@
 
 #include <math.h>
 
+bool ps_interpolation_is_dense(const ps_interpolation_question *question, size_t num_points) {
+    return num_points <= PS_INTERPOLATION_MOST_DENSE &&
+           ps_kernel_system_is_dense(num_points, question->limits.constraints.memory_limit);
+}
+
+/* Values and solutions of a set, the functions, and images. */
+uint64_t ps_interpolation_bytes(const ps_interpolation_question *question, size_t num_points) {
+    const uint64_t functions = question->panorama->num;
+    const uint64_t images = question->keeps_images ? functions * question->num_smoothness : 0;
+    const uint64_t pixels = question->panorama->width * question->panorama->height;
+    return ps_kernel_system_bytes(num_points, ps_interpolation_is_dense(question, num_points)) +
+           (2 * functions * num_points + (images + functions) * pixels) * sizeof(double);
+}
+
+/* A set that is the same every time is interpolated at once. */
+uint64_t ps_interpolation_num_sets(const ps_interpolation_question *question) {
+    const ps_sampler_request *const sampler = question->sampler;
+    const bool is_same = sampler != NULL && !question->no_skip && !sampler->homogenize &&
+                         ps_sampler_has_constant_power(sampler);
+    return is_same ? 1 : question->num_realizations;
+}
+
 /* Sets that are made; of files as many as their size suggests. */
 static double add_points(const ps_interpolation_job *job, ps_phases *phases) {
     const ps_interpolation_question *const question = job->question;

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "jobs/occlusion/rays.h"
+#include "jobs/set_loop.h"
 #include "math/neumaier.h"
 #include "math/random/random.h"
 
@@ -85,11 +86,7 @@ static pspec_status open_source(work *self, ps_error *error) {
 }
 
 static pspec_status next_set(work *self, bool *has_set, ps_error *error) {
-    ps_source_part part;
-    PS_TRY(ps_source_next(self->source, &self->set, &part, has_set, error));
-    if (*has_set && !part.is_whole) {
-        PS_TRY(ps_source_more(self->source, &self->set, SIZE_MAX, &part.is_whole, error));
-    }
+    PS_TRY(ps_source_next_whole(self->source, &self->set, has_set, error));
     const pspec_pattern pattern = {self->set.dimension, self->set.num_points, self->set.points,
                                    NULL};
     ps_pattern_count count = {.realization = self->result->num_realizations, .on_sphere = true};
@@ -162,18 +159,48 @@ static pspec_status add_set(work *self, ps_error *error) {
 
 /* ---- all of them ---------------------------------------------------------------------------- */
 
-static pspec_status add_all(work *self, ps_error *error) {
+static pspec_status give(void *payload, uint64_t num_done, size_t *num, ps_error *error) {
+    work *const self = payload;
     const ps_occlusion_question *const question = self->question;
     const uint64_t total = question->sampler != NULL ? question->num_realizations : 0;
-    bool has_set = true;
-    while (has_set && (total == 0 || self->result->num_realizations < total)) {
-        PS_TRY(ps_watch_tell(question->watch, "realizations", self->result->num_realizations, total,
-                             NULL, error));
-        PS_TRY(next_set(self, &has_set, error));
-        if (has_set) {
-            PS_TRY(add_set(self, error));
-        }
-    }
+    bool has_set = total == 0 || num_done < total;
+    PS_TRY(ps_watch_tell(question->watch, "realizations", num_done, total, NULL, error));
+    PS_TRY(has_set ? next_set(self, &has_set, error) : PSPEC_OK);
+    *num = has_set ? 1 : 0;
+    return has_set ? add_set(self, error) : PSPEC_OK;
+}
+
+static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+    const work *const self = payload;
+    return ps_source_pass(self->source, num, self->question->watch, error);
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    work *const self = payload;
+    ps_occlusion_result *const result = self->result;
+    enum { REALIZATIONS, SMALLEST, LARGEST, NUM, SUMS = sizeof(ps_sums) / sizeof(double) };
+    uint64_t counts[] = {result->num_realizations, result->smallest_points, result->largest_points};
+    double *const totals[] = {&self->seen.sum, &self->seen.lost, &self->points.sum,
+                              &self->points.lost};
+    PS_TRY(ps_snapshot_counts(snapshot, "sets", counts, NUM, error));
+    PS_TRY(ps_snapshot_gather(snapshot, "totals", totals, 4, error));
+    PS_TRY(ps_snapshot_doubles(snapshot, "squares", (double *)&self->squares, SUMS, error));
+    PS_TRY(ps_snapshot_doubles(snapshot, "pixels", (double *)&self->pixels, SUMS, error));
+    result->num_realizations = counts[REALIZATIONS];
+    result->smallest_points = counts[SMALLEST];
+    result->largest_points = counts[LARGEST];
+    return ps_snapshot_doubles(snapshot, "image", result->seen, self->question->view->num_pixels,
+                               error);
+}
+
+static pspec_status add_all(work *self, ps_error *error) {
+    ps_set_loop loop = {.job = self,
+                        .give = give,
+                        .skip = skip,
+                        .walk = walk,
+                        .spec = &self->question->checkpoint,
+                        .device = self->question->device};
+    PS_TRY(ps_set_loop_run(&loop, error));
     return self->result->num_realizations > 0
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT, "the files have no point sets");

@@ -24,10 +24,11 @@ typedef struct ps_reference {
 
 enum { PS_REFERENCE_SETS = 4 };
 
-/* num_rays is rounded up to sets of n^2 points. ps_reference_free frees it, also after a failure.
- */
+/* num_rays is rounded up to sets of n^2 points. checkpoint NULL: none. ps_reference_free frees it,
+ * also after a failure. */
 pspec_status ps_reference_make(ps_reference *out, const ps_view *view, uint64_t num_rays,
-                               uint64_t seed, ps_device *device, const ps_watch *watch,
+                               uint64_t seed, ps_device *device,
+                               const ps_checkpoint_spec *checkpoint, const ps_watch *watch,
                                ps_error *error) PS_MUST_CHECK;
 /* Of each of its sets. */
 size_t ps_reference_points(uint64_t num_rays);
@@ -63,6 +64,7 @@ typedef struct ps_occlusion_question {
     uint64_t memory_limit; /* bytes; 0: none */
     size_t num_images;     /* that are kept of all questions */
     const ps_watch *watch;
+    ps_checkpoint_spec checkpoint;
 } ps_occlusion_question;
 
 typedef struct ps_occlusion_result {

@@ -1,6 +1,7 @@
 #include "base/memory.h"
 #include "jobs/occlusion/occlusion_job.h"
 #include "jobs/occlusion/rays.h"
+#include "jobs/set_loop.h"
 #include "math/lift.h"
 #include "math/neumaier.h"
 #include "math/random/random.h"
@@ -53,28 +54,56 @@ static void finish(ps_reference *out, const pixel_sums *sums, size_t num_pixels)
         sqrt(2 * num / (num + 1) * ps_neumaier_value(&square)) / (double)num_pixels;
 }
 
-static pspec_status shoot(ps_reference *out, const ps_view *view, size_t n, uint64_t seed,
-                          ps_rays *rays, const ps_watch *watch, ps_error *error) {
-    double *points = NULL;
-    uint32_t *counts = NULL;
-    pixel_sums *sums = NULL;
-    pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, PS_NEW(&points, 3 * n * n, "points", error));
-    PS_TRY_OUT(status, PS_NEW(&counts, view->num_pixels, "counts of rays", error));
-    PS_TRY_OUT(status, PS_NEW(&sums, view->num_pixels, "sums of rays", error));
-    for (uint64_t r = 0; r < PS_REFERENCE_SETS; r++) {
-        const ps_ray_set set = {
-            .points = points, .num = n * n, .is_folded = true, .seed = seed, .number = r};
-        make_points(points, n, seed, r);
-        PS_TRY_OUT(status, ps_rays_count(rays, &set, counts, watch, error));
-        add(sums, counts, view->num_pixels, set.num);
+/* ---- sets ----------------------------------------------------------------------------------- */
+
+typedef struct work {
+    const ps_view *view;
+    const ps_watch *watch;
+    size_t n; /* sets have n^2 points */
+    uint64_t seed;
+    ps_rays *rays;
+    double *points;   /* [n^2][3] */
+    uint32_t *counts; /* [num_pixels] */
+    pixel_sums *sums; /* [num_pixels] */
+} work;
+
+static pspec_status give(void *payload, uint64_t num_done, size_t *num, ps_error *error) {
+    work *const self = payload;
+    const ps_ray_set set = {.points = self->points,
+                            .num = self->n * self->n,
+                            .is_folded = true,
+                            .seed = self->seed,
+                            .number = num_done};
+    *num = num_done < PS_REFERENCE_SETS ? 1 : 0;
+    if (*num == 0) {
+        return PSPEC_OK;
     }
-    finish(out, sums, view->num_pixels);
-out:
-    free(points);
-    free(counts);
-    free(sums);
-    return status;
+    make_points(self->points, self->n, self->seed, num_done);
+    PS_TRY(ps_rays_count(self->rays, &set, self->counts, self->watch, error));
+    add(self->sums, self->counts, self->view->num_pixels, set.num);
+    return PSPEC_OK;
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    work *const self = payload;
+    return ps_snapshot_doubles(snapshot, "pixel_sums", (double *)self->sums,
+                               2 * self->view->num_pixels, error);
+}
+
+static pspec_status shoot(work *self, ps_reference *out, ps_device *device,
+                          const ps_checkpoint_spec *checkpoint, ps_error *error) {
+    const size_t num_pixels = self->view->num_pixels;
+    const size_t num_points = self->n * self->n;
+    ps_set_loop loop = {
+        .job = self, .give = give, .walk = walk, .spec = checkpoint, .device = device};
+    PS_TRY(PS_NEW(&out->seen, num_pixels, "pixels", error));
+    PS_TRY(PS_NEW(&self->points, 3 * num_points, "points", error));
+    PS_TRY(PS_NEW(&self->counts, num_pixels, "counts of rays", error));
+    PS_TRY(PS_NEW(&self->sums, num_pixels, "sums of rays", error));
+    PS_TRY(ps_rays_create(&self->rays, self->view, num_points, device, error));
+    PS_TRY(ps_set_loop_run(&loop, error));
+    finish(out, self->sums, num_pixels);
+    return PSPEC_OK;
 }
 
 static size_t strata(uint64_t num_rays) {
@@ -86,16 +115,19 @@ size_t ps_reference_points(uint64_t num_rays) {
 }
 
 pspec_status ps_reference_make(ps_reference *out, const ps_view *view, uint64_t num_rays,
-                               uint64_t seed, ps_device *device, const ps_watch *watch,
+                               uint64_t seed, ps_device *device,
+                               const ps_checkpoint_spec *checkpoint, const ps_watch *watch,
                                ps_error *error) {
-    const size_t n = strata(num_rays);
-    const uint64_t own_seed = ps_random_seed_of(seed, PS_STREAM_TRIALS, "reference\n");
-    ps_rays *rays = NULL;
-    *out = (ps_reference){.num_rays = PS_REFERENCE_SETS * n * n};
-    PS_TRY(PS_NEW(&out->seen, view->num_pixels, "pixels", error));
-    PS_TRY(ps_rays_create(&rays, view, n * n, device, error));
-    const pspec_status status = shoot(out, view, n, own_seed, rays, watch, error);
-    ps_rays_destroy(rays);
+    work self = {.view = view,
+                 .watch = watch,
+                 .n = strata(num_rays),
+                 .seed = ps_random_seed_of(seed, PS_STREAM_TRIALS, "reference\n")};
+    *out = (ps_reference){.num_rays = PS_REFERENCE_SETS * self.n * self.n};
+    const pspec_status status = shoot(&self, out, device, checkpoint, error);
+    ps_rays_destroy(self.rays);
+    free(self.points);
+    free(self.counts);
+    free(self.sums);
     return status;
 }
 

@@ -25,15 +25,16 @@ static pspec_status take_rule(ps_quadrature_job *job, const double *c_l0, const 
     ps_quadrature_result *const out = &job->result;
     ps_rule_sums *const sums = &job->of_rules;
     const ps_rule_observer *const observer = &job->question->observer;
-    const pspec_pattern *const pattern = &job->rules.sets.patterns[job->num_told];
-    const ps_weighted_rule *const rule = &job->rules.batch[job->num_told++];
+    const size_t r = job->num_told++;
+    const ps_weighted_rule *const rule = &job->rules.batch[r];
     ps_spectral_error spectral;
     PS_TRY(ps_spectral_error_of(&job->setup.representer, job->setup.max_degree, c_l0, c2,
                                 &rule->weight, job->degrees, &spectral, error));
-    PS_TRY(observer->hear == NULL
-               ? PSPEC_OK
-               : observer->hear(observer->payload, out->num_realizations, pattern, job->degrees,
-                                job->setup.max_degree, error));
+    PS_TRY(observer->hear == NULL ? PSPEC_OK
+                                  : observer->hear(observer->payload, out->num_realizations,
+                                                   &job->rules.sets.patterns[r], job->degrees,
+                                                   job->setup.max_degree, error));
+    ps_rules_add_facts(&job->rules, r);
     const uint64_t num = ++out->num_realizations;
     add_degrees(job);
     ps_sums_add(&sums->squared, rule->kernel.squared);
@@ -106,13 +107,18 @@ static ps_estimator_options choose_options(void *payload) {
                                   .payload = payload};
 }
 
-/* Sets of a batch are in memory all at once. */
+/* Sets of a batch are in memory all at once; and a checkpoint comes between two batches, of which
+ * the factors of optimal weights take some seconds at most, unless one takes longer. */
 static size_t choose_batch(const ps_quadrature_job *job) {
     enum { MOST_BYTES = 64 << 20, NUMBERS = 5 }; /* coordinates, weight, kappa */
-    const size_t most = MOST_BYTES / (NUMBERS * sizeof(double)) / job->shape.num_points + 1;
+    const double most_steps = 1e11;
+    const double num_points = (double)job->shape.num_points;
+    const bool is_optimal = job->question->weights.kind == PS_WEIGHTS_OPTIMAL;
+    const double factors = is_optimal ? most_steps / (num_points * num_points * num_points) : 1e9;
+    const double fit = fmin(MOST_BYTES / (NUMBERS * sizeof(double)) / num_points, factors) + 1;
     const size_t batch =
         job->question->batch > 0 ? job->question->batch : ps_estimator_batch(job->runner.estimator);
-    return batch < most ? batch : most;
+    return (double)batch < fit ? batch : (size_t)fit;
 }
 
 /* Nothing is averaged yet. */
@@ -191,6 +197,7 @@ static pspec_status rewind_rules(void *payload, ps_error *error) {
 
 static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
     ps_quadrature_job *const job = payload;
+    job->rules.num_read = num;
     return ps_power_sets_skip(&job->rules.sets, num, tell, job, error);
 }
 
@@ -211,7 +218,17 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
                                sizeof job->of_rules / sizeof(double), error));
     PS_TRY(ps_snapshot_doubles(snapshot, "degree_sums", (double *)job->sums,
                                NUMBERS * PS_RULE_SUMS * (job->setup.max_degree + 1), error));
+    PS_TRY(job->question->observer.walk != NULL
+               ? job->question->observer.walk(job->question->observer.payload, snapshot, error)
+               : PSPEC_OK);
     return ps_rules_walk(&job->rules, snapshot, error);
+}
+
+/* Sums over pairs are those of a batch, whose rules may not all have been heard of. */
+static bool count(void *payload, uint64_t *num) {
+    const ps_quadrature_job *const job = payload;
+    *num = job->result.num_realizations;
+    return !job->setup.by_pairs || *num == ps_estimator_num_realizations(job->runner.estimator);
 }
 
 static const ps_runner_kind kind = {.plan = plan_again,
@@ -222,7 +239,8 @@ static const ps_runner_kind kind = {.plan = plan_again,
                                     .look = look_at_errors,
                                     .rewind = rewind_rules,
                                     .skip = skip,
-                                    .walk = walk};
+                                    .walk = walk,
+                                    .count = count};
 
 /* ---- all of it ---------------------------------------------------------------------------- */
 

@@ -87,27 +87,6 @@ pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) {
     return ps_power_sets_rewind(&rules->sets, error);
 }
 
-pspec_status ps_rules_walk(ps_rules *rules, ps_snapshot *snapshot, ps_error *error) {
-    ps_rule_facts *const facts = &rules->facts;
-    double *const numbers[] = {&facts->largest_condition, &facts->largest_residual};
-    enum { READ, POINTS, SMALLEST, LARGEST, DROPPED, DUPLICATES, ILL, MATRICES, STEPS, NUM };
-    uint64_t counts[NUM] = {rules->num_read,           facts->num_points,   facts->smallest_points,
-                            facts->largest_points,     facts->num_dropped,  facts->num_duplicates,
-                            facts->is_ill_conditioned, facts->has_matrices, facts->most_steps};
-    PS_TRY(ps_snapshot_gather(snapshot, "rule_facts", numbers, 2, error));
-    PS_TRY(ps_snapshot_counts(snapshot, "rule_counts", counts, NUM, error));
-    rules->num_read = counts[READ];
-    facts->num_points = counts[POINTS];
-    facts->smallest_points = counts[SMALLEST];
-    facts->largest_points = counts[LARGEST];
-    facts->num_dropped = counts[DROPPED];
-    facts->num_duplicates = counts[DUPLICATES];
-    facts->is_ill_conditioned = counts[ILL] != 0;
-    facts->has_matrices = counts[MATRICES] != 0;
-    facts->most_steps = (size_t)counts[STEPS];
-    return PSPEC_OK;
-}
-
 pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) {
     free_batch(rules);
     PS_TRY(ps_power_sets_allocate(&rules->sets, capacity, error));
@@ -144,8 +123,8 @@ static pspec_status check_left(const ps_rules *rules, size_t kept, ps_error *err
 }
 
 /* Leaves those that count, with weights [num_points] where they have any. */
-static pspec_status accept_points(ps_rules *rules, ps_point_set *set, double *weights,
-                                  ps_error *error) {
+static pspec_status accept_points(ps_rules *rules, ps_rule_facts *facts, ps_point_set *set,
+                                  double *weights, ps_error *error) {
     const bool is_cut = !ps_brdf_is_below_horizon(rules->question->brdf);
     double *const points = set->points;
     size_t kept = 0;
@@ -166,7 +145,7 @@ static pspec_status accept_points(ps_rules *rules, ps_point_set *set, double *we
         }
         weights[kept++] = weights[j];
     }
-    rules->facts.num_dropped += set->num_points - kept;
+    facts->num_dropped = set->num_points - kept;
     set->num_points = kept;
     return check_left(rules, kept, error);
 }
@@ -215,13 +194,13 @@ static ps_watch watch_phase(const phase *work) {
     return work->watch->tell != NULL ? (ps_watch){tell, (void *)work} : (ps_watch){0};
 }
 
-static void add_facts(ps_rule_facts *facts, const ps_kernel_facts *found, size_t num_points) {
-    facts->largest_condition = fmax(facts->largest_condition, found->condition);
-    facts->is_ill_conditioned |= found->is_ill_conditioned;
-    facts->has_matrices |= found->is_dense;
-    facts->most_steps = found->num_steps > facts->most_steps ? found->num_steps : facts->most_steps;
-    facts->largest_residual = fmax(facts->largest_residual, found->residual);
-    facts->num_duplicates += num_points - found->num_distinct;
+static void take_facts(ps_rule_facts *facts, const ps_kernel_facts *found, size_t num_points) {
+    facts->largest_condition = found->condition;
+    facts->is_ill_conditioned = found->is_ill_conditioned;
+    facts->has_matrices = found->is_dense;
+    facts->most_steps = found->num_steps;
+    facts->largest_residual = found->residual;
+    facts->num_duplicates = num_points - found->num_distinct;
 }
 
 /* Rule r of the batch. */
@@ -229,7 +208,7 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
                                  ps_error *error) {
     ps_optimal_weights found;
     const ps_point_set *const set = &rules->sets.sets[r];
-    const ps_weighted_rule *const rule = &rules->batch[r];
+    ps_weighted_rule *const rule = &rules->batch[r];
     const phase weights = {&rules->question->watch, "weights"};
     const ps_watch watch = watch_phase(&weights);
     const ps_kernel_options options = {.watch = &watch,
@@ -239,7 +218,7 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
     PS_TRY(ps_optimal_weights_find(representer, set->num_points, set->points, rule->kappa,
                                    rules->question->weights.sum_to_one, &options, rule->weights,
                                    &found, error));
-    add_facts(&rules->facts, &found.facts, set->num_points);
+    take_facts(&rule->facts, &found.facts, set->num_points);
     return PSPEC_OK;
 }
 
@@ -263,29 +242,22 @@ static pspec_status reserve_places(ps_rules *rules, size_t num, ps_error *error)
     return PS_NEW(&rules->places, num, "places of points", error);
 }
 
-static void count_points(ps_rule_facts *facts, uint64_t num_points) {
-    const bool is_first = facts->num_points == 0;
-    facts->num_points += num_points;
-    facts->smallest_points =
-        is_first || num_points < facts->smallest_points ? num_points : facts->smallest_points;
-    facts->largest_points = num_points > facts->largest_points ? num_points : facts->largest_points;
-}
-
 /* Points and weights of a set that was just read, whose pattern is that of the rule from here on.
  */
 static pspec_status begin_rule(ps_rules *rules, size_t r, ps_error *error) {
     const ps_weights_kind kind = rules->question->weights.kind;
+    ps_rule_facts *const facts = &rules->batch[r].facts;
     ps_point_set *const set = &rules->sets.sets[r];
     pspec_pattern *const pattern = &rules->sets.patterns[r];
     const bool are_equal = kind == PS_WEIGHTS_EQUAL || pattern->weights == NULL;
-    count_points(&rules->facts, set->num_points);
+    *facts = (ps_rule_facts){.num_points = set->num_points};
     PS_TRY(reserve_places(rules, set->num_points, error));
     PS_TRY(reserve(&rules->batch[r], set->num_points + num_cut(rules->question), error));
     double *const weights = rules->batch[r].weights;
     for (size_t j = 0; j < set->num_points; j++) {
         weights[j] = are_equal ? 1 : pattern->weights[j];
     }
-    PS_TRY(accept_points(rules, set, weights, error));
+    PS_TRY(accept_points(rules, facts, set, weights, error));
     for (size_t j = 0; are_equal && j < set->num_points; j++) {
         weights[j] = 1 / (double)set->num_points;
     }

@@ -7,16 +7,7 @@
 #include "jobs/spectrum/power_sets.h"
 #include "rules/worst_case_error.h"
 
-/* Of a set of points. */
-typedef struct ps_weighted_rule {
-    double *weights, *kappa; /* [capacity] in one block */
-    size_t capacity;
-    ps_weight_sums weight;
-    ps_kernel_error kernel;
-    bool is_complete; /* with its kernel form */
-} ps_weighted_rule;
-
-/* For the result: of all rules that were read. */
+/* For the result: of a rule, or of all that were added. */
 typedef struct ps_rule_facts {
     /* Points that rules were given with, in all, and of the smallest and the largest */
     uint64_t num_points, smallest_points, largest_points;
@@ -26,6 +17,16 @@ typedef struct ps_rule_facts {
     size_t most_steps; /* of conjugate gradients */
     double largest_residual;
 } ps_rule_facts;
+
+/* Of a set of points. */
+typedef struct ps_weighted_rule {
+    double *weights, *kappa; /* [capacity] in one block */
+    size_t capacity;
+    ps_weight_sums weight;
+    ps_kernel_error kernel;
+    bool is_complete; /* with its kernel form */
+    ps_rule_facts facts;
+} ps_weighted_rule;
 
 typedef struct ps_rules {
     const ps_quadrature_question *question;
@@ -50,7 +51,9 @@ pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error
  * the last. */
 pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
-/* What is there for the result, and how many were read, to a checkpoint or from one. */
+/* Rule r of the batch counts for the result. */
+void ps_rules_add_facts(ps_rules *rules, size_t r);
+/* What is there for the result, to a checkpoint or from one. */
 pspec_status ps_rules_walk(ps_rules *rules, ps_snapshot *snapshot, ps_error *error) PS_MUST_CHECK;
 /* Back to the first rule; what is there for the result is forgotten. */
 pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) PS_MUST_CHECK;

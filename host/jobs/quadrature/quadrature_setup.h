@@ -21,6 +21,8 @@ typedef struct ps_rule_observer {
     /* Number `rule` from 0, its points and weights, and its d_l^2 and C_l^2, [max_degree + 1]. */
     pspec_status (*hear)(void *payload, uint64_t rule, const pspec_pattern *pattern,
                          const ps_degree_error *degrees, size_t max_degree, ps_error *error);
+    /* What it has of those that it heard of, to a checkpoint or from one; NULL: nothing */
+    ps_snapshot_walk *walk;
     /* That was the last; devices of the job are closed after it. */
     void (*end)(void *payload);
     /* Adds what its work will take to the plan of the job. */

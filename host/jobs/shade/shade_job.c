@@ -10,8 +10,9 @@
 #include <string.h>
 
 enum { USUAL_ORIENTATIONS = 1000 };
-/* Values of one call: half a second of a processor, after which somebody may stop the work. */
-enum { CALL_VALUES = 1 << 24 };
+/* Values of one call: half a second of a processor, after which somebody may stop the work; and of
+ * the rules of a batch, between two of which there is a checkpoint. */
+enum { CALL_VALUES = 1 << 24, BATCH_VALUES = 1 << 28 };
 
 /* ---- one rule ------------------------------------------------------------------------------ */
 
@@ -111,9 +112,25 @@ static pspec_status hear(void *payload, uint64_t rule, const pspec_pattern *patt
     ps_shade_job *const self = payload;
     const ps_rule view = {pattern->num_points, pattern->points, pattern->weights};
     const ps_weight_sums weights = ps_rule_weight_sums(&view);
+    if (self->num_orientations > 0) {
+        PS_TRY(measure(self, rule, pattern, weights.sum, error));
+    }
     predict(self, degrees, max_degree, weights.square);
     self->num_rules++;
-    return self->num_orientations > 0 ? measure(self, rule, pattern, weights.sum, error) : PSPEC_OK;
+    return PSPEC_OK;
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    ps_shade_job *const self = payload;
+    ps_sums *const all[] = {&self->squares, &self->predictions, &self->parts_beyond,
+                            &self->orientations};
+    static const char *const names[] = {"light_squares", "light_predictions", "light_beyond",
+                                        "light_orientations"};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        PS_TRY(ps_snapshot_doubles(snapshot, names[i], (double *)all[i],
+                                   sizeof(ps_sums) / sizeof(double), error));
+    }
+    return ps_snapshot_counts(snapshot, "light_rules", &self->num_rules, 1, error);
 }
 
 /* ---- all of them --------------------------------------------------------------------------- */
@@ -168,7 +185,11 @@ pspec_status ps_shade_job_make(ps_shade_job *out, const ps_light *light, uint64_
     *out = (ps_shade_job){.light = light,
                           .wanted_orientations = num_orientations,
                           .seed = ps_random_seed_of(seed, PS_STREAM_TRIALS, ps_text_string(&text))};
-    rules->observer = (ps_rule_observer){begin, hear, end, add_phases, out};
+    if (rules->sampler != NULL && num_orientations > 0 &&
+        num_orientations != PS_USUAL_ORIENTATIONS) {
+        rules->batch = BATCH_VALUES / num_orientations / rules->sampler->num_points + 1;
+    }
+    rules->observer = (ps_rule_observer){begin, hear, walk, end, add_phases, out};
     ps_text_free(&text);
     return status;
 }

@@ -218,6 +218,13 @@ static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
                : ps_power_sets_skip(&job->sets, num, ps_power_job_tell, job, error);
 }
 
+/* There is nothing else that they change. */
+static bool count(void *payload, uint64_t *num) {
+    const ps_power_job *const job = payload;
+    *num = ps_estimator_num_realizations(job->runner.estimator);
+    return true;
+}
+
 static const ps_runner_kind kind = {.plan = plan,
                                     .options = choose_options,
                                     .begin = begin,
@@ -226,7 +233,7 @@ static const ps_runner_kind kind = {.plan = plan,
                                     .look = look_at_errors,
                                     .rewind = rewind_sets,
                                     .skip = skip,
-                                    .is_all_in_estimator = true};
+                                    .count = count};
 
 static pspec_status find_c2(ps_power_job *job, ps_error *error) {
     const size_t num = job->frequencies.num;

@@ -3,12 +3,14 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/round.h"
+#include "jobs/set_loop.h"
 #include "jobs/variance/variance_sets.h"
 #include "math/random/rotation.h"
 #include "spectra/sums.h"
 #include "trials/trials.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,7 +27,8 @@ typedef struct measurement {
     ps_trials **trials;      /* [num_integrands] */
     double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
     double *estimates;       /* [batch][num_calls][trials_of_call] */
-    ps_sums *sums;           /* [num_integrands] of the means of squares of a set */
+    double *squares;         /* [num_integrands][batch], means over the trials of a set */
+    ps_sums *sums;           /* [num_integrands] of these */
     ps_block_sums *blocks;   /* the same */
 } measurement;
 
@@ -153,6 +156,7 @@ static pspec_status allocate(measurement *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->patterns, self->batch, "point sets", error));
     PS_TRY(PS_NEW(&self->moves, num_trials * move_numbers(self), "shifts", error));
     PS_TRY(PS_NEW(&self->estimates, num_trials, "estimates", error));
+    PS_TRY(PS_NEW(&self->squares, plan->num_integrands * self->batch, "squares", error));
     PS_TRY(PS_NEW(&self->sums, plan->num_integrands, "sums", error));
     return create_trials(self, error);
 }
@@ -169,6 +173,7 @@ static void release(measurement *self) {
     free(self->trials);
     free(self->moves);
     free(self->estimates);
+    free(self->squares);
     free(self->sums);
 }
 
@@ -246,24 +251,53 @@ static pspec_status run_batch(measurement *self, uint64_t done, size_t num, ps_e
         const double exact = ps_integrand_integral(plan->integrands[i]);
         PS_TRY(estimate(self, i, done, num, error));
         for (size_t r = 0; r < num; r++) {
-            const double square =
+            self->squares[i * self->batch + r] =
                 mean_square(self->estimates + r * stride, (size_t)plan->num_shifts, exact);
-            ps_sums_add(&self->sums[i], square);
-            ps_block_sums_add(&self->blocks[i], square);
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status run_all(measurement *self, ps_error *error) {
+static void add_batch(measurement *self, size_t num) {
+    for (size_t i = 0; i < self->plan->num_integrands; i++) {
+        for (size_t r = 0; r < num; r++) {
+            const double square = self->squares[i * self->batch + r];
+            ps_sums_add(&self->sums[i], square);
+            ps_block_sums_add(&self->blocks[i], square);
+        }
+    }
+}
+
+/* ---- all sets ------------------------------------------------------------------------------ */
+
+static pspec_status give(void *payload, uint64_t done, size_t *num, ps_error *error) {
+    measurement *const self = payload;
     const ps_measurement_plan *const plan = self->plan;
-    for (uint64_t done = 0; done < plan->num_sets; done += self->batch) {
-        const uint64_t left = plan->num_sets - done;
-        const size_t num = left < self->batch ? (size_t)left : self->batch;
-        PS_TRY(fill_batch(self, plan->first + done, num, error));
-        PS_TRY(run_batch(self, done, num, error));
-        PS_TRY(ps_watch_tell(plan->watch, "realizations measured", done + num, plan->num_sets, NULL,
-                             error));
+    const uint64_t left = plan->num_sets - done;
+    *num = left < self->batch ? (size_t)left : self->batch;
+    PS_TRY(ps_watch_tell(plan->watch, "realizations measured", done, plan->num_sets, NULL, error));
+    if (*num > 0) {
+        PS_TRY(fill_batch(self, plan->first + done, *num, error));
+        PS_TRY(run_batch(self, done, *num, error));
+        add_batch(self, *num);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+    const ps_measurement_plan *const plan = ((const measurement *)payload)->plan;
+    return plan->is_one_set ? PSPEC_OK : ps_source_pass(plan->source, num, plan->watch, error);
+}
+
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    measurement *const self = payload;
+    const size_t num = self->plan->num_integrands;
+    enum { NUMBERS = sizeof(ps_sums) / sizeof(double) };
+    PS_TRY(ps_snapshot_doubles(snapshot, "squares", (double *)self->sums, NUMBERS * num, error));
+    for (size_t i = 0; i < num; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "blocks_%zu", i);
+        PS_TRY(ps_block_sums_walk(&self->blocks[i], snapshot, name, error));
     }
     return PSPEC_OK;
 }
@@ -271,11 +305,17 @@ static pspec_status run_all(measurement *self, ps_error *error) {
 pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
                                 ps_block_sums *blocks, ps_error *error) {
     measurement self = {.plan = plan, .blocks = blocks};
+    ps_set_loop loop = {.job = &self,
+                        .give = give,
+                        .skip = skip,
+                        .walk = walk,
+                        .spec = plan->checkpoint,
+                        .device = plan->device};
     choose_sizes(&self);
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, fit_memory(&self, error));
     PS_TRY_OUT(status, allocate(&self, error));
-    PS_TRY_OUT(status, run_all(&self, error));
+    PS_TRY_OUT(status, ps_set_loop_run(&loop, error));
     for (size_t i = 0; i < plan->num_integrands; i++) {
         ps_sums_finish(&self.sums[i], plan->num_sets, &variances[i].mean,
                        &variances[i].standard_error);

@@ -21,6 +21,7 @@ typedef struct ps_measurement_plan {
     double making_bytes;   /* while the source makes a set */
     ps_device *device;     /* NULL: values are made on the host */
     const ps_watch *watch;
+    const ps_checkpoint_spec *checkpoint; /* NULL: none */
 } ps_measurement_plan;
 
 /* Bytes that the measurement takes, in batches that the limit and what is free leave, where source

@@ -32,6 +32,7 @@ typedef struct ps_variance_question {
     uint64_t single_shifts; /* the same of a single set of a file */
     uint64_t seed;          /* of the trials of files; a sampler has its own */
     const char *name;       /* of a set among others, whose trials are its own; NULL: files alone */
+    unsigned trials_part;   /* that the checkpoint of the trials is, beside that of the spectrum */
     bool is_moved; /* trials are shifted or rotated at random; else sets stay where they are */
 } ps_variance_question;
 

@@ -1,6 +1,7 @@
 #include "jobs/variance/variance_sets.h"
 
 #include "base/memory.h"
+#include "jobs/set_loop.h"
 #include "points/lists/weight_list.h"
 
 #include <math.h>
@@ -14,18 +15,9 @@ typedef struct count {
     size_t num, capacity;
 } count;
 
-static pspec_status next_whole(ps_source *source, ps_point_set *set, bool *has_set,
-                               ps_error *error) {
-    ps_source_part part;
-    PS_TRY(ps_source_next(source, set, &part, has_set, error));
-    return !*has_set || part.is_whole
-               ? PSPEC_OK
-               : ps_source_more(source, set, SIZE_MAX, &part.is_whole, error);
-}
-
 pspec_status ps_variance_sets_next(ps_source *source, ps_point_set *set, ps_error *error) {
     bool has_set = false;
-    PS_TRY(next_whole(source, set, &has_set, error));
+    PS_TRY(ps_source_next_whole(source, set, &has_set, error));
     return has_set ? PSPEC_OK
                    : ps_fail(error, PSPEC_ERROR_INPUT,
                              "the files have fewer sets now than when they were counted");
@@ -75,7 +67,7 @@ static pspec_status count_all(ps_variance_sets *sets, count *so_far, ps_error *e
     while (has_set) {
         PS_TRY(
             ps_watch_tell(&so_far->question->watch, "sets counted", so_far->num, 0, NULL, error));
-        PS_TRY(next_whole(sets->source, &so_far->set, &has_set, error));
+        PS_TRY(ps_source_next_whole(sets->source, &so_far->set, &has_set, error));
         if (has_set && so_far->num == 0) {
             PS_TRY(begin(sets, so_far, error));
         }
@@ -126,11 +118,6 @@ uint64_t ps_variance_sets_measured(const ps_variance_sets *sets) {
 
 pspec_status ps_variance_sets_seek(ps_variance_sets *sets, ps_error *error) {
     const uint64_t before = sets->num > 1 ? sets->num_predicting : 0;
-    ps_point_set passed = {0};
-    pspec_status status = ps_source_rewind(sets->source, error);
-    for (uint64_t i = 0; status == PSPEC_OK && i < before; i++) {
-        status = ps_variance_sets_next(sets->source, &passed, error);
-    }
-    ps_point_set_free(&passed);
-    return status;
+    PS_TRY(ps_source_rewind(sets->source, error));
+    return ps_source_pass(sets->source, before, NULL, error);
 }

@@ -109,6 +109,7 @@ static pspec_status open_source(ps_variance_job *job, ps_measurement_plan *plan,
 
 pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) {
     ps_measurement_plan plan = plan_measurement(job);
+    ps_checkpoint_spec checkpoint = job->question->spectrum.limits.checkpoint;
     ps_source *owned = NULL;
     for (size_t i = 0; i < plan.num_integrands; i++) {
         job->measured[i] = (ps_mean){NAN, NAN};
@@ -117,6 +118,8 @@ pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) {
         return PSPEC_OK;
     }
     pspec_status status = PSPEC_OK;
+    checkpoint.part = job->question->trials_part;
+    plan.checkpoint = &checkpoint;
     PS_TRY_OUT(status, choose_seed(job, &plan.seed, error));
     PS_TRY_OUT(status, open_source(job, &plan, &owned, error));
     status = ps_measurement_run(&plan, job->measured, job->measured_blocks, error);

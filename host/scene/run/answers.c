@@ -137,6 +137,7 @@ static pspec_status find_checkpoint(ps_request *out, ps_text *path, const ps_run
     PS_TRY(ps_checkpoint_path(path, asked->path, number, error));
     out->limits.checkpoint = *asked;
     out->limits.checkpoint.path = ps_text_string(path);
+    out->limits.checkpoint.num_parts = ps_answer_num_checkpoints(out, question->asked.result->kind);
     return PSPEC_OK;
 }
 

@@ -5,16 +5,9 @@
 
 static pspec_status walk_blocks(ps_accumulator *self, ps_snapshot *snapshot, ps_error *error) {
     for (size_t w = 0; w < self->options.num_weighted; w++) {
-        char counts[48];
-        char sums[48];
-        ps_block_sums *const blocks = &self->weighted_blocks[w];
-        uint64_t numbers[] = {blocks->count, blocks->length};
-        snprintf(counts, sizeof counts, "blocks_%zu_counts", w);
-        snprintf(sums, sizeof sums, "blocks_%zu_sums", w);
-        PS_TRY(ps_snapshot_counts(snapshot, counts, numbers, 2, error));
-        PS_TRY(ps_snapshot_doubles(snapshot, sums, blocks->sums, PS_MOST_BLOCKS, error));
-        blocks->count = numbers[0];
-        blocks->length = numbers[1];
+        char name[48];
+        snprintf(name, sizeof name, "blocks_%zu", w);
+        PS_TRY(ps_block_sums_walk(&self->weighted_blocks[w], snapshot, name, error));
     }
     return PSPEC_OK;
 }

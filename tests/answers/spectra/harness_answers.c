@@ -1,5 +1,7 @@
 #include "harness_answers.h"
 
+#include "answers/checkpoints.h"
+
 #include <math.h>
 #include <stdarg.h>
 
@@ -74,12 +76,28 @@ static void take_options(ps_request *request, const ps_kind *kind, char *line) {
     }
 }
 
-ps_answer answers_ask(const test_folder *folder, int first, int last, const char *text) {
+/* As ps_answer_produce does, but for what is written. */
+static pspec_status answer(ps_answer *out, const ps_kind *kind, ps_request *request,
+                           const ps_answer_hooks *hooks, ps_error *error) {
+    ps_text key = {0};
+    pspec_status status = ps_answer_begin_checkpoints(request, kind, &key, hooks, error);
+    if (status == PSPEC_OK) {
+        status = ps_answer_make(out, kind, request, hooks, error);
+    }
+    if (status == PSPEC_OK) {
+        ps_answer_end_checkpoints(request);
+    }
+    ps_text_free(&key);
+    return status;
+}
+
+pspec_status answers_try(ps_answer *out, const test_folder *folder, int first, int last,
+                         const char *text, const ps_watch *watch, ps_error *error) {
     char line[ANSWERS_LINE];
     char paths[ANSWERS_PARTS][TEST_PATH_BYTES];
     const char *files[ANSWERS_PARTS];
     ps_request request = ps_request_default;
-    ps_answer answer;
+    const ps_answer_hooks hooks = {.device = device, .watch = *watch};
     const size_t length = strcspn(text, " ");
     snprintf(line, sizeof line, "%.*s", (int)length, text);
     const ps_kind *const kind = find_kind(line);
@@ -93,8 +111,14 @@ ps_answer answers_ask(const test_folder *folder, int first, int last, const char
     request.files = files;
     request.command_line = text;
     request.wants_state = true;
-    assert_ok(ps_answer_make(&answer, kind, &request, &(ps_answer_hooks){.device = device}, error));
-    return answer;
+    return answer(out, kind, &request, &hooks, error);
+}
+
+ps_answer answers_ask(const test_folder *folder, int first, int last, const char *text) {
+    const ps_watch nobody = {0};
+    ps_answer out;
+    assert_ok(answers_try(&out, folder, first, last, text, &nobody, error));
+    return out;
 }
 
 pspec_status answers_try_merge(ps_answer *out, size_t num, const ps_table *const *tables,

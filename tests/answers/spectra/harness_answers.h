@@ -19,6 +19,10 @@ void answers_close_device(void);
 /* Answers the command line; parts from first to last are its files where there is a folder. */
 ps_answer answers_ask(const test_folder *folder, int first, int last, const char *text);
 
+/* The same where it may fail, or be cancelled. */
+pspec_status answers_try(ps_answer *out, const test_folder *folder, int first, int last,
+                         const char *text, const ps_watch *watch, ps_error *error);
+
 /* Called "the first" and so on. */
 pspec_status answers_try_merge(ps_answer *out, size_t num, const ps_table *const *tables,
                                ps_error *error);
