@@ -3,11 +3,44 @@
 #include "files/digest.h"
 #include "pointspec_version.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
+static const char own_program[] = "/proc/self/exe";
+
+enum { MOST_PATH = 4096 };
+
+/* The file that this code was loaded from: the program, or the library in that of somebody else. */
+static void find_file(char path[MOST_PATH]) {
+    const uintptr_t here = (uintptr_t)find_file;
+    char line[MOST_PATH + 128];
+    FILE *const maps = fopen("/proc/self/maps", "r");
+    snprintf(path, MOST_PATH, "%s", own_program);
+    while (maps != NULL && fgets(line, sizeof line, maps) != NULL) {
+        uintptr_t first = 0;
+        uintptr_t last = 0;
+        int at = 0;
+        const int num =
+            sscanf(line, "%" SCNxPTR "-%" SCNxPTR " %*s %*s %*s %*s %n", &first, &last, &at);
+        if (num == 2 && at > 0 && first <= here && here < last) {
+            snprintf(path, MOST_PATH, "%.*s", (int)strcspn(line + at, "\n"), line + at);
+        }
+    }
+    if (maps != NULL) {
+        fclose(maps);
+    }
+}
+
+/* One that was removed meanwhile has no name, but the system shows the program all the same. */
 pspec_status ps_answer_identify_program(ps_text *out, ps_error *error) {
+    char path[MOST_PATH];
     char digest[PS_DIGEST_BYTES];
-    PS_TRY(ps_digest_file("/proc/self/exe", digest, error));
+    ps_error none;
+    find_file(path);
+    if (ps_digest_file(path, digest, &none) != PSPEC_OK) {
+        PS_TRY(ps_digest_file(own_program, digest, error));
+    }
     ps_text_append(out, "pointspec %s %s\n", PS_VERSION, digest);
     return ps_text_check(out, error);
 }
@@ -60,6 +93,32 @@ static pspec_status add_file(void *payload, const ps_request_file *input, ps_err
     return PSPEC_OK;
 }
 
+/* Of all sets of a caller together. */
+static pspec_status add_given(ps_text *key, const ps_given_set *given, ps_error *error) {
+    char digest[PS_DIGEST_BYTES] = "none";
+    if (given->num == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "checkpoint: sets that a function gives are not known again; files, sets in "
+                       "memory and samplers are");
+    }
+    for (uint64_t i = 0; i < given->num; i++) {
+        char points[PS_DIGEST_BYTES];
+        char weights[PS_DIGEST_BYTES] = "none";
+        char line[4 * PS_DIGEST_BYTES];
+        pspec_pattern set = {0};
+        bool has_set = false;
+        PS_TRY(given->next(given->payload, i, &set, &has_set, error));
+        ps_digest_bytes(set.points, set.num_points * set.dimension * sizeof *set.points, points);
+        if (set.weights != NULL) {
+            ps_digest_bytes(set.weights, set.num_points * sizeof *set.weights, weights);
+        }
+        snprintf(line, sizeof line, "%s %u %s %s", digest, set.dimension, points, weights);
+        ps_digest_bytes(line, strlen(line), digest);
+    }
+    ps_text_append(key, "set %s, digest %s\n", given->name, digest);
+    return PSPEC_OK;
+}
+
 /* ---- all of it ------------------------------------------------------------------------------- */
 
 static void say(const char *sentence, void *payload) {
@@ -78,10 +137,6 @@ pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kin
         return PSPEC_OK;
     }
     spec->num_parts = ps_answer_num_checkpoints(request, kind);
-    if (request->reading.given.num > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "checkpoint: sets in memory are not known again; files and samplers are");
-    }
     if (request->integrands_given.num > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "checkpoint: functions of a caller are not known again");
@@ -89,6 +144,9 @@ pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kin
     PS_TRY(ps_answer_identify_program(key, error));
     add_question(key, request, kind);
     PS_TRY(ps_request_visit_inputs(request, add_file, key, error));
+    for (size_t i = 0; i < request->reading.given.num; i++) {
+        PS_TRY(add_given(key, &request->reading.given.sets[i], error));
+    }
     PS_TRY(ps_text_check(key, error));
     spec->key = ps_text_string(key);
     spec->log = (ps_log){say, (void *)hooks};

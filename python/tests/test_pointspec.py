@@ -324,6 +324,26 @@ def test_progress_and_cancelling() -> None:
         pointspec.power(sampler="white", points=64, realizations=3000, max_frequency=4, progress=stop)
 
 
+def test_arrays_go_on_from_a_checkpoint() -> None:
+    points = np.random.default_rng(2).random((200, 8, 2))
+    asked: dict[str, Any] = {"max_frequency": 3, "engine": "host_direct"}
+    left = 2
+
+    def stop(*said: Any) -> None:
+        nonlocal left
+        left -= 1
+        if left == 0:
+            raise StopIteration("enough")
+
+    with pytest.raises(StopIteration):
+        pointspec.power(points, **asked, checkpoint="job.npz", progress=stop)
+    with pytest.raises(pointspec.InputError, match="checkpoint of another job"):
+        pointspec.power(points / 2, **asked, checkpoint="job.npz")
+    pieces = pointspec.power(points, **asked, checkpoint="job.npz")
+    assert np.array_equal(pieces["power"], pointspec.power(points, **asked)["power"])
+    assert not Path("job.npz").exists()
+
+
 def test_bars() -> None:
     pytest.importorskip("tqdm")
     pointspec.power(sampler="white", points=64, realizations=3000, max_frequency=4, progress=True)

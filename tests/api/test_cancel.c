@@ -208,12 +208,82 @@ static void written_points(void **state) {
     pspec_context_destroy(context);
 }
 
+/* ---- checkpoints ----------------------------------------------------------------------------- */
+
+static int stop_late(const pspec_progress_report *report, void *payload) {
+    int *const left = payload; /* calls before it stops */
+    (void)report;
+    return (*left)-- == 0;
+}
+
+static int give_none(uint64_t realization, pspec_pattern *out, void *payload) {
+    (void)realization;
+    (void)out;
+    (void)payload;
+    return 0;
+}
+
+/* Sets in memory are known again by their numbers; others are those of another job, and what a
+ * function gives is not known. */
+static void sets_in_memory_go_on(void **state) {
+    enum { SETS = 200, POINTS = 6, NUMBERS = SETS * POINTS * 2 };
+    static const char job[] = "power max-frequency=3 engine=host_direct";
+    static double numbers[NUMBERS];
+    pspec_pattern sets[SETS];
+    char folder[] = "/tmp/pointspec-cancel-XXXXXX";
+    char path[sizeof folder + 16];
+    char line[LINE];
+    uint64_t random = 1;
+    int num = 0;
+    pspec_answer *pieces = NULL;
+    (void)state;
+    for (size_t i = 0; i < NUMBERS; i++) {
+        numbers[i] = test_uniform(&random);
+    }
+    for (size_t i = 0; i < SETS; i++) {
+        sets[i] = (pspec_pattern){2, POINTS, numbers + i * POINTS * 2, NULL};
+    }
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/job.npz", folder);
+    snprintf(line, sizeof line, "%s checkpoint=%s checkpoint-interval=0", job, path);
+    pspec_context *const context = pspec_context_create();
+    pspec_answer *const whole = test_public_ask(context, job, sets, SETS);
+    for (; pieces == NULL; num++) {
+        int left = 1 + num;
+        pspec_question *const question = test_public_question(context, line);
+        pspec_context_set_progress(context, stop_late, &left);
+        test_public_add(question, sets, SETS);
+        if (num == 1) {
+            numbers[NUMBERS - 1] += 0x1p-20;
+            pspec_question *const other = test_public_question(context, line);
+            test_public_add(other, sets, SETS);
+            test_public_refuse(context, other, PSPEC_ERROR_INPUT, "set memory, digest");
+            pspec_question_destroy(other);
+            numbers[NUMBERS - 1] -= 0x1p-20;
+        }
+        const pspec_status status = pspec_question_answer(&pieces, question);
+        assert_true(status == PSPEC_OK || status == PSPEC_ERROR_CANCELLED);
+        pspec_question_destroy(question);
+    }
+    assert_true(num > 2 && test_public_same(whole, pieces));
+    pspec_context_set_progress(context, NULL, NULL);
+    pspec_question *const given = test_public_question(context, line);
+    assert_int_equal(pspec_question_give(given, 1, give_none, NULL), PSPEC_OK);
+    test_public_refuse(context, given, PSPEC_ERROR_INVALID_ARGUMENT, "a function gives");
+    pspec_question_destroy(given);
+    pspec_answer_destroy(whole);
+    pspec_answer_destroy(pieces);
+    pspec_context_destroy(context);
+    assert_int_equal(rmdir(folder), 0); /* it is empty */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(worst_case_error),
                                        cmocka_unit_test(weights_by_gradients),
                                        cmocka_unit_test(weights_by_cholesky),
                                        cmocka_unit_test(interpolation),
                                        cmocka_unit_test(samplers),
-                                       cmocka_unit_test(written_points)};
+                                       cmocka_unit_test(written_points),
+                                       cmocka_unit_test(sets_in_memory_go_on)};
     return cmocka_run_group_tests_name("cancel", tests, NULL, NULL);
 }
