@@ -90,7 +90,7 @@ static void time_checkpoint(parts *out, ps_power_job *job) {
         ps_checkpoint_close(checkpoint);
     }
     out->saved_bytes = stat(path, &facts) == 0 ? (double)facts.st_size : NAN;
-    ps_checkpoint_remove(path, 1);
+    ps_checkpoint_remove(path, 0, 1);
     rmdir(folder);
 }
 

@@ -154,7 +154,8 @@ pspec_status ps_answer_begin_checkpoints(ps_request *request, const ps_kind *kin
 }
 
 void ps_answer_end_checkpoints(const ps_request *request) {
-    if (request->limits.checkpoint.path != NULL) {
-        ps_checkpoint_remove(request->limits.checkpoint.path, request->limits.checkpoint.num_parts);
+    const ps_checkpoint_spec *const spec = &request->limits.checkpoint;
+    if (spec->path != NULL) {
+        ps_checkpoint_remove(spec->path, spec->part, spec->num_parts);
     }
 }

@@ -260,8 +260,8 @@ void ps_checkpoint_forget(ps_checkpoint *checkpoint) {
     checkpoint->file = NULL;
 }
 
-void ps_checkpoint_remove(const char *path, unsigned num_parts) {
-    for (unsigned part = 0; part < num_parts; part++) {
+void ps_checkpoint_remove(const char *path, unsigned first, unsigned num) {
+    for (unsigned part = first; part < first + num; part++) {
         ps_text name = {0};
         if (ps_checkpoint_path(&name, path, part, NULL) == PSPEC_OK) {
             (void)unlink(ps_text_string(&name));

@@ -83,7 +83,7 @@ pspec_status ps_checkpoint_keep_cancelled(ps_checkpoint *checkpoint, pspec_statu
                                           uint64_t num_done, ps_snapshot_walk *walk, void *payload,
                                           ps_error *error);
 
-/* Removes the files of so many parts, whose answer is written. */
-void ps_checkpoint_remove(const char *path, unsigned num_parts);
+/* Removes the files of so many parts from one on, whose answer is written. */
+void ps_checkpoint_remove(const char *path, unsigned first, unsigned num);
 
 #endif

@@ -34,6 +34,20 @@ results:
     points: 1024
     realizations: 20000
     max-degree: 64
+  - result: variance
+    name: disk
+    integrands: [disk]
+    samplers: [jittered, white]
+    points: [64, 256]
+    realizations: 20000
+    rates: auto
+  - result: check
+    name: phases
+    homogeneous: true
+    samplers: [white]
+    points: 16
+    realizations: 1000
+    max-frequency: 3
 END
 
 # Those that have checkpoints take some times three seconds, the others less than one.

@@ -102,7 +102,7 @@ static void compare(const test_folder *folder, ps_power_question *question) {
         num += run_in_pieces(&pieces, question, &who, calls);
         assert_same_spectra(whole, pieces);
         ps_power_job_destroy(pieces);
-        ps_checkpoint_remove(path, 1);
+        ps_checkpoint_remove(path, 0, 1);
     }
     assert_true(num > 1);
     question->limits.checkpoint.path = NULL;
@@ -332,7 +332,7 @@ static void rules_go_on(void **state) {
         }
         assert_int_equal(status, PSPEC_OK);
         assert_true(num > 1);
-        ps_checkpoint_remove(path, 1);
+        ps_checkpoint_remove(path, 0, 1);
         ps_quadrature_job_destroy(whole);
     }
     ps_brdf_destroy(brdf);

@@ -85,7 +85,7 @@ static void what_is_read_was_written(void **state) {
     ps_checkpoint_forget(checkpoint);
     assert_null(ps_checkpoint_found(checkpoint));
     ps_checkpoint_close(checkpoint);
-    ps_checkpoint_remove(path, 2); /* a part that is not there is no fault */
+    ps_checkpoint_remove(path, 0, 2); /* a part that is not there is no fault */
     assert_int_equal(test_folder_count(*state, true), 0);
 }
 
@@ -169,7 +169,7 @@ static void faults_of_the_file_are_said_once(void **state) {
     assert_ok(walk(&found, ps_checkpoint_found(checkpoint), error));
     assert_true(found.apart == known.apart);
     ps_checkpoint_close(checkpoint);
-    ps_checkpoint_remove(path, 1);
+    ps_checkpoint_remove(path, 0, 1);
     assert_int_equal(rmdir(folder), 0);
 }
 

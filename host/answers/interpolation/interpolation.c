@@ -86,7 +86,7 @@ static pspec_status fill_question(ps_interpolation_list *self, size_t index,
                                                        ps_interpolation_is_shown(request, index),
                                        .no_skip = request->accuracy.no_skip,
                                        .limits = request->limits};
-    out->limits.checkpoint.part = (unsigned)index;
+    out->limits.checkpoint.part += (unsigned)index;
     out->point_options.domain = PS_DOMAIN_SPHERE;
     out->point_options.ignore_weights = true;
     if (out->num_paths > 0) {

@@ -87,7 +87,7 @@ static ps_occlusion_question make_question(ps_occlusion *self, const ps_request 
         .name = request->num_sources > 0 ? ps_request_name(request, i) : NULL,
         .watch = &self->watch,
         .checkpoint = request->limits.checkpoint};
-    out.checkpoint.part = (unsigned)i + 1;
+    out.checkpoint.part += (unsigned)i + 1;
     out.point_options.domain = PS_DOMAIN_SPHERE;
     out.point_options.ignore_weights = true;
     return out;

@@ -113,7 +113,7 @@ pspec_status ps_rule_list_make(ps_rule_list *out, const ps_request *arguments, p
     PS_TRY(ps_file_lists_make(&out->files, arguments, error));
     for (size_t i = 0; i < num; i++) {
         out->questions[i] = make_question(arguments, out->brdf);
-        out->questions[i].limits.checkpoint.part = (unsigned)i;
+        out->questions[i].limits.checkpoint.part += (unsigned)i;
         PS_TRY(fill_points(out, i, arguments, error));
     }
     return PSPEC_OK;

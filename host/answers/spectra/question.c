@@ -184,7 +184,7 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_request *argument
     PS_TRY(ps_file_lists_make(&out->files, arguments, error));
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, kind);
-        out->questions[i].limits.checkpoint.part = (unsigned)i;
+        out->questions[i].limits.checkpoint.part += (unsigned)i;
         if (arguments->replans != NULL) {
             out->questions[i].replan = arguments->replans[i];
         }

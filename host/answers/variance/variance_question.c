@@ -166,8 +166,8 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
             arguments->integrands_made != NULL ? arguments->integrands_made : &out->made;
         question->bounds = ps_request_bounds(arguments, i);
         question->name = ps_request_name(arguments, i);
-        question->spectrum.limits.checkpoint.part = (unsigned)i;
-        question->trials_part = (unsigned)(num + i);
+        question->spectrum.limits.checkpoint.part += (unsigned)i;
+        question->trials_part = question->spectrum.limits.checkpoint.part + (unsigned)num;
         PS_TRY(out->files[i].num > 0
                    ? fill_files(&question->spectrum, &out->files[i], arguments, error)
                    : fill_sampler(&question->spectrum, &out->requests[i], arguments, i, error));

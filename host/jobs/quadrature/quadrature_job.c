@@ -310,15 +310,16 @@ pspec_status ps_quadrature_job_run(ps_quadrature_job *job, ps_error *error) {
     job->rules.most = setup->needs.one_realization ? 1 : UINT64_MAX;
     job->rules.device = setup->device;
     PS_TRY(allocate(job, error));
-    job->runner = (ps_runner){.kind = &kind,
-                              .job = job,
-                              .problem = &setup->problem,
-                              .plan = &setup->plan,
-                              .device = setup->device,
-                              .standard_error = job->question->accuracy.standard_error,
-                              .is_sequential = setup->needs.sequential,
-                              .has_no_accuracy = !setup->by_pairs,
-                              .spec = &job->question->limits.checkpoint};
+    job->runner = (ps_runner){
+        .kind = &kind,
+        .job = job,
+        .problem = &setup->problem,
+        .plan = &setup->plan,
+        .device = setup->device,
+        .standard_error = job->question->accuracy.standard_error,
+        .is_sequential = setup->needs.sequential,
+        .has_no_accuracy = !setup->by_pairs,
+        .spec = job->question->keeps_weights ? NULL : &job->question->limits.checkpoint};
     PS_TRY(ps_runner_run(&job->runner, error));
     if (job->question->observer.end != NULL) {
         job->question->observer.end(job->question->observer.payload);

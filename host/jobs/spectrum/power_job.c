@@ -302,6 +302,8 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
     PS_TRY(ps_power_coefficients_begin(job, error));
     PS_TRY(weigh(job, error));
+    const bool keeps_more = /* of every set, than a checkpoint has */
+        job->problem.keeps_coefficients || job->coefficients != NULL;
     job->runner = (ps_runner){.kind = &kind,
                               .estimator = job->runner.estimator,
                               .job = job,
@@ -310,7 +312,7 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
                               .device = job->device,
                               .standard_error = job->question->accuracy.standard_error,
                               .is_sequential = job->needs.sequential,
-                              .spec = &job->question->limits.checkpoint,
+                              .spec = keeps_more ? NULL : &job->question->limits.checkpoint,
                               .is_part = job->question->range.end > 0,
                               .replan = job->question->replan};
     PS_TRY(ps_runner_run(&job->runner, error));

@@ -124,49 +124,42 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question, ps
     return ps_kind_without_device(question->asked.result->kind, opened);
 }
 
-/* Of a question whose kind has checkpoints: its own, named by its number. */
-static pspec_status find_checkpoint(ps_request *out, ps_text *path, const ps_run *run,
-                                    const ps_run_question *question, ps_error *error) {
-    const ps_checkpoint_spec *const asked = &run->arguments->limits.checkpoint;
+/* Those of a question come behind those of the questions before it. */
+static void find_checkpoints(ps_request *out, const ps_run *run, const ps_run_question *question) {
     const ps_command_set takers = ps_options[PS_OPTION_CHECKPOINT].commands;
-    *out = question->asked.request;
-    if (asked->path == NULL || (takers & question->asked.result->kind->takes) == 0) {
-        return PSPEC_OK;
+    const ps_checkpoint_spec *const asked = &run->arguments->limits.checkpoint;
+    unsigned first = 0;
+    for (const ps_run_question *before = run->questions; before < question; before++) {
+        first += ps_answer_num_checkpoints(&before->asked.request, before->asked.result->kind);
     }
-    const unsigned number = (unsigned)(question - run->questions);
-    PS_TRY(ps_checkpoint_path(path, asked->path, number, error));
-    out->limits.checkpoint = *asked;
-    out->limits.checkpoint.path = ps_text_string(path);
-    out->limits.checkpoint.num_parts = ps_answer_num_checkpoints(out, question->asked.result->kind);
-    return PSPEC_OK;
+    *out = question->asked.request;
+    if ((takers & question->asked.result->kind->takes) != 0) {
+        out->limits.checkpoint = *asked;
+        out->limits.checkpoint.part = first;
+        out->limits.checkpoint.num_parts =
+            ps_answer_num_checkpoints(out, question->asked.result->kind);
+    }
 }
 
 static pspec_status make_answer(ps_run *run, ps_run_question *question, ps_error *error) {
     const ps_kind *const kind = question->asked.result->kind;
     const ps_answer_hooks hooks = {.watch = run->hooks.watch, .device = run->device};
-    ps_text path = {0};
     ps_text key = {0};
     ps_request request;
-    pspec_status status = find_checkpoint(&request, &path, run, question, error);
-    if (status == PSPEC_OK) {
-        status = ps_answer_begin_checkpoints(&request, kind, &key, &run->hooks, error);
-    }
+    find_checkpoints(&request, run, question);
+    pspec_status status = ps_answer_begin_checkpoints(&request, kind, &key, &run->hooks, error);
     if (status == PSPEC_OK) {
         status = ps_devices_make(&question->answer, kind, &request, &hooks, error);
     }
-    ps_text_free(&path);
     ps_text_free(&key);
     return status;
 }
 
 void ps_run_end_checkpoints(const ps_run *run) {
     for (size_t i = 0; i < run->num_questions; i++) {
-        ps_text path = {0};
         ps_request request;
-        if (find_checkpoint(&request, &path, run, &run->questions[i], NULL) == PSPEC_OK) {
-            ps_answer_end_checkpoints(&request);
-        }
-        ps_text_free(&path);
+        find_checkpoints(&request, run, &run->questions[i]);
+        ps_answer_end_checkpoints(&request);
     }
 }
 
