@@ -144,9 +144,7 @@ static pspec_status complete(const ps_command *command, ps_request *arguments,
 /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
  * user did is the reason, not what it led to. */
 static pspec_status blame_signal(pspec_status status, ps_error *error) {
-    static const char reason[] = "interrupted";
-    return status != PSPEC_OK && ps_interrupted &&
-                   strncmp(error->message, reason, sizeof reason - 1) != 0
+    return status != PSPEC_OK && ps_interrupted && strstr(error->message, "interrupted") == NULL
                ? ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted")
                : status;
 }

@@ -78,8 +78,9 @@ kills=0 jobs=0
 # Runs to its end, or is killed after a random time; 0: done.
 run_for_a_while() { # WORD...
     local signals=(KILL KILL TERM INT) code=0
-    # The shell would say which of its children was killed.
-    { timeout -k 10 -s "${signals[RANDOM % 4]}" "$((RANDOM % 3)).$((1 + RANDOM % 9))" "$program" "$@" --quiet \
+    # The shell would say which of its children was killed. In the foreground timeout waits until the program is dead, after
+    # SIGKILL, too: before that it has its lock.
+    { timeout --foreground -k 10 -s "${signals[RANDOM % 4]}" "$((RANDOM % 3)).$((1 + RANDOM % 9))" "$program" "$@" --quiet \
         >/dev/null 2>stderr || code=$?; } 2>/dev/null
     case $code in
     0) return 0 ;;

@@ -289,7 +289,7 @@ wait_until $run has_two_results
 kill -INT $run
 code=0
 wait $run || code=$?
-[[ $code == 130 && $(<err) == *"pointspec run: interrupted"* ]] || complain "interrupted: $code $(<err)"
+[[ $code == 130 && $(<err) == *"pointspec run: "*"interrupted"* ]] || complain "interrupted: $code $(<err)"
 no_folder long
 sed -i 4d long.yaml
 runs 0 long.yaml
