@@ -44,7 +44,9 @@ static void parse_piece(void *payload, unsigned index) {
 /* Threads and their memory, if there is any: without, the caller parses alone. */
 static void start(ps_row_parser *parser) {
     parser->has_tried = true;
-    parser->workers = ps_workers_create(PS_MOST_PARSERS);
+    const unsigned most = parser->most_threads;
+    parser->workers =
+        ps_workers_create(most > 0 && most < PS_MOST_PARSERS ? most : PS_MOST_PARSERS);
     parser->spare_rows = SPARE_VALUES / parser->columns;
     for (unsigned i = 1; i < ps_workers_count(parser->workers); i++) {
         parser->spare[i] = malloc(SPARE_VALUES * sizeof(double));
@@ -126,7 +128,7 @@ const char *ps_rows_parse(ps_row_parser *parser, const char *text, const char *e
     if (end - text < LEAST_BYTES) {
         return parse_alone(parser, text, end, rows, capacity, num_rows);
     }
-    if (!parser->has_tried) {
+    if (!parser->has_tried && parser->most_threads != 1) {
         start(parser);
     }
     if (parser->workers == NULL) {

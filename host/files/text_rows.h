@@ -11,6 +11,7 @@ enum { PS_MOST_PARSERS = 8 };
 typedef struct ps_row_parser {
     char separator; /* ' ', ',' or ';' */
     unsigned columns;
+    unsigned most_threads; /* the caller counted; 0: as many as there are processors */
     ps_workers *workers;
     bool has_tried;                 /* to start the workers: at the first long text */
     double *spare[PS_MOST_PARSERS]; /* [spare_rows][columns], rows of all workers but the first */

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"
+#include "sets/files_ahead.h"
 #include "sets/kept_inputs.h"
 
 #include <stdio.h>
@@ -21,6 +22,9 @@ struct ps_source {
     size_t num_paths, next_path;
     ps_source_options options;
     ps_point_reader *reader;
+    ps_files_ahead *ahead;    /* NULL: the next file is opened here */
+    size_t first_ahead;       /* path that is its first */
+    uint64_t set_bytes;       /* of the largest so far, or of its part that came first */
     uint64_t sets_of_file;    /* begun by the reader */
     uint64_t num_sets;        /* begun of all files */
     bool is_inside;           /* of a set, whose end has not come yet */
@@ -32,9 +36,6 @@ struct ps_source {
     ps_point_reader *unfinished;
     size_t unfinished_path;
 };
-
-/* Read to learn how much memory a point takes. */
-enum { FIRST_POINTS = 1024 };
 
 static pspec_status create(ps_source **out, ps_error *error) {
     PS_TRY(PS_NEW(out, 1, "a source of points", error));
@@ -152,22 +153,13 @@ static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
 
 /* ---- sets that are too large ------------------------------------------------------------- */
 
-static size_t points_of(const ps_point_set *set, uint64_t bytes) {
-    const size_t columns = set->dimension + (set->has_weights ? 1 : 0);
-    const size_t num = (size_t)(bytes / (columns * sizeof(double)));
-    return num > FIRST_POINTS ? num : FIRST_POINTS;
-}
-
 pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
                             ps_error *error) {
     const size_t before = set->num_points;
-    bool has_block = source->is_inside;
     *ends = !source->is_inside;
-    while (has_block && !*ends && set->num_points - before < max_points) {
-        PS_TRY(ps_points_next_block(source->reader, set, max_points - (set->num_points - before),
-                                    &has_block, ends, error));
+    if (!*ends) {
+        PS_TRY(ps_points_read_on(source->reader, set, max_points, ends, NULL, error));
     }
-    *ends = *ends || !has_block;
     source->is_inside = !*ends;
     turn(source, set, before);
     return PSPEC_OK;
@@ -178,16 +170,9 @@ static pspec_status complete_set(ps_source *source, ps_point_set *set, ps_source
                                  ps_error *error) {
     const bool is_stream = !ps_points_can_reopen(source->reader);
     const bool is_counted = ps_points_per_set(source->reader) > 0 && !set->has_weights;
-    part->block_points = points_of(set, source->options.whole_bytes);
+    part->block_points = ps_points_fitting(set, source->options.whole_bytes);
     if (is_stream && (!is_counted || source->options.kept_bytes == UINT64_MAX)) {
         return ps_source_more(source, set, SIZE_MAX, &part->is_whole, error);
-    }
-    if (set->num_points < part->block_points) {
-        PS_TRY(ps_source_more(source, set, part->block_points - set->num_points, &part->is_whole,
-                              error));
-    }
-    if (part->is_whole) {
-        return PSPEC_OK;
     }
     part->count = (ps_pattern_count){.realization = source->num_sets - 1,
                                      .num_points = ps_points_per_set(source->reader)};
@@ -198,11 +183,39 @@ static pspec_status complete_set(ps_source *source, ps_point_set *set, ps_source
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static pspec_status open_next(ps_source *source, ps_error *error) {
+static int ask(const ps_watch_report *report, void *payload) {
+    const ps_source_options *const options = payload;
+    (void)report;
+    return options->should_stop != NULL && options->should_stop(options->payload);
+}
+
+/* From this path on. The first of all is read alone: it tells how large sets are. */
+static pspec_status begin_ahead(ps_source *source, ps_error *error) {
+    const size_t next = source->next_path;
+    const ps_files_plan plan = {.paths = source->paths + next,
+                                .num = source->num_paths - next,
+                                .options = &source->options.points,
+                                .set_bytes = source->set_bytes,
+                                .most_bytes = source->options.whole_bytes};
+    source->first_ahead = next;
+    return source->num_sets > 0 ? ps_files_ahead_create(&source->ahead, &plan, error) : PSPEC_OK;
+}
+
+/* Perhaps with the beginning of its first set. */
+static pspec_status open_next(ps_source *source, ps_point_set *set, bool *ends, ps_error *error) {
+    const ps_watch watch = {ask, &source->options};
+    const char *const path = source->paths[source->next_path];
     ps_scout_close(&source->scout);
     source->sets_of_file = 0;
-    PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
-                          &source->options.points, error));
+    PS_TRY(source->ahead == NULL ? begin_ahead(source, error) : PSPEC_OK);
+    if (source->ahead != NULL) {
+        PS_TRY(ps_files_ahead_take(source->ahead, source->next_path - source->first_ahead, &watch,
+                                   &source->reader, set, ends, error));
+    }
+    source->next_path++;
+    if (source->reader == NULL) {
+        PS_TRY(ps_points_open(&source->reader, path, &source->options.points, error));
+    }
     return add_name(&source->formats, ps_points_format(source->reader), error);
 }
 
@@ -254,6 +267,18 @@ static pspec_status keep(ps_source *source, const ps_point_set *set, bool is_who
     return ps_kept_inputs_add(&source->kept, input, source->paths[input], set, error);
 }
 
+/* As much of the next set as is read as a whole, what has come with the reader included. */
+static pspec_status begin_set(ps_source *source, ps_point_set *set, bool *ends, ps_error *error) {
+    if (!*ends) {
+        PS_TRY(ps_points_fill(source->reader, set, source->options.whole_bytes, ends, NULL, error));
+    }
+    const uint64_t bytes = ps_kept_inputs_bytes(set);
+    source->set_bytes = bytes > source->set_bytes ? bytes : source->set_bytes;
+    source->is_inside = !*ends;
+    turn(source, set, 0);
+    return PSPEC_OK;
+}
+
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
                                     bool *has_set, ps_error *error) {
     *has_set = false;
@@ -266,14 +291,14 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
             source->num_sets++;
             return PSPEC_OK;
         }
+        part->is_whole = false;
         if (source->reader == NULL) {
             if (source->next_path == source->num_paths) {
                 return PSPEC_OK;
             }
-            PS_TRY(open_next(source, error));
+            PS_TRY(open_next(source, set, &part->is_whole, error));
         }
-        source->is_inside = true;
-        PS_TRY(ps_source_more(source, set, FIRST_POINTS, &part->is_whole, error));
+        PS_TRY(begin_set(source, set, &part->is_whole, error));
         *has_set = set->num_points > 0;
         PS_TRY(source->sets_of_file == 0 ? add_columns(source, error) : PSPEC_OK);
         if (!*has_set) {
@@ -307,19 +332,9 @@ pspec_status ps_source_next_whole(ps_source *source, ps_point_set *set, bool *ha
 
 uint64_t ps_source_num_sets(const ps_source *source) {
     const ps_point_options *const options = &source->options.points;
-    uint64_t num = 0;
-    if (options->sets.last > 0 ||
-        !ps_given_sets_are_all(&options->given, source->paths, source->num_paths)) {
-        return 0;
-    }
-    for (size_t i = 0; i < source->num_paths; i++) {
-        const uint64_t own = ps_given_sets_find(&options->given, source->paths[i])->num;
-        if (own == 0) {
-            return 0;
-        }
-        num += own;
-    }
-    return num;
+    return options->sets.last > 0
+               ? 0
+               : ps_given_sets_count(&options->given, source->paths, source->num_paths);
 }
 
 bool ps_source_can_rewind(const ps_source *source) {
@@ -352,6 +367,8 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_IO, "standard input cannot be read twice");
     }
     ps_scout_close(&source->scout);
+    ps_files_ahead_destroy(source->ahead);
+    source->ahead = NULL;
     leave_reader(source);
     source->next_path = 0;
     source->next_realization = 0;
@@ -374,6 +391,7 @@ const char *ps_source_columns(const ps_source *source) {
 void ps_source_destroy(ps_source *source) {
     if (source != NULL) {
         ps_scout_close(&source->scout);
+        ps_files_ahead_destroy(source->ahead);
         ps_sets_destroy(source->sampled);
         ps_points_close(source->reader);
         ps_points_close(source->unfinished);

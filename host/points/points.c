@@ -221,6 +221,19 @@ bool ps_given_sets_are_all(const ps_given_sets *given, const char *const *paths,
     return are_given;
 }
 
+uint64_t ps_given_sets_count(const ps_given_sets *given, const char *const *paths,
+                             size_t num_paths) {
+    uint64_t num = 0;
+    for (size_t i = 0; i < num_paths; i++) {
+        const ps_given_set *const set = ps_given_sets_find(given, paths[i]);
+        if (set == NULL || set->num == 0) {
+            return 0;
+        }
+        num += set->num;
+    }
+    return num;
+}
+
 pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
                              ps_error *error) {
     for (size_t i = 0; i < num; i++) {

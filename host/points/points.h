@@ -93,6 +93,9 @@ typedef struct ps_given_sets {
 void ps_given_name(ps_text *out, const char *curve, size_t count);
 /* NULL: a path is that of a file. */
 ps_given_set *ps_given_sets_find(const ps_given_sets *given, const char *path);
+/* Sets of all paths, where all are those of given sets that say how many they are; else 0. */
+uint64_t ps_given_sets_count(const ps_given_sets *given, const char *const *paths,
+                             size_t num_paths);
 /* All paths are those of given sets. */
 bool ps_given_sets_are_all(const ps_given_sets *given, const char *const *paths, size_t num_paths);
 
@@ -144,6 +147,11 @@ size_t ps_points_per_set(const ps_point_reader *reader);
 /* Would another ps_points_open of the same path give the same points? Not of standard input, nor of
  * a pipe. */
 bool ps_points_can_reopen(const ps_point_reader *reader);
+/* So many threads may parse what comes, the caller counted; 0, as after opening: one on each
+ * processor. Changes no bit. */
+void ps_points_limit_threads(ps_point_reader *reader, unsigned most);
+/* Do sets lie scattered over the file, so that its reader keeps many of them? */
+bool ps_points_are_scattered(const ps_point_reader *reader);
 /* Names of the format and of the columns in use, for the header of results; static storage. The
  * columns are known after the first set. */
 const char *ps_points_format(const ps_point_reader *reader);

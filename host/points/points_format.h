@@ -73,10 +73,12 @@ struct ps_point_reader {
     unsigned columns;        /* of every row */
     const char *own_columns; /* name of the layout that the format prescribes, or NULL */
     bool by_shape;           /* columns of an array that may be vectors: the first one tells */
+    bool is_scattered;       /* sets lie so, and many are kept */
     bool has_own_box;        /* the file states the box that coordinates are in units of */
     ps_box own_box;          /* that of the set, an interval a column; {0}: not known of them */
     const char *chosen;      /* names of the columns that are read, where not all are, or NULL */
     size_t rows_per_set;     /* when it is known and really there; else 0 */
+    unsigned most_threads;   /* that read, the caller counted; 0: all */
     size_t block_values;     /* numbers of a read, if not as many as fit the cache of a core */
     size_t first_line;       /* of the rows last read, for formats with a row per line; else 0 */
     /* points_read.c */

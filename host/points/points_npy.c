@@ -180,6 +180,8 @@ static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
                                                  : interpret_points(reader, error));
     state->data_position = reader->input.is_seekable ? ps_input_position(&reader->input) : -1;
     reader->rows_per_set = state->data_position >= 0 ? state->num_points : 0;
+    reader->is_scattered =
+        state->is_fortran_order && (state->num_sets > 1 || state->data_position < 0);
     if (state->is_fortran_order || reader->chosen != NULL) {
         PS_TRY(PS_NEW(&state->block, BLOCK_ELEMENTS, "NPY block", error));
     }
@@ -337,7 +339,7 @@ static pspec_status read_npy(ps_point_reader *reader, ps_rows_read *out, ps_erro
     } else if (!state->is_fortran_order) {
         PS_TRY(ps_npy_read_elements(&reader->input, &state->header, out->rows,
                                     out->num * reader->columns, error));
-    } else if (state->num_sets == 1 && state->data_position >= 0) {
+    } else if (!reader->is_scattered) {
         PS_TRY(gather_columns(reader, out, error));
     } else {
         PS_TRY(read_cached(reader, out, error));

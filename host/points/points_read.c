@@ -330,3 +330,11 @@ size_t ps_points_per_set(const ps_point_reader *reader) {
 bool ps_points_can_reopen(const ps_point_reader *reader) {
     return reader->input.can_reopen;
 }
+
+bool ps_points_are_scattered(const ps_point_reader *reader) {
+    return reader->is_scattered;
+}
+
+void ps_points_limit_threads(ps_point_reader *reader, unsigned most) {
+    reader->most_threads = most;
+}

@@ -182,6 +182,7 @@ void ps_text_take_rows(const ps_point_reader *reader, ps_rows_read *out, size_t 
     ps_lines *const lines = &state->lines;
     double *const rows = out->rows + out->num * reader->columns;
     size_t num_rows = 0;
+    state->parser.most_threads = reader->most_threads;
     lines->cursor = ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows,
                                   most - out->num, &num_rows);
     lines->line_number += num_rows;
