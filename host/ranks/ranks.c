@@ -90,22 +90,9 @@ static pspec_status begin(ps_ranks *self, long num, ps_error *error) {
                          num, PS_MPI_MODULE);
 }
 
-pspec_status ps_ranks_open(ps_ranks **out, const char *const *folders, ps_error *error) {
-    const long own = find_number(own_names);
-    const long num = find_number(num_names);
+pspec_status ps_ranks_begin(ps_ranks **out, const ps_mpi_calls *calls, long num, ps_error *error) {
     ps_ranks *self = NULL;
     *out = NULL;
-    if (own < 0 || num <= 1) {
-        return PSPEC_OK;
-    }
-    const ps_mpi_calls *const calls = load(folders);
-    if (calls == NULL) {
-        return ps_fail(error, PSPEC_ERROR_IO,
-                       "this is one of %ld processes, each of which would do the whole job: the "
-                       "module %s is not beside the program, which is built with it where CMake "
-                       "finds MPI (libopenmpi-dev)",
-                       num, PS_MPI_MODULE);
-    }
     PS_TRY(PS_NEW(&self, 1, "ranks", error));
     self->calls = calls;
     pspec_status status = begin(self, num, error);
@@ -118,6 +105,24 @@ pspec_status ps_ranks_open(ps_ranks **out, const char *const *folders, ps_error 
     }
     *out = self;
     return PSPEC_OK;
+}
+
+pspec_status ps_ranks_open(ps_ranks **out, const char *const *folders, ps_error *error) {
+    const long own = find_number(own_names);
+    const long num = find_number(num_names);
+    *out = NULL;
+    if (own < 0 || num <= 1) {
+        return PSPEC_OK;
+    }
+    const ps_mpi_calls *const calls = load(folders);
+    if (calls == NULL) {
+        return ps_fail(error, PSPEC_ERROR_IO,
+                       "this is one of %ld processes, each of which would do the whole job: the "
+                       "module %s is not beside the program, which is built with it where CMake "
+                       "finds MPI (libopenmpi-dev)",
+                       num, PS_MPI_MODULE);
+    }
+    return ps_ranks_begin(out, calls, num, error);
 }
 
 void ps_ranks_close(ps_ranks *self) {
@@ -153,6 +158,12 @@ bool ps_ranks_must_stop(ps_ranks *self) {
 static pspec_status check(ps_ranks *self, int code, ps_error *error) {
     self->is_broken = self->is_broken || code != 0;
     return code == 0 ? PSPEC_OK : ps_fail(error, PSPEC_ERROR_IO, "a message of MPI failed");
+}
+
+/* Who has lost messages waits for no more of them: the end of the process ends the others. */
+static pspec_status fail_broken(pspec_status status, ps_error *error) {
+    return status != PSPEC_OK ? status
+                              : ps_fail(error, PSPEC_ERROR_IO, "messages of MPI were lost");
 }
 
 static report make_report(pspec_status status, const ps_error *error, size_t num_bytes) {
@@ -252,6 +263,9 @@ pspec_status ps_ranks_gather(ps_ranks *self, pspec_status status, const ps_rank_
     if (self == NULL) {
         return status;
     }
+    if (self->is_broken) {
+        return fail_broken(status, error);
+    }
     if (self->own == 0) {
         return gather_all(self, status, parts, error);
     }
@@ -282,6 +296,9 @@ pspec_status ps_ranks_conclude(ps_ranks *self, pspec_status status, void *bytes,
     }
     if (self->own == 0) {
         return conclude_all(self, status, bytes, num, error);
+    }
+    if (self->is_broken) {
+        return fail_broken(status, error);
     }
     PS_TRY(check(self, self->calls->receive(0, PS_MPI_VERDICT, &verdict, sizeof verdict), error));
     self->is_stopped = false;

@@ -34,6 +34,10 @@ size_t ps_ranks_find_local(size_t *num);
  * ranks without the module are PSPEC_ERROR_IO: each would do the whole job. */
 pspec_status ps_ranks_open(ps_ranks **out, const char *const *folders,
                            ps_error *error) PS_MUST_CHECK;
+/* Part of it: of a module that is there, of so many processes by the environment. */
+struct ps_mpi_calls;
+pspec_status ps_ranks_begin(ps_ranks **out, const struct ps_mpi_calls *calls, long num,
+                            ps_error *error) PS_MUST_CHECK;
 /* Waits for the other ranks; NULL is allowed. */
 void ps_ranks_close(ps_ranks *ranks);
 
