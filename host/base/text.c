@@ -45,6 +45,21 @@ void ps_text_append(ps_text *text, const char *format, ...) {
     free(piece);
 }
 
+void ps_text_append_once(ps_text *list, const char *member, const char *separator) {
+    const size_t length = strlen(member);
+    for (const char *at = ps_text_string(list); *at != '\0';) {
+        const char *const end = strstr(at, separator);
+        const size_t own_length = end != NULL ? (size_t)(end - at) : strlen(at);
+        if (own_length == length && strncmp(at, member, length) == 0) {
+            return;
+        }
+        at += own_length + (end != NULL ? strlen(separator) : 0);
+    }
+    if (length > 0) {
+        ps_text_append(list, "%s%s", list->length > 0 ? separator : "", member);
+    }
+}
+
 void ps_text_append_word(ps_text *text, const char *word) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "_-+=:,./@%^";

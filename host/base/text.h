@@ -19,6 +19,9 @@ typedef struct ps_text {
 
 void ps_text_append(ps_text *text, const char *format, ...) PS_PRINTF(2, 3);
 void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes);
+/* A member of a list, after `separator` where it is not the first, unless the list has it, or it is
+ * empty. */
+void ps_text_append_once(ps_text *list, const char *member, const char *separator);
 /* A blank and a word that a shell takes back as it is. */
 void ps_text_append_word(ps_text *text, const char *word);
 const char *ps_text_string(const ps_text *text); /* never NULL */

@@ -135,21 +135,7 @@ uint64_t ps_source_skip(ps_source *source, uint64_t num) {
     return num;
 }
 
-/* Appends a name to a list unless it is there. */
-static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
-    static const char separator[] = "; "; /* names have commas */
-    const size_t length = strlen(name);
-    for (const char *word = ps_text_string(list); *word != '\0';) {
-        const char *const end = strstr(word, separator);
-        const size_t word_length = end != NULL ? (size_t)(end - word) : strlen(word);
-        if (word_length == length && strncmp(word, name, length) == 0) {
-            return PSPEC_OK;
-        }
-        word += word_length + (end != NULL ? sizeof separator - 1 : 0);
-    }
-    ps_text_append(list, "%s%s", list->length > 0 && length > 0 ? separator : "", name);
-    return ps_text_check(list, error);
-}
+static const char between_names[] = "; "; /* which have commas */
 
 /* ---- sets that are too large ------------------------------------------------------------- */
 
@@ -216,7 +202,8 @@ static pspec_status open_next(ps_source *source, ps_point_set *set, bool *ends, 
     if (source->reader == NULL) {
         PS_TRY(ps_points_open(&source->reader, path, &source->options.points, error));
     }
-    return add_name(&source->formats, ps_points_format(source->reader), error);
+    ps_text_append_once(&source->formats, ps_points_format(source->reader), between_names);
+    return ps_text_check(&source->formats, error);
 }
 
 /* "xy", or "xy (columns x,y)" where a text has others. */
@@ -226,7 +213,8 @@ static pspec_status add_columns(ps_source *source, ps_error *error) {
     snprintf(text, sizeof text, "%s%s%s%s", ps_points_columns(source->reader),
              chosen != NULL ? " (columns " : "", chosen != NULL ? chosen : "",
              chosen != NULL ? ")" : "");
-    return add_name(&source->columns, text, error);
+    ps_text_append_once(&source->columns, text, between_names);
+    return ps_text_check(&source->columns, error);
 }
 
 /* The stream goes on behind its kept sets, if it has not ended. */

@@ -69,6 +69,10 @@ saved=(
     "interpolation --sampler white-sphere --integrand map:width=128 -n 100,200 -m 800"
     "occlusion --mesh quad.obj --sampler white-sphere -n 16,64 -m 1000 --image 128x128 --reference 4096"
 )
+# Two devices share a job, where one can be split.
+if "$program" power --engine torus_direct --sampler white -n 4 -k 1 --device cpu:split=2/1 >/dev/null 2>&1; then
+    saved+=("power --sampler jittered -n 4096 -m 60000 -k 64 --device cpu:split=2")
+fi
 begun_anew=(
     "truncation --brdf glossy:n=30 -l 20"
     "light --integrand map:width=128 -l 20"

@@ -84,12 +84,7 @@ static void next_job(void *payload) {
 
 /* All parts may have the same to say. */
 static void warn_once(crew *self, const char *sentence) {
-    const char *const said = ps_text_string(&self->said);
-    const char *const at = strstr(said, sentence);
-    const size_t length = strlen(sentence);
-    if (at == NULL || at[length] != '\n' || (at > said && at[-1] != '\n')) {
-        ps_text_append(&self->said, "%s\n", sentence);
-    }
+    ps_text_append_once(&self->said, sentence, "\n");
 }
 
 static void warn(void *payload, const char *sentence) {

@@ -35,9 +35,7 @@ static pspec_status look_at_devices(ps_text *names, const ps_selectors *selector
         const ps_device_limits *const one = &limits[index];
         first = first != NULL ? first : one;
         PS_TRY(may_be_mixed ? PSPEC_OK : compare_kinds(first, one, error));
-        if (strstr(ps_text_string(names), one->name) == NULL) {
-            ps_text_append(names, "%s%s", i > 0 ? " + " : "", one->name);
-        }
+        ps_text_append_once(names, one->name, " + ");
     }
     return ps_text_check(names, error);
 }
