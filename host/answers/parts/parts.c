@@ -5,6 +5,7 @@
 #include "spectra/sum_nodes.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -72,8 +73,14 @@ static uint64_t find_num_parts(const char *file, const char *name) {
                : 0;
 }
 
+static pspec_status fail_folder(const char *path, int reason, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_IO, "cannot read the folder of the checkpoint \"%s\": %s",
+                   path, strerror(reason));
+}
+
 static pspec_status look_into(uint64_t *num_parts, DIR *folder, const char *path, const char *name,
                               ps_error *error) {
+    errno = 0;
     for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
         const uint64_t found = find_num_parts(entry->d_name, name);
         if (found > 0 && *num_parts > 0 && found != *num_parts) {
@@ -85,7 +92,8 @@ static pspec_status look_into(uint64_t *num_parts, DIR *folder, const char *path
         }
         *num_parts = found > 0 ? found : *num_parts;
     }
-    return PSPEC_OK;
+    return errno == 0 ? PSPEC_OK
+                      : fail_folder(path, errno, error); /* readdir leaves it alone at the end */
 }
 
 pspec_status ps_parts_find(uint64_t *num_parts, const char *path, ps_error *error) {
@@ -95,12 +103,16 @@ pspec_status ps_parts_find(uint64_t *num_parts, const char *path, ps_error *erro
     *num_parts = access(path, F_OK) == 0;
     ps_text_append_bytes(&place, path, (size_t)(name - path));
     ps_text_append(&place, "."); /* that of "" is the folder of the process */
-    pspec_status status = ps_text_check(&place, error);
-    DIR *const folder = status == PSPEC_OK ? opendir(ps_text_string(&place)) : NULL;
+    PS_TRY(ps_text_check(&place, error));
+    DIR *const folder = opendir(ps_text_string(&place));
+    const int reason = errno;
     ps_text_free(&place);
-    if (folder != NULL) { /* else the checkpoint fails, and says why */
-        status = look_into(num_parts, folder, path, name, error);
-        closedir(folder);
+    if (folder == NULL) { /* where there is none to look into, the first checkpoint fails, too */
+        return reason == ENOENT || reason == ENOTDIR || reason == EACCES
+                   ? PSPEC_OK
+                   : fail_folder(path, reason, error);
     }
+    const pspec_status status = look_into(num_parts, folder, path, name, error);
+    closedir(folder);
     return status;
 }
