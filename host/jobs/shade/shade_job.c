@@ -10,9 +10,8 @@
 #include <string.h>
 
 enum { USUAL_ORIENTATIONS = 1000 };
-/* Values of one call: half a second of a processor, after which somebody may stop the work; and of
- * the rules of a batch, between two of which there is a checkpoint. */
-enum { CALL_VALUES = 1 << 24, BATCH_VALUES = 1 << 28 };
+/* Values of one call: half a second of a processor, after which somebody may stop the work. */
+enum { CALL_VALUES = 1 << 24 };
 
 /* ---- one rule ------------------------------------------------------------------------------ */
 
@@ -161,15 +160,31 @@ static void end(void *payload) {
 static const double value_seconds = 2e-8;
 static const double harmonic_seconds = 2.3e-9;
 
+static double orientation_seconds(const ps_light *light, double num_points) {
+    const double degrees = (double)light->max_degree + 1;
+    return num_points * value_seconds + degrees * degrees / 2 * harmonic_seconds;
+}
+
+/* Of rules that take some seconds, for checkpoints come between two batches; 0: they take little.
+ */
+static size_t choose_batch(const ps_light *light, uint64_t num_orientations,
+                           const ps_sampler_request *sampler) {
+    const double most_seconds = 2;
+    const bool is_little =
+        sampler == NULL || num_orientations == 0 || num_orientations == PS_USUAL_ORIENTATIONS;
+    return is_little ? 0
+                     : 1 + (size_t)(most_seconds / (double)num_orientations /
+                                    orientation_seconds(light, (double)sampler->num_points));
+}
+
 static void add_phases(void *payload, const ps_quadrature_job *job, ps_phases *phases) {
     const ps_shade_job *const self = payload;
     const ps_quadrature_setup *const setup = &job->setup;
     const double rules = setup->needs.one_realization ? 1 : (double)setup->num_realizations;
     const double num = rules * (double)choose_orientations(self, job);
     const double values = num * (double)job->shape.num_points;
-    const double degrees = (double)self->light->max_degree + 1;
     ps_phases_add(phases, "trials",
-                  values * value_seconds + num * degrees * degrees / 2 * harmonic_seconds);
+                  num * orientation_seconds(self->light, (double)job->shape.num_points));
     ps_phases_say(phases, "trials", "%.4g values of light at %.4g orientations", values, num);
 }
 
@@ -185,10 +200,7 @@ pspec_status ps_shade_job_make(ps_shade_job *out, const ps_light *light, uint64_
     *out = (ps_shade_job){.light = light,
                           .wanted_orientations = num_orientations,
                           .seed = ps_random_seed_of(seed, PS_STREAM_TRIALS, ps_text_string(&text))};
-    if (rules->sampler != NULL && num_orientations > 0 &&
-        num_orientations != PS_USUAL_ORIENTATIONS) {
-        rules->batch = BATCH_VALUES / num_orientations / rules->sampler->num_points + 1;
-    }
+    rules->batch = choose_batch(light, num_orientations, rules->sampler);
     rules->observer = (ps_rule_observer){begin, hear, walk, end, add_phases, out};
     ps_text_free(&text);
     return status;
