@@ -168,6 +168,39 @@ static void print_model(const parts *all) {
     }
 }
 
+/* Devices of one process (answers/devices), of which no node goes over a network: N = 4096, K =
+ * 256. An H200 is predicted to take 7.6 us a realization (docs/engines/torus_nufft.md); its start is
+ * what was left of 1.22 s of 4000 realizations beside 0.36 of kernels. */
+static double model_of_gpus(const parts *with, double gpus, double num_realizations) {
+    const double each = 7.6e-6;
+    const double start = 0.86;
+    const double parts_of_gpu = 4; /* PARTS_OF_DEVICE of devices_work.c */
+    const double block = 128;
+    const double num_parts = gpus > 1 ? parts_of_gpu * gpus : 0;
+    const double own = num_realizations / gpus;
+    const double nodes = num_parts > 0 ? 1 + floor(log2(own / parts_of_gpu / block)) : 0;
+    return start + own * each + num_parts * nodes * with->merging;
+}
+
+static void print_gpus(const parts *with) {
+    static const double realizations[] = {1e6, 1e7, 1e8};
+    enum { NUM = sizeof realizations / sizeof realizations[0], MOST_GPUS = 8 };
+    printf("\n| GPUs |");
+    for (int i = 0; i < NUM; i++) {
+        printf(" M = %.0e: s | efficiency |", realizations[i]);
+    }
+    printf("\n|---:|---:|---:|---:|---:|---:|---:|\n");
+    for (int gpus = 1; gpus <= MOST_GPUS; gpus *= 2) {
+        printf("| %d |", gpus);
+        for (int i = 0; i < NUM; i++) {
+            const double seconds = model_of_gpus(with, gpus, realizations[i]);
+            printf(" %.3g | %.0f %% |", seconds,
+                   100 * model_of_gpus(with, 1, realizations[i]) / seconds / gpus);
+        }
+        printf("\n");
+    }
+}
+
 int main(void) {
     parts all[NUM_CASES];
     printf("| N | K | start, s | a realization, ms | a checkpoint, MB | written, ms | read, ms | a "
@@ -182,5 +215,6 @@ int main(void) {
         fflush(stdout);
     }
     print_model(all);
+    print_gpus(&all[1]);
     return EXIT_SUCCESS;
 }
