@@ -168,9 +168,9 @@ static void print_model(const parts *all) {
     }
 }
 
-/* Devices of one process (answers/devices), of which no node goes over a network: N = 4096, K =
- * 256. An H200 is predicted to take 7.6 us a realization (docs/engines/torus_nufft.md); its start is
- * what was left of 1.22 s of 4000 realizations beside 0.36 of kernels. */
+/* Devices of one process (answers/devices), of which no node goes over a network: N = 4096 and
+ * K = 256. An H200 is predicted to take 7.6 us a realization (docs/engines/torus_nufft.md); its
+ * start is what was left of 1.22 s of 4000 realizations beside 0.36 of kernels. */
 static double model_of_gpus(const parts *with, double gpus, double num_realizations) {
     const double each = 7.6e-6;
     const double start = 0.86;

@@ -3,6 +3,7 @@
 #include "harness_public.h"
 #include "harness_quadrature.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -277,6 +278,42 @@ static void sets_in_memory_go_on(void **state) {
     assert_int_equal(rmdir(folder), 0); /* it is empty */
 }
 
+/* Two halves of a CPU, whose threads tell nobody but the one that asked, and end with it. */
+typedef struct own_thread {
+    pthread_t thread;
+    unsigned num_calls, num_others;
+    uint64_t most; /* realizations, after which it is cancelled */
+} own_thread;
+
+static int listen_in_thread(const pspec_progress_report *report, void *payload) {
+    own_thread *const self = payload;
+    self->num_calls++;
+    self->num_others += pthread_equal(self->thread, pthread_self()) == 0;
+    return report->done >= self->most;
+}
+
+static void several_devices(void **state) {
+    (void)state;
+    pspec_context *const context = pspec_context_create();
+    own_thread heard = {.thread = pthread_self(), .most = UINT64_MAX};
+    pspec_answer *answer = NULL;
+    assert_int_equal(pspec_context_set_device(context, "cpu:split=2"), PSPEC_OK);
+    pspec_context_set_progress(context, listen_in_thread, &heard);
+    pspec_question *const question = test_public_question(
+        context, "power sampler=white points=64 realizations=3000 max-frequency=8");
+    if (pspec_question_answer(&answer, question) == PSPEC_OK) {
+        assert_true(heard.num_calls > 0 && heard.num_others == 0);
+        heard.most = 0;
+        test_public_refuse(context, question, PSPEC_ERROR_CANCELLED, "interrupted");
+        assert_int_equal(heard.num_others, 0);
+    } else { /* no device is split here */
+        assert_true(pspec_context_message(context)[0] != '\0');
+    }
+    pspec_answer_destroy(answer);
+    pspec_question_destroy(question);
+    pspec_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(worst_case_error),
                                        cmocka_unit_test(weights_by_gradients),
@@ -284,6 +321,7 @@ int main(void) {
                                        cmocka_unit_test(interpolation),
                                        cmocka_unit_test(samplers),
                                        cmocka_unit_test(written_points),
-                                       cmocka_unit_test(sets_in_memory_go_on)};
+                                       cmocka_unit_test(sets_in_memory_go_on),
+                                       cmocka_unit_test(several_devices)};
     return cmocka_run_group_tests_name("cancel", tests, NULL, NULL);
 }

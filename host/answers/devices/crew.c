@@ -256,21 +256,26 @@ static void watch(crew *self) {
     const ps_crew_task *const task = self->task;
     const uint64_t total = task->num_jobs * task->num_realizations;
     pthread_mutex_lock(&self->mutex);
-    while (self->num_working > 0) {
-        wait_a_little(self);
+    for (bool is_last = false; !is_last;) {
         ps_error why;
         ps_text said = self->said;
         const uint64_t done = count_done(self);
+        is_last = self->num_working == 0;
         self->said = (ps_text){0};
         pthread_mutex_unlock(&self->mutex);
         speak(task->hooks, &said);
         const bool stops = ps_watch_tell(&task->hooks->watch, task->kind->counted, done, total,
                                          NULL, &why) != PSPEC_OK;
         pthread_mutex_lock(&self->mutex);
+        if (stops && !self->is_cancelled && self->failed == task->num_parts) {
+            self->error = why; /* no part need hear of it */
+        }
         self->is_cancelled = self->is_cancelled || stops;
+        if (self->num_working > 0) {
+            wait_a_little(self);
+        }
     }
     pthread_mutex_unlock(&self->mutex);
-    speak(task->hooks, &self->said);
 }
 
 static pspec_status begin(crew *self, ps_error *error) {
@@ -318,7 +323,7 @@ pspec_status ps_crew_answer(ps_crew_part *parts, const ps_crew_task *task, ps_er
     if (status == PSPEC_OK) {
         watch(&self);
     }
-    if (status == PSPEC_OK && self.failed < task->num_parts) {
+    if (status == PSPEC_OK && self.num_done < task->num_parts) {
         *error = self.error;
         status = self.error.status;
     }

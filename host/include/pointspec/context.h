@@ -26,8 +26,10 @@ PSPEC_EXPORT void pspec_context_destroy(pspec_context *context);
 PSPEC_EXPORT const char *pspec_context_message(const pspec_context *context);
 
 /** Which OpenCL device to use: an index, "cpu", "gpu", "accelerator" or a part of a name (copied);
- * NULL: the first GPU, else the first CPU. Nothing is opened until a question needs a device; once
- * one is open the choice is made, and a call is #PSPEC_ERROR_INVALID_ARGUMENT. */
+ * NULL: the first GPU, else the first CPU. Several, "0,1", "gpu:all", "cpu:split=2", share the
+ * realizations of power, angular and pairs, with the bits of one; other questions have the
+ * first. Nothing is opened until a question needs a device; once one is open the choice is made,
+ * and a call is #PSPEC_ERROR_INVALID_ARGUMENT. */
 PSPEC_EXPORT pspec_status pspec_context_set_device(pspec_context *context, const char *selector);
 
 /** The most memory in bytes that an answer may take, on host and device together, as the planner
