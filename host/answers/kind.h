@@ -20,6 +20,15 @@
 #include "request/options.h"
 #include "fields/table.h"
 
+/* Which share of a command's work this process has. */
+typedef struct ps_answer_share {
+    size_t own, num; /* its number, and how many there are */
+    void *payload;   /* of the call */
+    /* Called once, when the own share is done or has failed: waits for the others. The status is
+     * that of all of them. */
+    pspec_status (*meet)(pspec_status status, void *payload, ps_error *error);
+} ps_answer_share;
+
 /* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls
  * may be NULL. */
 typedef struct ps_answer_hooks {
@@ -44,6 +53,7 @@ typedef struct ps_answer_hooks {
     void (*tell_finding)(void *payload, const char *word, const char *topic, const char *sentence);
     /* Asked between two questions of a scene, and after a failure: was it an interrupt? */
     bool (*is_interrupted)(void *payload);
+    const ps_answer_share *share; /* of a row that has `look_at_shares`; NULL: all of it */
     bool is_shared; /* the range is that of one of several ranks, not one that somebody merges */
     /* Before the work for one sampler, and after it. */
     void (*tell_plan)(void *payload, const ps_plan *plan);
@@ -145,6 +155,11 @@ typedef struct ps_command {
      * also after an error */
     pspec_status (*run)(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
                         ps_error *error);
+    /* May several processes share the work of `run`, where each keeps what it made on the disk, and
+     * share 0 goes on with all of it when they have met? *num: how many could have some. Why not is
+     * left as the end of a sentence in *why, {0} before. NULL: nothing is kept */
+    pspec_status (*look_at_shares)(uint64_t *num, ps_error *why, const ps_request *request,
+                                   ps_error *error);
     /* Adds what it would come to; NULL: it is not planned. */
     pspec_status (*plan)(ps_planner *planner, const ps_request *request, ps_error *error);
     const ps_field_row *const *fields; /* lists of all that its tables have, ended by NULL */

@@ -107,7 +107,7 @@ static pspec_status run(ps_answer *out, const ps_command *command, const ps_requ
                         const ps_answer_hooks *hooks, ps_error *error) {
     PS_TRY(command->run != NULL ? command->run(out, arguments, hooks, error)
                                 : ps_devices_produce(out, command, arguments, hooks, error));
-    if (command->makes_folder) {
+    if (command->makes_folder && out->table != NULL) { /* a rank that has a share has none */
         PS_TRY(ps_table_write(out->table, "-", PS_FORMAT_CSV, error));
     }
     if (out->verdict.status != PSPEC_OK) {
@@ -129,11 +129,23 @@ static pspec_status take_devices(ps_request *own, ps_text *selector, const ps_ra
     return PSPEC_OK;
 }
 
+static pspec_status run_share(ps_answer *out, const ps_command *command,
+                              const ps_request *arguments, ps_ranks *ranks,
+                              const ps_answer_hooks *hooks, ps_error *error) {
+    ps_ranks_share share;
+    ps_answer_hooks shared = *hooks;
+    ps_ranks_begin_share(&share, ranks, &shared);
+    const pspec_status status = run(out, command, arguments, &shared, error);
+    return ps_ranks_end_share(&share, status, error);
+}
+
 /* Ranks but 0 are silent; NULL: the process is alone. */
 static pspec_status run_ranks(ps_answer *out, const ps_command *command,
                               const ps_request *arguments, ps_ranks *ranks,
                               const ps_answer_hooks *hooks, ps_error *error) {
-    const ps_answer_hooks silent = {.watch = {tell, hooks->payload}};
+    const ps_answer_hooks silent = {.watch = {tell, hooks->payload},
+                                    .payload = hooks->payload,
+                                    .is_interrupted = is_interrupted};
     const bool is_first = ps_ranks_own(ranks) == 0;
     const ps_answer_hooks *const own = is_first ? hooks : &silent;
     ps_ranks_plan plan;
@@ -148,6 +160,8 @@ static pspec_status run_ranks(ps_answer *out, const ps_command *command,
     status = ps_ranks_plan_work(&plan, ranks, command, &request, own, error);
     if (status == PSPEC_OK && plan.job.is_shared) {
         status = ps_ranks_produce(out, ranks, &plan, command, &request, own, error);
+    } else if (status == PSPEC_OK && plan.job.has_shares) {
+        status = run_share(out, command, &request, ranks, own, error);
     } else if (status == PSPEC_OK) {
         status = is_first ? run(out, command, &request, hooks, error) : PSPEC_OK;
         status = ps_ranks_agree(ranks, status, error);

@@ -1,6 +1,7 @@
 #include "commands/prefetch.h"
 #include "request/point_source.h"
 
+#include "answers/parts/parts.h"
 #include "answers/points/points.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
@@ -13,6 +14,7 @@ typedef struct prefetch {
     ps_sampler_request sampler;
     const char *text; /* as it was typed */
     uint64_t num;
+    ps_dealt own; /* of these, made here */
     ps_sets_options options;
     double *points; /* of one realization */
 } prefetch;
@@ -92,11 +94,11 @@ static pspec_status check_store(const prefetch *self, ps_sets *sets, ps_error *e
 static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hooks,
                               ps_error *error) {
     size_t num_points = 0;
-    for (uint64_t r = 0; r < self->num; r++) {
+    for (uint64_t r = 0; r < self->own.num; r++) {
         PS_TRY(ps_sets_next(sets, self->points, &num_points, &hooks->watch, error));
         PS_TRY(check_store(self, sets, error));
         const pspec_status status =
-            ps_watch_tell(&hooks->watch, "realizations", r + 1, self->num, NULL, error);
+            ps_watch_tell(&hooks->watch, "realizations", r + 1, self->own.num, NULL, error);
         PS_TRY(ps_sets_say_kept(sets, status, error));
     }
     return PSPEC_OK;
@@ -104,7 +106,12 @@ static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answ
 
 static void tell(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hooks) {
     const ps_set_counts counts = ps_sets_counts(sets);
-    ps_answer_warn_of(hooks, ps_sets_trouble(sets));
+    if (hooks->share != NULL) {
+        ps_answer_warn(hooks, "%s, %zu points: all %" PRIu64 " sets are kept in %s/sets",
+                       self->text, self->sampler.num_points, self->num,
+                       self->options.place.cache_folder);
+        return;
+    }
     ps_answer_warn(hooks,
                    "%s, %zu points: %" PRIu64 " sets were kept already, %" PRIu64
                    " are made and kept in %s/sets",
@@ -114,22 +121,31 @@ static void tell(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hoo
 
 static pspec_status run(const prefetch *self, const ps_answer_hooks *hooks, ps_error *error) {
     ps_sets *sets = NULL;
-    PS_TRY(ps_sets_create(&sets, &self->sampler, self->num, &self->options, error));
+    PS_TRY(ps_sets_create(&sets, &self->sampler, self->own.num, &self->options, error));
     ps_answer_begin_next(hooks);
     const pspec_status status = make_sets(self, sets, hooks, error);
     ps_answer_end(hooks);
     if (status == PSPEC_OK) {
+        ps_answer_warn_of(hooks, ps_sets_trouble(sets));
+    }
+    if (status == PSPEC_OK && self->own.num == self->num) {
         tell(self, sets, hooks);
     }
     ps_sets_destroy(sets);
     return status;
 }
 
-static pspec_status prefetch_one(const ps_request *request, size_t question,
-                                 const ps_answer_hooks *hooks, ps_error *error) {
+/* All sets, or one of so many shares of them. */
+static pspec_status prefetch_one(const ps_request *request, size_t question, size_t share,
+                                 size_t num_shares, const ps_answer_hooks *hooks, ps_error *error) {
     prefetch self;
     void *points = NULL;
     PS_TRY(begin(&self, request, question, error));
+    self.own = ps_parts_deal(self.num, num_shares, share);
+    self.options.first = self.own.first;
+    if (self.own.num == 0) {
+        return PSPEC_OK;
+    }
     PS_TRY(ps_allocate(&points, ps_sampler_most_points(&self.sampler),
                        self.sampler.dimension * sizeof(double), "points", error));
     self.points = points;
@@ -138,12 +154,34 @@ static pspec_status prefetch_one(const ps_request *request, size_t question,
     return status;
 }
 
+static pspec_status prefetch_all(const ps_request *request, size_t share, size_t num_shares,
+                                 const ps_answer_hooks *hooks, ps_error *error) {
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        PS_TRY(prefetch_one(request, i, share, num_shares, hooks, error));
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
                                 ps_error *error) {
+    const ps_answer_share *const share = hooks->share;
     PS_TRY(ps_option_pairs_check(request, PS_COMMAND_sample, error));
     PS_TRY(check_room(request, error));
-    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
-        PS_TRY(prefetch_one(request, i, hooks, error));
+    if (share != NULL) {
+        const pspec_status status = prefetch_all(request, share->own, share->num, hooks, error);
+        PS_TRY(share->meet(status, share->payload, error));
+    }
+    return share == NULL || share->own == 0 ? prefetch_all(request, 0, 1, hooks, error) : PSPEC_OK;
+}
+
+pspec_status ps_points_look_at_shares(uint64_t *num, ps_error *why, const ps_request *request,
+                                      ps_error *error) {
+    (void)error;
+    *num = request->num_realizations;
+    if (!request->prefetch) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "sample has no realizations that are shared");
+    } else if (*num < 2) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "one set is not shared");
     }
     return PSPEC_OK;
 }

@@ -10,5 +10,8 @@
  * sets than the store may have PSPEC_ERROR_MEMORY, a store that takes nothing PSPEC_ERROR_IO. */
 pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
                                 ps_error *error) PS_MUST_CHECK;
+/* look_at_shares of the row: ranges of realizations, which share 0 then finds kept. */
+pspec_status ps_points_look_at_shares(uint64_t *num, ps_error *why, const ps_request *request,
+                                      ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -22,5 +22,6 @@ const ps_command ps_command_run = {
                  "pointspec run scene.yaml -o again --no-skip"},
     .counted = "realizations",
     .run = ps_run_produce,
+    .look_at_shares = ps_run_look_at_shares,
     .plan = ps_run_plan,
 };

@@ -294,5 +294,6 @@ const ps_command ps_command_sample = {
     .speaker = "pointspec sample",
     .makes_points = true,
     .run = run,
+    .look_at_shares = ps_points_look_at_shares,
     .plan = plan,
 };

@@ -1,4 +1,6 @@
-/* Who does what: may the realizations of a job be shared, and how many are there? */
+/* Who does what: may the realizations of a job be shared, or what a command keeps, and how many are
+ * there?
+ */
 #include "answers/ranks/ranks_work.h"
 
 #include "answers/checkpoints.h"
@@ -55,11 +57,32 @@ static pspec_status look(ps_outlook *outlook, ps_ranks_plan *out, bool counts,
     return status;
 }
 
+/* Of a row that has such shares: only why not is said, or that there are few. */
+static pspec_status look_at_shares(ps_ranks_plan *out, const ps_ranks *ranks,
+                                   const ps_command *command, const ps_request *request,
+                                   const ps_answer_hooks *hooks, ps_error *error) {
+    const size_t num_ranks = ps_ranks_num(ranks);
+    uint64_t num = 0;
+    ps_error why = {0};
+    PS_TRY(command->look_at_shares(&num, &why, request, error));
+    out->job.has_shares = why.message[0] == '\0';
+    if (!out->job.has_shares) {
+        warn(ranks, out, why.message, hooks);
+    } else if (num < num_ranks) {
+        ps_answer_warn(hooks, "%zu of %zu ranks have nothing to do: there is work for %zu",
+                       num_ranks - (size_t)num, num_ranks, (size_t)num);
+    }
+    return PSPEC_OK;
+}
+
 /* Of rank 0. */
 static pspec_status plan(ps_ranks_plan *out, const ps_ranks *ranks, const ps_command *command,
                          const ps_request *request, const ps_answer_hooks *hooks, ps_error *error) {
     uint64_t found = 0;
     ps_error why = {0};
+    if (ranks != NULL && command->look_at_shares != NULL) {
+        return look_at_shares(out, ranks, command, request, hooks, error);
+    }
     look_at_request(&why, command, request);
     if (why.message[0] == '\0') {
         PS_TRY(ps_sharing_find_begun(&found, &why, request, error));

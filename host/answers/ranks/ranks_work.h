@@ -1,6 +1,7 @@
 /* A command of several ranks (ranks/ranks.h): each has some of the parts of the job
  * (parts/parts.h), and rank 0 merges their answers and writes what one process would have written,
- * to the bit. What has no parts is done by rank 0 alone, and the others wait. Ranks NULL are one
+ * to the bit. A command that keeps what it makes (`look_at_shares` of its row) is shared by what is
+ * kept. All else is done by rank 0 alone, and the others wait. Ranks NULL are one
  * process, which has parts where it goes on with a job that several have begun. */
 #ifndef PS_ANSWERS_RANKS_RANKS_WORK_H
 #define PS_ANSWERS_RANKS_RANKS_WORK_H
@@ -13,6 +14,7 @@ typedef struct ps_ranks_plan {
     struct {
         uint64_t num_realizations, num_parts;
         bool is_shared;
+        bool has_shares; /* not of realizations: the row's `run` knows of what */
     } job;
     /* What this rank has found meanwhile: what it should have in common with the others, or why it
      * cannot do its share, which is nobody's concern where rank 0 fails first, or works alone */
@@ -33,6 +35,23 @@ void ps_ranks_plan_free(ps_ranks_plan *plan);
 pspec_status ps_ranks_produce(ps_answer *out, ps_ranks *ranks, const ps_ranks_plan *plan,
                               const ps_kind *kind, const ps_request *request,
                               const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+/* ---- a command that is shared by what it keeps (ranks_shares.c) ------------------------------ */
+
+typedef struct ps_ranks_share {
+    ps_answer_share share;
+    ps_ranks *ranks;
+    ps_watch watch; /* that of who asked */
+    bool has_failed;
+} ps_ranks_share;
+
+/* Gives hooks the share of this rank, and a watch that stops where another has failed; *self
+ * outlives them. */
+void ps_ranks_begin_share(ps_ranks_share *self, ps_ranks *ranks, ps_answer_hooks *hooks);
+/* The round that ends the command, of which this rank has that status, unless one has failed
+ * before. */
+pspec_status ps_ranks_end_share(ps_ranks_share *self, pspec_status status,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* ---- tables as bytes (ranks_tables.c) -------------------------------------------------------- */
 

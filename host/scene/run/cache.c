@@ -42,11 +42,14 @@ out:
 /* Not where skips are off. Kernels of somebody's own are not part of the key: their results are not
  * kept. A record is repeated to see whether this machine gives the same bits, which a cache of the
  * run itself would answer by what it wrote. */
-static bool uses_cache(const ps_run *run) {
-    const ps_request *const arguments = run->arguments;
-    return arguments->cache_bytes > 0 && !arguments->accuracy.no_skip &&
-           arguments->limits.cache_folder != NULL && getenv("POINTSPEC_KERNEL_DIR") == NULL &&
-           run->scene->num_digests == 0;
+const char *ps_run_find_why_uncached(const ps_request *arguments, const ps_scene *scene) {
+    return arguments->cache_bytes == 0              ? "--cache 0 keeps no answers"
+           : arguments->accuracy.no_skip            ? "--no-skip keeps no answers"
+           : arguments->limits.cache_folder == NULL ? "there is no folder to keep answers in"
+           : getenv("POINTSPEC_KERNEL_DIR") != NULL
+               ? "answers of kernels in POINTSPEC_KERNEL_DIR are not kept"
+           : scene->num_digests > 0 ? "answers that repeat a record are not kept"
+                                    : NULL;
 }
 
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
@@ -58,7 +61,7 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     const bool is_known = ps_answer_identify_program(&run->identity, &reason) == PSPEC_OK;
     PS_TRY(identify_device(run, &run->identity, error));
     PS_TRY(ps_text_check(&run->identity, error));
-    if (!is_known || !uses_cache(run)) {
+    if (!is_known || ps_run_find_why_uncached(run->arguments, run->scene) != NULL) {
         return PSPEC_OK;
     }
     ps_text_append(&folder, "%s/results", run->arguments->limits.cache_folder);

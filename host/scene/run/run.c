@@ -46,6 +46,9 @@ static void warn_of_data(const ps_run *run) {
 /* All that can be found out before the work: questions, folder, former run, cache. */
 static pspec_status prepare(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
+    if (ps_run_only_helps(run)) {
+        return ps_run_open_cache(run, error);
+    }
     PS_TRY(ps_run_check_inputs(run, error));
     PS_TRY(ps_run_check_folder(run, error));
     PS_TRY(ps_run_read_former(run, error));
@@ -103,6 +106,9 @@ static void tell_of_pictures(const ps_run *run) {
 static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
     PS_TRY(prepare(run, error));
     PS_TRY(ps_run_answer(run, error));
+    if (ps_run_only_helps(run)) {
+        return PSPEC_OK;
+    }
     PS_TRY(ps_run_write(run, error));
     ps_run_end_checkpoints(run);
     tell_of_pictures(run);
@@ -111,15 +117,19 @@ static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
     return ps_run_judge(run, &out->verdict) == PSPEC_ERROR_CHECK ? PSPEC_OK : out->verdict.status;
 }
 
+pspec_status ps_run_check_words(const ps_request *arguments, ps_error *error) {
+    return arguments->num_files == 1
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "one scene is run at a time, but %zu files were named",
+                         arguments->num_files);
+}
+
 pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
                             const ps_answer_hooks *hooks, ps_error *error) {
     ps_scene scene = {0};
     ps_text folder = {0};
-    if (arguments->num_files != 1) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "one scene is run at a time, but %zu files were named",
-                       arguments->num_files);
-    }
+    PS_TRY(ps_run_check_words(arguments, error));
     if (arguments->output != NULL) {
         ps_text_append(&folder, "%s", arguments->output);
     } else {

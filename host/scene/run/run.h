@@ -14,6 +14,7 @@
  *     write.c      the files
  *     verdict.c    what it comes to
  *     plan_blocks.c  what it would do
+ *     shares.c     may several processes share the questions?
  */
 #ifndef PS_SCENE_RUN_RUN_H
 #define PS_SCENE_RUN_RUN_H
@@ -144,8 +145,14 @@ typedef struct ps_run {
 pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
+/* look_at_shares of the row: questions are shared where there is a cache for the answers. */
+pspec_status ps_run_look_at_shares(uint64_t *num, ps_error *why, const ps_request *arguments,
+                                   ps_error *error) PS_MUST_CHECK;
+
 /* ---- the steps of it ------------------------------------------------------------------------- */
 
+/* One scene is run at a time. */
+pspec_status ps_run_check_words(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
 /* Reads the scene and gives it the limit of memory of the command, if there is one. A record
  * repeats what was typed then: POINTSPEC_MEMORY of today is not for it. */
 pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments,
@@ -161,7 +168,10 @@ pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* With a share (hooks.share) its own into the cache first, then, of share 0, the rest. */
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Is the rest of the run that of another, who has share 0? */
+bool ps_run_only_helps(const ps_run *run);
 /* Removes checkpoints of questions, when everything is written. */
 void ps_run_end_checkpoints(const ps_run *run);
 /* The device of all questions: its programs are built once. None where the question needs
@@ -171,6 +181,8 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_question *question,
 /* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache
  * that cannot be had is no error, but a warning. */
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Why answers of the scene are not kept; NULL: they are, if the folder can be had. */
+const char *ps_run_find_why_uncached(const ps_request *arguments, const ps_scene *scene);
 /* Keeps the answer under the key that ps_run_fetch made of the inputs before it was computed. */
 void ps_run_keep(ps_run *run, const ps_run_question *question);
 /* Takes the answer, and the seconds that computing it took, from the cache, if they are there. */

@@ -1,0 +1,30 @@
+# shellcheck shell=bash
+# shellcheck disable=SC2154 # program and command are of harness.sh
+# To be sourced behind harness.sh by tests that run the program under mpirun; ends them (77) where that cannot be.
+
+module=$(dirname "$program")/libpointspec_mpi.so
+if ! command -v mpirun >/dev/null || [[ ! -f $module ]]; then
+    echo "cli_$command: skipped: no mpirun, or no $module" >&2
+    exit 77
+fi
+# Open MPI ends with much of what it has taken.
+export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_orte_execute_quiet=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+
+ranks() { # EXIT N ARGS...: standard output in out, standard error in err
+    local expected=$1 num=$2 code=0
+    shift 2
+    checked=$((checked + 1))
+    timeout 120 mpirun -n "$num" "$program" "$@" </dev/null >out 2>err || code=$?
+    # What mpirun itself says of an exit status is no sentence of ours; gnuplot is not everywhere.
+    grep '^pointspec' err | grep -v gnuplot >sentences || true
+    [[ $code == "$expected" ]] || complain "exit $code, not $expected, of $num ranks: $*: $(<err)"
+}
+sentence() { # PART: of the only one; "": there is none
+    if [[ -z $1 ]]; then
+        [[ ! -s sentences ]] || complain "$(<sentences)"
+    else
+        [[ $(wc -l <sentences) == 1 && $(<sentences) == *"$1"* ]] || complain "not \"$1\": $(<err)"
+    fi
+}
