@@ -322,7 +322,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else CPU)",
                           TEXT(limits.device)},
     [PS_OPTION_MIXED] = {NAMED("mixed", 0, NULL), OF(0, READERS | BIT(run)),
-                         .help = "devices of different kinds may share a job, with bits of neither",
+                         .help = "the list of --device may mix kinds, whose last bits differ",
                          FLAG(limits.mixed)},
     [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, BIT(run)),
                          .help = "disk for the cache of results; 0: none is used (default 1e9)",
