@@ -10,8 +10,6 @@
 #include <string.h>
 #include <time.h>
 
-enum { SELECTOR_BYTES = sizeof(((struct ps_one_selector *)0)->text) };
-
 typedef enum part_state { PART_IDLE = 0, PART_BEGUN, PART_DONE } part_state;
 
 typedef struct crew crew;
@@ -45,6 +43,7 @@ struct crew {
     uint64_t failed; /* the first part that no device can answer; num_parts: there is none */
     ps_error error;  /* of it */
     ps_text said;    /* warnings, a line each, for who called */
+    char name[128];  /* that the device of who called has otherwise */
 };
 
 static bool is_over(const crew *self) {
@@ -133,7 +132,7 @@ static pspec_status answer_part(member *self, uint64_t part, ps_error *error) {
     pspec_status status = ps_part_begin(&own->part, task->kind, &request, task->num_realizations,
                                         task->num_parts, part, &self->crew->of_parts, error);
     if (status == PSPEC_OK) {
-        status = ps_part_answer(&own->answer, &own->part, &hooks, error);
+        status = ps_answer_make(&own->answer, task->kind, &own->part.request, &hooks, error);
     }
     if (status != PSPEC_OK) {
         ps_answer_free(&own->answer);
@@ -280,6 +279,8 @@ static void watch(crew *self) {
 
 static pspec_status begin(crew *self, ps_error *error) {
     const ps_selectors *const selectors = self->task->selectors;
+    const ps_device_limits *const limits = ps_device_get_limits(self->task->hooks->device);
+    snprintf(self->name, sizeof self->name, "%s", limits != NULL ? limits->name : "");
     PS_TRY(PS_NEW(&self->states, self->task->num_parts, "parts of a job", error));
     PS_TRY(PS_NEW(&self->members, selectors->num, "devices", error));
     pthread_mutex_lock(&self->mutex);
@@ -307,6 +308,9 @@ static void end(crew *self) {
         if (one->device != self->task->hooks->device) {
             ps_device_close(one->device);
         }
+    }
+    if (self->task->hooks->device != NULL) {
+        ps_device_set_name(self->task->hooks->device, self->name);
     }
     pthread_cond_destroy(&self->has_changed);
     pthread_mutex_destroy(&self->mutex);

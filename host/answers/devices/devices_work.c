@@ -71,8 +71,9 @@ pspec_status ps_devices_of_rank(ps_text *out, const char *selector, size_t own, 
 
 /* ---- which parts ----------------------------------------------------------------------------- */
 
-/* So many of a device that the last ones leave few idle, and what each begins with (an engine, its
- * comparison with the referee) is little of its work. */
+/* So many of a device that the last ones leave few idle, and what each begins with (a plan, an
+ * engine) is little of its work: two halves of a CPU do 0.83 to 0.92 of twice what one processor
+ * does (docs/user/scaling.md). */
 enum { PARTS_OF_DEVICE = 4 };
 
 /* The parts, or why the first device does it all; "": it does not. */

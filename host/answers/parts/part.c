@@ -40,13 +40,6 @@ pspec_status ps_part_begin(ps_part *out, const ps_kind *kind, const ps_request *
     return ps_answer_begin_checkpoints(own, kind, &out->key, hooks, error);
 }
 
-pspec_status ps_part_answer(ps_answer *out, const ps_part *part, const ps_answer_hooks *hooks,
-                            ps_error *error) {
-    const pspec_status status = ps_answer_make(out, part->kind, &part->request, hooks, error);
-    ps_answer_end(hooks);
-    return status;
-}
-
 void ps_part_end(ps_part *part, bool is_written) {
     if (is_written) {
         ps_answer_end_checkpoints(&part->request);

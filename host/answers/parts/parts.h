@@ -41,14 +41,10 @@ typedef struct ps_part {
 
 /* Part number `part`, from 0, of num_parts that num_realizations are cut into: those of the job, or
  * of the range that the request names. *out is ended by ps_part_end, also after an error.
- * hooks hear of checkpoints until then. */
+ * hooks hear of checkpoints until then. Its request is answered as any other. */
 pspec_status ps_part_begin(ps_part *out, const ps_kind *kind, const ps_request *request,
                            uint64_t num_realizations, uint64_t num_parts, uint64_t part,
                            const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
-/* From the checkpoint of the part, if there is one. *out is freed by ps_answer_free, also after an
- * error. */
-pspec_status ps_part_answer(ps_answer *out, const ps_part *part, const ps_answer_hooks *hooks,
-                            ps_error *error) PS_MUST_CHECK;
 /* {0} is allowed. The checkpoint of a part that is answered stays until the answer of the job is
  * written: is_written. */
 void ps_part_end(ps_part *part, bool is_written);

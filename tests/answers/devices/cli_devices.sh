@@ -92,6 +92,17 @@ checked=$((checked + 2))
 POCL_DEVICES="pthread basic" "$program" "${job[@]}" -m 600 --device 0,1 >out
 cmp <(grep -v '^# \(command\|device\)' one.csv) <(grep -v '^# \(command\|device\)' out) || complain 'two devices of PoCL'
 grep -q '^# device: .*basic.* + .*pthread\|^# device: .*pthread.* + .*basic' out || complain "the names of both: $(grep '^# device' out)"
+# In a scene the names of both are those of what both answer alone.
+checked=$((checked + 1))
+cat >scene.yaml <<'END'
+scene: 1
+results:
+  - {result: power, name: shared, samplers: white, points: 16, realizations: 600, max-frequency: 2}
+  - {result: variance, name: alone, samplers: white, points: 4, realizations: 200, integrands: disk}
+END
+POCL_DEVICES="pthread basic" "$program" run scene.yaml -o folder --device 0,1 --cache 0 >out 2>err || complain "a scene: $(<err)"
+[[ $(grep -c '^# device: .* + ' folder/shared.csv) == 1 ]] || complain "shared: $(grep '^# device' folder/shared.csv)"
+[[ $(grep '^# device' folder/alone.csv) != *' + '* ]] || complain "alone: $(grep '^# device' folder/alone.csv)"
 simulator=$(find /usr/lib* -name 'liboclgrind-rt-icd.so' | head -1)
 if [[ -n $simulator && -d /etc/OpenCL/vendors ]]; then
     mkdir vendors

@@ -73,27 +73,12 @@ ranks 0 2 "${job[@]}" --checkpoint kept --checkpoint-interval 1
 [[ -z $(ls kept* 2>/dev/null) ]] || complain 'a checkpoint is left'
 
 # Killed twice at any moment, or done before, and ended by others: the parts are those of the first start.
-kill_ranks() { # N ARGS...
-    local num=$1 pid kids
-    shift
-    mpirun -n "$num" "$program" "$@" </dev/null >/dev/null 2>&1 &
-    pid=$!
-    wait_until "$pid" compgen -G 'kept-part-*-of-4.npz'
-    sleep "0.$((RANDOM % 1000))"
-    kids=$(pgrep -P "$pid" || true)
-    # shellcheck disable=SC2086 # several
-    kill -9 "$pid" $kids 2>/dev/null || true
-    wait "$pid" 2>/dev/null || true
-    for pid in $kids; do
-        while [[ -e /proc/$pid ]]; do sleep 0.02; done
-    done
-}
 job=("${job[@]}" -m 520)
 kept=("${job[@]}" --checkpoint kept.npz --checkpoint-interval 0)
 "$program" "${job[@]}" >one.csv
 for last in 3 1; do
-    kill_ranks 4 "${kept[@]}"
-    kill_ranks 2 "${kept[@]}"
+    kill_ranks 'kept-part-*-of-4.npz' 4 "${kept[@]}"
+    kill_ranks 'kept-part-*-of-4.npz' 2 "${kept[@]}"
     if ((last > 1)); then
         ranks 0 "$last" "${kept[@]}"
     else

@@ -82,17 +82,7 @@ cp one/scene.yaml .
 forget
 kept=(run scene.yaml -o z --checkpoint kept.npz --checkpoint-interval 0)
 for _ in 1 2; do
-    mpirun -n 2 "$program" "${kept[@]}" </dev/null >/dev/null 2>&1 &
-    pid=$!
-    wait_until "$pid" compgen -G 'kept*'
-    sleep "0.$((RANDOM % 1000))"
-    kids=$(pgrep -P "$pid" || true)
-    # shellcheck disable=SC2086 # several
-    kill -9 "$pid" $kids 2>/dev/null || true
-    wait "$pid" 2>/dev/null || true
-    for pid in $kids; do
-        while [[ -e /proc/$pid ]]; do sleep 0.02; done
-    done
+    kill_ranks 'kept*' 2 "${kept[@]}"
 done
 ranks 0 3 "${kept[@]}"
 (cd one && rm -rf z && "$program" "${kept[@]}" >out 2>err) || complain "one process: $(<one/err)"

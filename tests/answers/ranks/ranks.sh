@@ -28,3 +28,18 @@ sentence() { # PART: of the only one; "": there is none
         [[ $(wc -l <sentences) == 1 && $(<sentences) == *"$1"* ]] || complain "not \"$1\": $(<err)"
     fi
 }
+kill_ranks() { # PATTERN N ARGS...: soon after a checkpoint of that pattern is there
+    local pattern=$1 num=$2 pid kids
+    shift 2
+    mpirun -n "$num" "$program" "$@" </dev/null >/dev/null 2>&1 &
+    pid=$!
+    wait_until "$pid" compgen -G "$pattern"
+    sleep "0.$((RANDOM % 1000))"
+    kids=$(pgrep -P "$pid" || true)
+    # shellcheck disable=SC2086 # several
+    kill -9 "$pid" $kids 2>/dev/null || true
+    wait "$pid" 2>/dev/null || true
+    for pid in $kids; do
+        while [[ -e /proc/$pid ]]; do sleep 0.02; done
+    done
+}
