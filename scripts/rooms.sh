@@ -17,7 +17,7 @@ add_room() { # ROOM FOLDER...
         [[ " ${rooms[*]} " == *" ${folder%/} "* ]] || rooms+=("${folder%/}")
     done
 }
-add_room jobs jobs/spectrum jobs/quadrature
+add_room jobs jobs/rows jobs/spectrum jobs/quadrature
 rooms+=(request verify verify/bench)
 add_room answers answers/points answers/spectra answers/quadrature answers/homogeneity answers/interpolation answers/parts answers/devices
 rooms+=(scene scene/run commands api cli cli/commands)

@@ -1,6 +1,7 @@
 #include "answers/kind.h"
 
 #include "base/text.h"
+#include "request/point_source.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -64,13 +65,43 @@ void ps_answer_tell_profile(const ps_answer_hooks *hooks, const ps_device *devic
     }
 }
 
+static pspec_status check_input(void *payload, const ps_request_file *input, ps_error *error) {
+    (void)payload;
+    return ps_request_file_comes_once(input)
+               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s \"%s\" comes once",
+                         input->option.text, input->path)
+               : PSPEC_OK;
+}
+
+pspec_status ps_answer_look_at_inputs(const ps_request *request, ps_error *why) {
+    return ps_request_visit_inputs(request, check_input, NULL, why);
+}
+
+pspec_status ps_answer_look_at_rows(uint64_t *num, ps_error *why, const ps_request *request,
+                                    ps_error *error) {
+    (void)error;
+    *num = ps_request_has_samplers(request) ? ps_num_realizations_asked(request) : UINT64_MAX;
+    if (ps_answer_look_at_inputs(request, why) == PSPEC_OK) {
+        why->message[0] = '\0';
+        if (*num < 2) {
+            ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "one realization is not shared");
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;
+    ps_request own = *request;
     *out = (ps_answer){0};
-    pspec_status status = kind->compute(&computed, request, hooks, error);
+    own.limits.checkpoint.team = hooks->team;
+    pspec_status status = kind->compute(&computed, &own, hooks, error);
     if (status == PSPEC_OK) {
-        status = kind->tabulate(out, computed, request, error);
+        status = ps_team_meet(hooks->team, status, error);
+    }
+    if (status == PSPEC_OK && ps_team_is_led_here(hooks->team)) {
+        status = kind->tabulate(out, computed, &own, error);
     }
     kind->discard(computed);
     return status;

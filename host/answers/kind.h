@@ -13,21 +13,13 @@
 #include "answers/field.h"
 #include "answers/figure.h"
 #include "answers/plan_table.h"
+#include "base/process/team.h"
 #include "base/text.h"
 #include "base/watch.h"
 #include "device/device.h"
 #include "plan/choose.h"
 #include "request/options.h"
 #include "fields/table.h"
-
-/* Which share of a command's work this process has. */
-typedef struct ps_answer_share {
-    size_t own, num; /* its number, and how many there are */
-    void *payload;   /* of the call */
-    /* Called once, when the own share is done or has failed: waits for the others. The status is
-     * that of all of them. */
-    pspec_status (*meet)(pspec_status status, void *payload, ps_error *error);
-} ps_answer_share;
 
 /* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls
  * may be NULL. */
@@ -53,7 +45,7 @@ typedef struct ps_answer_hooks {
     void (*tell_finding)(void *payload, const char *word, const char *topic, const char *sentence);
     /* Asked between two questions of a scene, and after a failure: was it an interrupt? */
     bool (*is_interrupted)(void *payload);
-    const ps_answer_share *share; /* of a row that has `look_at_shares`; NULL: all of it */
+    const ps_team *team; /* of a row that has `look_at_shares`; NULL: nobody else */
     bool is_shared; /* the range is that of one of several ranks, not one that somebody merges */
     /* Before the work for one sampler, and after it. */
     void (*tell_plan)(void *payload, const ps_plan *plan);
@@ -155,9 +147,10 @@ typedef struct ps_command {
      * also after an error */
     pspec_status (*run)(ps_answer *out, const ps_request *request, const ps_answer_hooks *hooks,
                         ps_error *error);
-    /* May several processes share the work of `run`, where each keeps what it made on the disk, and
-     * share 0 goes on with all of it when they have met? *num: how many could have some. Why not is
-     * left as the end of a sentence in *why, {0} before. NULL: nothing is kept */
+    /* May a team of processes share the work? In `run` they keep what each made on the disk until
+     * they meet, and the first goes on with all of it; without one `compute` is that of a team,
+     * whose members give each other rows of realizations (jobs/rows). *num: how many could have
+     * some. Why not is left as the end of a sentence in *why, {0} before. NULL: it may not */
     pspec_status (*look_at_shares)(uint64_t *num, ps_error *why, const ps_request *request,
                                    ps_error *error);
     /* Adds what it would come to; NULL: it is not planned. */
@@ -254,7 +247,15 @@ const char *ps_command_words(const ps_command *command, ps_option_id id);
 const ps_command *ps_command_nearest(const ps_command *const *table, const char *name,
                                      size_t *distance);
 
-/* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an
+/* Why inputs may not be read by several, who share the work: they come once. */
+pspec_status ps_answer_look_at_inputs(const ps_request *request, ps_error *why) PS_MUST_CHECK;
+/* `look_at_shares` of kinds whose realizations are rows: *num of them, UINT64_MAX where nobody has
+ * counted. */
+pspec_status ps_answer_look_at_rows(uint64_t *num, ps_error *why, const ps_request *request,
+                                    ps_error *error) PS_MUST_CHECK;
+
+/* Computes and tabulates, and keeps nothing else; in a team (hooks->team) the table is that of the
+ * member that leads. *out is freed by ps_answer_free, also after an
  * error. A check that found differences is no error: the answer has the verdict. */
 pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;

@@ -130,8 +130,10 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
     ps_table_format format = PS_FORMAT_CSV;
     ps_request own = *request;
     ps_text key = {0};
+    const bool is_led_here = ps_team_is_led_here(hooks->team);
     *out = (ps_answer){0};
-    PS_TRY(ps_answer_check_outputs(&format, kind, request, hooks, error));
+    PS_TRY(is_led_here ? ps_answer_check_outputs(&format, kind, request, hooks, error) : PSPEC_OK);
+    own.limits.checkpoint.team = hooks->team;
     own.wants_state =
         request->wants_state || format == PS_FORMAT_NPZ || request->is_given[PS_OPTION_RANGE];
     pspec_status status = ps_answer_begin_checkpoints(&own, kind, &key, hooks, error);
@@ -139,13 +141,16 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
         status = kind->compute(kept, &own, hooks, error);
     }
     ps_answer_end(hooks);
-    if (status == PSPEC_OK) {
+    if (status == PSPEC_OK) { /* checkpoints are there until all have read them */
+        status = ps_team_meet(hooks->team, status, error);
+    }
+    if (status == PSPEC_OK && is_led_here) {
         status = kind->tabulate(out, *kept, &own, error);
     }
-    if (status == PSPEC_OK) {
+    if (status == PSPEC_OK && is_led_here) {
         status = ps_answer_write(out, kind, &own, format, hooks, error);
     }
-    if (status == PSPEC_OK) {
+    if (status == PSPEC_OK && is_led_here) {
         ps_answer_end_checkpoints(&own);
     }
     ps_text_free(&key);

@@ -106,7 +106,7 @@ static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answ
 
 static void tell(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hooks) {
     const ps_set_counts counts = ps_sets_counts(sets);
-    if (hooks->share != NULL) {
+    if (hooks->team != NULL) {
         ps_answer_warn(hooks, "%s, %zu points: all %" PRIu64 " sets are kept in %s/sets",
                        self->text, self->sampler.num_points, self->num,
                        self->options.place.cache_folder);
@@ -164,14 +164,14 @@ static pspec_status prefetch_all(const ps_request *request, size_t share, size_t
 
 pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
                                 ps_error *error) {
-    const ps_answer_share *const share = hooks->share;
+    const ps_team *const team = hooks->team;
     PS_TRY(ps_option_pairs_check(request, PS_COMMAND_sample, error));
     PS_TRY(check_room(request, error));
-    if (share != NULL) {
-        const pspec_status status = prefetch_all(request, share->own, share->num, hooks, error);
-        PS_TRY(share->meet(status, share->payload, error));
+    if (team != NULL) {
+        const pspec_status status = prefetch_all(request, team->own, team->num, hooks, error);
+        PS_TRY(ps_team_meet(team, status, error));
     }
-    return share == NULL || share->own == 0 ? prefetch_all(request, 0, 1, hooks, error) : PSPEC_OK;
+    return ps_team_is_led_here(team) ? prefetch_all(request, 0, 1, hooks, error) : PSPEC_OK;
 }
 
 pspec_status ps_points_look_at_shares(uint64_t *num, ps_error *why, const ps_request *request,

@@ -371,6 +371,7 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
 void ps_estimator_reset(ps_estimator *estimator) {
     estimator->pending = (ps_rows){0};
     estimator->totals = (ps_pattern_totals){0};
+    estimator->num_elsewhere = 0;
     estimator->accuracy = (ps_accuracy){0};
     if (estimator->options.want_c2) {
         ps_pair_sums_reset(&estimator->c2);

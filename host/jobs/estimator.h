@@ -91,6 +91,10 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
 pspec_status ps_estimator_expect(ps_estimator *estimator, uint64_t num_points,
                                  ps_error *error) PS_MUST_CHECK;
 
+/* The next pattern is realization `number` of a job whose others another estimator has: so it is
+ * called in sentences. No range. */
+void ps_estimator_go_to(ps_estimator *estimator, uint64_t number);
+
 /* A pattern that is never in memory as a whole. What its scale needs is known before its points
  * come. */
 typedef struct ps_pattern_stream {
@@ -157,6 +161,9 @@ void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
 pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator);
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator);
+/* Takes what was measured of realizations that another estimator of the plan has added: the largest
+ * of both. */
+void ps_estimator_join_accuracy(ps_estimator *estimator, const ps_accuracy *others);
 void ps_estimator_describe(const ps_estimator *estimator, ps_text *text);
 
 #endif

@@ -52,6 +52,7 @@ struct ps_estimator {
     double *beginning;        /* points of the first of them, for the self-check; else NULL */
     bool leaves_checks;       /* of this batch's coordinates to the engine */
     ps_pattern_totals totals; /* but for its sums: */
+    uint64_t num_elsewhere;   /* realizations before the next that another estimator has */
     ps_running_sums total_sums; /* PS_NUM_TOTALS, of the segment in a range */
     ps_accuracy accuracy;
     /* With options.is_range */

@@ -7,7 +7,11 @@
 #include <string.h>
 
 uint64_t ps_estimator_position(const ps_estimator *self) {
-    return self->options.first + self->totals.num_realizations;
+    return self->options.first + self->totals.num_realizations + self->num_elsewhere;
+}
+
+void ps_estimator_go_to(ps_estimator *estimator, uint64_t number) {
+    estimator->num_elsewhere = number - estimator->totals.num_realizations;
 }
 
 uint64_t ps_estimator_segment_left(const ps_estimator *self) {

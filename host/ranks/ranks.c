@@ -305,6 +305,10 @@ pspec_status ps_ranks_conclude(ps_ranks *self, pspec_status status, void *bytes,
     if (verdict.num_bytes > 0 && verdict.num_bytes == num) {
         PS_TRY(check(self, self->calls->receive(0, PS_MPI_BYTES, bytes, num), error));
     }
+    if (verdict.error.status == PSPEC_OK && verdict.num_bytes != num) {
+        return ps_fail(error, PSPEC_ERROR_IO, "rank 0 gives %zu bytes instead of %zu",
+                       (size_t)verdict.num_bytes, num);
+    }
     *error = verdict.error;
     return verdict.error.status;
 }

@@ -35,6 +35,7 @@ struct ps_checkpoint {
     ps_snapshot found;
     double begun, taken; /* clock at the last one, and seconds that it took */
     bool is_saved, has_failed;
+    bool is_read_only; /* another member of the team writes it */
 };
 
 /* ---- state ----------------------------------------------------------------------------------- */
@@ -211,7 +212,7 @@ static pspec_status begin(ps_checkpoint *self, const ps_checkpoint_spec *spec, c
     ps_text_append(&self->key, "%spart %u\n%s", spec->key, spec->part, more);
     PS_TRY(ps_text_check(&self->lock_path, error));
     PS_TRY(ps_text_check(&self->key, error));
-    PS_TRY(take_lock(self, error));
+    PS_TRY(self->is_read_only ? PSPEC_OK : take_lock(self, error));
     return read_file(self, error);
 }
 
@@ -223,6 +224,7 @@ pspec_status ps_checkpoint_open(ps_checkpoint **out, const ps_checkpoint_spec *s
     self->lock = -1;
     self->interval = spec->interval;
     self->log = spec->log;
+    self->is_read_only = !ps_team_is_led_here(spec->team);
     self->begun = ps_clock_seconds();
     const pspec_status status = begin(self, spec, more, error);
     if (status != PSPEC_OK) {
@@ -270,6 +272,14 @@ void ps_checkpoint_remove(const char *path, unsigned first, unsigned num) {
     }
 }
 
+pspec_status ps_checkpoint_check_sets(uint64_t num, uint64_t wanted, ps_error *error) {
+    return num == wanted
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "there are fewer sets than the %" PRIu64 " that the checkpoint has",
+                         wanted);
+}
+
 /* ---- the next one ---------------------------------------------------------------------------- */
 
 bool ps_checkpoint_is_due(const ps_checkpoint *checkpoint) {
@@ -302,6 +312,9 @@ pspec_status ps_checkpoint_save(ps_checkpoint *checkpoint, ps_snapshot_walk *wal
     const double begun = ps_clock_seconds();
     pspec_status walked = PSPEC_OK;
     ps_error reason = {0};
+    if (checkpoint->is_read_only) {
+        return PSPEC_OK;
+    }
     const pspec_status status = write_file(checkpoint, walk, payload, &walked, &reason);
     checkpoint->begun = ps_clock_seconds();
     checkpoint->taken = checkpoint->begun - begun;

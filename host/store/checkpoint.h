@@ -10,6 +10,7 @@
 #define PS_STORE_CHECKPOINT_H
 
 #include "base/log.h"
+#include "base/process/team.h"
 #include "base/text.h"
 
 #include <stdbool.h>
@@ -49,6 +50,9 @@ typedef struct ps_checkpoint_spec {
     const char *key;    /* lines of "what value" that jobs of the same bits have alike */
     uint64_t interval;  /* seconds between two; UINT64_MAX: at most a hundredth of the time */
     ps_log log;         /* hears of what went wrong */
+    /* Who does the job together: each reads what is there, and the first writes. NULL: nobody else
+     */
+    const ps_team *team;
 } ps_checkpoint_spec;
 
 typedef struct ps_checkpoint ps_checkpoint;
@@ -82,6 +86,10 @@ pspec_status ps_checkpoint_keep(ps_checkpoint *checkpoint, bool is_complete, ps_
 pspec_status ps_checkpoint_keep_cancelled(ps_checkpoint *checkpoint, pspec_status status,
                                           uint64_t num_done, ps_snapshot_walk *walk, void *payload,
                                           ps_error *error);
+
+/* Sets that a checkpoint has are left out where its job goes on: PSPEC_ERROR_INPUT where there were
+ * fewer to leave out. */
+pspec_status ps_checkpoint_check_sets(uint64_t num, uint64_t wanted, ps_error *error) PS_MUST_CHECK;
 
 /* Removes the files of so many parts from one on, whose answer is written. */
 void ps_checkpoint_remove(const char *path, unsigned first, unsigned num);

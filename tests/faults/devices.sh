@@ -28,9 +28,11 @@ try() { # CLASS SUFFIX WORD...: SUFFIX @: that call and all after it of the same
         ! grep -E '^(leak|unknown)' report >>err || complain "a leak" "$class:$number" "$@"
         case $code:$(wc -l <err) in
         0:0) ;;
-        0:1) grep -q 'is dropped, and the others do its work' err || complain "another warning" "$class:$number" "$@"
+        0:1) grep -qE 'is dropped, and the others (do its work|begin anew without it)' err || complain "another warning" "$class:$number" "$@"
             dropped=$((dropped + 1)) ;;
-        1:1) [[ ! -s out.csv ]] || complain "an answer" "$class:$number" "$@"
+        # Of rows the first device left works in the thread of the program, whose calls go on failing.
+        1:1 | 1:2) [[ ! -s out.csv ]] || complain "an answer" "$class:$number" "$@"
+            [[ $(wc -l <err) == 1 ]] || grep -q 'is dropped, and the others begin anew' err || complain "another warning" "$class:$number" "$@"
             refused=$((refused + 1)) ;;
         *) complain "exit status $code" "$class:$number" "$@" ;;
         esac
@@ -43,5 +45,8 @@ try() { # CLASS SUFFIX WORD...: SUFFIX @: that call and all after it of the same
 
 RANDOM=1
 job=(power --engine torus_direct --sampler white -n 16 -k 2 -m 1100)
+try opencl @ "${job[@]}"
+try memory '' "${job[@]}"
+job=(quadrature --sampler white-hemisphere -n 16 -m 60 --brdf diffuse -l 8)
 try opencl @ "${job[@]}"
 try memory '' "${job[@]}"

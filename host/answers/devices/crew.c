@@ -163,8 +163,7 @@ static bool take(member *self) {
     }
 }
 
-/* What another device may do better. */
-static bool is_of_device(pspec_status status) {
+bool ps_crew_is_of_device(pspec_status status) {
     return status == PSPEC_ERROR_DEVICE || status == PSPEC_ERROR_NO_DEVICE ||
            status == PSPEC_ERROR_BUILD || status == PSPEC_ERROR_MEMORY ||
            status == PSPEC_ERROR_CHECK;
@@ -186,7 +185,7 @@ static void finish(member *self, pspec_status status, const ps_error *error) {
     if (status == PSPEC_OK) {
         team->states[self->part] = PART_DONE;
         team->num_done++;
-    } else if (is_of_device(status) && team->num_alive > 1) {
+    } else if (ps_crew_is_of_device(status) && team->num_alive > 1) {
         drop(self, error);
     } else if (self->part < team->failed) {
         team->failed = self->part;

@@ -30,6 +30,9 @@ typedef struct ps_crew_part {
     ps_answer answer;
 } ps_crew_part;
 
+/* Is that what another device may do better? */
+bool ps_crew_is_of_device(pspec_status status);
+
 /* The answers of all parts[num_parts], in order. */
 pspec_status ps_crew_answer(ps_crew_part *parts, const ps_crew_task *task,
                             ps_error *error) PS_MUST_CHECK;

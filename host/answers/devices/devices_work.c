@@ -1,6 +1,7 @@
 #include "answers/devices/devices_work.h"
 
 #include "answers/devices/crew.h"
+#include "answers/devices/device_team.h"
 #include "answers/output_check.h"
 #include "answers/parts/sharing.h"
 #include "base/memory.h"
@@ -119,8 +120,14 @@ static void warn(const ps_crew_task *task, const ps_error *why) {
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-/* A job and what its parts came to; parts NULL: the first device is to do it all. */
+/* ps_answer_make, or ps_answer_produce. */
+typedef pspec_status answer_one(ps_answer *out, const ps_kind *kind, const ps_request *request,
+                                const ps_answer_hooks *hooks, ps_error *error);
+
+/* A job and what its parts came to; parts NULL: the first device is to do it all, unless it is done
+ * by a team. */
 typedef struct sharing {
+    bool is_done;
     ps_selectors selectors;
     ps_text names;      /* of the devices */
     ps_request request; /* with the plans that the parts follow */
@@ -175,9 +182,27 @@ static pspec_status answer_parts(ps_answer *out, sharing *self, ps_error *error)
     return PSPEC_OK;
 }
 
+/* Of a kind that has rows; why not is said as of parts. */
+static pspec_status answer_as_team(ps_answer *out, sharing *self, answer_one *one,
+                                   ps_error *error) {
+    const ps_crew_task *const crew = &self->task;
+    const ps_device_team_task task = {one,         crew->kind,      crew->request,
+                                      crew->hooks, crew->selectors, crew->device};
+    ps_error why = {0};
+    uint64_t num = 0;
+    if (crew->hooks->team != NULL) {
+        ps_fail(&why, PSPEC_ERROR_INVALID_ARGUMENT, "ranks share the realizations");
+    } else {
+        PS_TRY(crew->kind->look_at_shares(&num, &why, crew->request, error));
+    }
+    warn(crew, &why);
+    self->is_done = why.message[0] == '\0';
+    return self->is_done ? ps_device_team_answer(out, &task, error) : PSPEC_OK;
+}
+
 /* *self is given to `end`, also after an error. */
 static pspec_status answer(ps_answer *out, sharing *self, const ps_kind *kind,
-                           const ps_request *request, const ps_answer_hooks *hooks,
+                           const ps_request *request, const ps_answer_hooks *hooks, answer_one *one,
                            ps_error *error) {
     ps_error why = {0};
     *self = (sharing){.request = *request};
@@ -191,6 +216,10 @@ static pspec_status answer(ps_answer *out, sharing *self, const ps_kind *kind,
     self->task.device = ps_text_string(&self->names);
     if (self->selectors.num == 1) {
         return PSPEC_OK;
+    }
+    if (kind->look_at_shares != NULL) {
+        self->task.num_parts = self->selectors.num;
+        return answer_as_team(out, self, one, error);
     }
     PS_TRY(plan(&self->task, &why, error));
     warn(&self->task, &why);
@@ -209,8 +238,8 @@ static void end(sharing *self, bool is_written) {
 pspec_status ps_devices_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                              const ps_answer_hooks *hooks, ps_error *error) {
     sharing shared;
-    const pspec_status status = answer(out, &shared, kind, request, hooks, error);
-    const bool is_shared = shared.parts != NULL;
+    const pspec_status status = answer(out, &shared, kind, request, hooks, ps_answer_make, error);
+    const bool is_shared = shared.is_done || shared.parts != NULL;
     end(&shared, status == PSPEC_OK);
     PS_TRY(status);
     return is_shared ? PSPEC_OK : ps_answer_make(out, kind, request, hooks, error);
@@ -225,9 +254,9 @@ pspec_status ps_devices_produce(ps_answer *out, const ps_kind *kind, const ps_re
         PS_TRY(ps_table_choose_format(&format, own.format, own.output, error));
         own.wants_state = own.wants_state || format == PS_FORMAT_NPZ || own.range.end > 0;
     }
-    pspec_status status = answer(out, &shared, kind, &own, hooks, error);
-    const bool is_shared = shared.parts != NULL;
-    if (status == PSPEC_OK && is_shared) {
+    pspec_status status = answer(out, &shared, kind, &own, hooks, ps_answer_produce, error);
+    const bool is_shared = shared.is_done || shared.parts != NULL;
+    if (status == PSPEC_OK && shared.parts != NULL) {
         ps_answer_end(hooks);
         status = ps_answer_write(out, kind, &own, format, hooks, error);
     }

@@ -282,6 +282,7 @@ const ps_kind ps_kind_interpolation = {
     .check_arguments = check_arguments,
     .check_question = check_question,
     .plan = plan,
+    .look_at_shares = ps_answer_look_at_rows,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

@@ -312,6 +312,7 @@ const ps_kind ps_kind_occlusion = {
     .check_question = check_question,
     .plan = plan,
     .count_jobs = count_jobs,
+    .look_at_shares = ps_answer_look_at_rows,
     .compute = compute,
     .tabulate = ps_occlusion_tabulate,
     .discard = discard,

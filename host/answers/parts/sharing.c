@@ -4,15 +4,6 @@
 #include "request/options.h"
 #include "spectra/sum_nodes.h"
 
-/* Who answers a part reads the inputs for it. */
-static pspec_status check_file(void *payload, const ps_request_file *input, ps_error *error) {
-    (void)payload;
-    return ps_request_file_comes_once(input)
-               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s \"%s\" comes once",
-                         input->option.text, input->path)
-               : PSPEC_OK;
-}
-
 /* What goes with other options goes with them as a range, too. */
 static pspec_status check_options(const ps_request *request, ps_error *why) {
     ps_request ranged = *request;
@@ -32,7 +23,7 @@ static pspec_status look(ps_error *why, const ps_command *command, const ps_requ
         return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "points of the caller are not shared");
     }
     PS_TRY(check_options(request, why));
-    return ps_request_visit_inputs(request, check_file, NULL, why);
+    return ps_answer_look_at_inputs(request, why);
 }
 
 void ps_sharing_look(ps_error *why, const ps_command *command, const ps_request *request) {

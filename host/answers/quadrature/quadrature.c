@@ -161,6 +161,7 @@ const ps_kind ps_kind_quadrature = {
     .check_arguments = check_weights_out,
     .check_question = check_question,
     .plan = plan,
+    .look_at_shares = ps_answer_look_at_rows,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

@@ -36,16 +36,16 @@ pspec_status ps_ranks_produce(ps_answer *out, ps_ranks *ranks, const ps_ranks_pl
                               const ps_kind *kind, const ps_request *request,
                               const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
-/* ---- a command that is shared by what it keeps (ranks_shares.c) ------------------------------ */
+/* ---- a command of a team (ranks_shares.c) ---------------------------------------------------- */
 
 typedef struct ps_ranks_share {
-    ps_answer_share share;
+    ps_team team;
     ps_ranks *ranks;
     ps_watch watch; /* that of who asked */
     bool has_failed;
 } ps_ranks_share;
 
-/* Gives hooks the share of this rank, and a watch that stops where another has failed; *self
+/* Gives hooks the team of the ranks, and a watch that stops where another has failed; *self
  * outlives them. */
 void ps_ranks_begin_share(ps_ranks_share *self, ps_ranks *ranks, ps_answer_hooks *hooks);
 /* The round that ends the command, of which this rank has that status, unless one has failed

@@ -242,6 +242,7 @@ const ps_kind ps_kind_shade = {
     .counted = "realizations",
     .check_question = check_question,
     .plan = plan,
+    .look_at_shares = ps_answer_look_at_rows,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

@@ -1,7 +1,6 @@
 #include "jobs/interpolation/interpolation_job.h"
 
 #include "base/memory.h"
-#include "jobs/set_loop.h"
 #include "math/neumaier.h"
 #include "math/sobolev.h"
 
@@ -13,14 +12,6 @@
  * pixels, whose directions and values take little memory then. */
 static const double call_pairs = 1 << 26;
 static const double call_pixels = 1 << 14;
-
-static size_t pixels_of(const ps_interpolation_question *question) {
-    return question->panorama->width * question->panorama->height;
-}
-
-static size_t num_rows(const ps_interpolation_question *question) {
-    return question->num_smoothness * question->panorama->num;
-}
 
 /* ---- create -------------------------------------------------------------------------------- */
 
@@ -137,7 +128,7 @@ static pspec_status make_room(ps_interpolation_job *job, size_t num_points, ps_e
 /* Unit vectors, and the functions there. */
 static pspec_status take_values(ps_interpolation_job *job, ps_point_set *set, ps_error *error) {
     const ps_panorama *const panorama = job->question->panorama;
-    ps_pattern_count count = {.realization = job->num_realizations, .on_sphere = true};
+    ps_pattern_count count = {.realization = job->number, .on_sphere = true};
     PS_TRY(ps_pattern_count_add(&count, &job->sets.patterns[0], error));
     PS_TRY(check_memory(job->question, set->num_points, error));
     PS_TRY(make_room(job, set->num_points, error));
@@ -166,8 +157,8 @@ static size_t num_functions(const interpolant *self) {
 }
 
 /* With the set. */
-static ps_interpolation_row *row_of(const interpolant *self, size_t function) {
-    return &self->job->next_rows[self->index * num_functions(self) + function];
+static ps_interpolation_error *error_of(const interpolant *self, size_t function) {
+    return &self->job->errors[self->index * num_functions(self) + function];
 }
 
 static void evaluate(const interpolant *self, size_t num, const double *at, double *values) {
@@ -205,8 +196,7 @@ static pspec_status check_points(const interpolant *self) {
         for (size_t j = 0; j < num; j++) {
             most = fmax(most, fabs(job->values[i * num + j]));
         }
-        ps_interpolation_row *const row = row_of(self, i);
-        row->residual = fmax(row->residual, most > 0 ? off[i] / most : off[i]);
+        error_of(self, i)->residual = most > 0 ? off[i] / most : off[i];
     }
     return PSPEC_OK;
 }
@@ -217,12 +207,12 @@ static double compare_line(const interpolant *self, size_t function, size_t line
     const ps_panorama *const panorama = self->job->question->panorama;
     const double *const f =
         panorama->values + (function * panorama->height + line) * panorama->width;
-    ps_interpolation_row *const row = row_of(self, function);
+    ps_interpolation_error *const error = error_of(self, function);
     ps_neumaier sum = {0, 0};
     for (size_t j = 0; j < panorama->width; j++) {
         const double off = found[j] - f[j];
         ps_neumaier_add(&sum, off * off);
-        row->largest_error = fmax(row->largest_error, fabs(off));
+        error->largest_error = fmax(error->largest_error, fabs(off));
     }
     return ps_neumaier_value(&sum) * ps_panorama_share(panorama, line);
 }
@@ -237,7 +227,7 @@ static void compare_lines(const interpolant *self, size_t first, size_t num, ps_
         for (size_t line = 0; line < num; line++) {
             ps_neumaier_add(&squares[i], compare_line(self, i, first + line, found + line * width));
         }
-        if (job->images != NULL && job->num_realizations == 0) {
+        if (job->images != NULL && job->number == 0) {
             const size_t image = self->index * num_functions(self) + i;
             memcpy(job->images + (image * panorama->height + first) * width, found,
                    num * width * sizeof *found);
@@ -259,7 +249,7 @@ static pspec_status compare(const interpolant *self) {
         compare_lines(self, first, num, squares);
     }
     for (size_t i = 0; i < num_functions(self); i++) {
-        ps_sums_add(&row_of(self, i)->squares, ps_neumaier_value(&squares[i]));
+        error_of(self, i)->square = ps_neumaier_value(&squares[i]);
     }
     return PSPEC_OK;
 }
@@ -269,13 +259,13 @@ static pspec_status solve(const interpolant *self, ps_kernel_system *system) {
     for (size_t i = 0; i < num_functions(self); i++) {
         const double *const f = self->job->values + i * num;
         double *const alpha = self->job->alpha + i * num;
-        ps_interpolation_row *const row = row_of(self, i);
+        ps_interpolation_error *const own = error_of(self, i);
         PS_TRY(ps_kernel_system_solve(system, f, alpha, NULL, self->error));
         const ps_kernel_facts facts = ps_kernel_system_facts(system);
         const double square = ps_kernel_dot(num, f, alpha);
-        ps_sums_add(&row->norms, fmax(square, 0)); /* of 0, rounding may leave less */
-        row->condition = fmax(row->condition, facts.condition);
-        row->num_steps = facts.num_steps > row->num_steps ? facts.num_steps : row->num_steps;
+        own->norm = fmax(square, 0); /* of 0, rounding may leave less */
+        own->condition = facts.condition;
+        own->num_steps = facts.num_steps;
     }
     return PSPEC_OK;
 }
@@ -300,89 +290,12 @@ static pspec_status interpolate(const interpolant *self) {
     return compare(self);
 }
 
-static pspec_status use_set(ps_interpolation_job *job, ps_error *error) {
+pspec_status ps_interpolation_job_use_set(ps_interpolation_job *job, ps_error *error) {
     ps_point_set *const set = &job->sets.sets[0];
-    const bool is_first = job->num_realizations == 0;
-    const size_t bytes = num_rows(job->question) * sizeof *job->rows;
     PS_TRY(take_values(job, set, error));
-    memcpy(job->next_rows, job->rows, bytes);
     for (size_t s = 0; s < job->question->num_smoothness; s++) {
         const interpolant one = {job, set, s, error};
         PS_TRY(interpolate(&one));
     }
-    memcpy(job->rows, job->next_rows, bytes);
-    job->num_realizations++;
-    job->num_points += set->num_points;
-    if (is_first || set->num_points < job->smallest_points) {
-        job->smallest_points = set->num_points;
-    }
-    if (set->num_points > job->largest_points) {
-        job->largest_points = set->num_points;
-    }
     return PSPEC_OK;
-}
-
-/* ---- all of them --------------------------------------------------------------------------- */
-
-static pspec_status give(void *payload, uint64_t num_done, size_t *num, ps_error *error) {
-    ps_interpolation_job *const job = payload;
-    const ps_interpolation_question *const question = job->question;
-    PS_TRY(ps_watch_tell(&question->watch, "realizations", num_done,
-                         ps_interpolation_num_sets(question), NULL, error));
-    PS_TRY(ps_power_sets_fill(&job->sets, false, 1, num, error));
-    return *num > 0 ? use_set(job, error) : PSPEC_OK;
-}
-
-static pspec_status look(void *payload, ps_error *error) {
-    const ps_interpolation_job *const job = payload;
-    return ps_watch_tell(&job->question->watch, "sets passed over", 0, 0, NULL, error);
-}
-
-static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
-    ps_interpolation_job *const job = payload;
-    return ps_power_sets_skip(&job->sets, num, look, job, error);
-}
-
-static size_t num_images(const ps_interpolation_question *question) {
-    return question->keeps_images ? num_rows(question) : 0;
-}
-
-static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
-    ps_interpolation_job *const job = payload;
-    const ps_interpolation_question *const question = job->question;
-    uint64_t counts[] = {job->num_realizations, job->num_points, job->smallest_points,
-                         job->largest_points};
-    enum { REALIZATIONS, POINTS, SMALLEST, LARGEST, NUM };
-    PS_TRY(ps_snapshot_counts(snapshot, "sets", counts, NUM, error));
-    PS_TRY(ps_snapshot_bytes(snapshot, "rows", job->rows, num_rows(question) * sizeof *job->rows,
-                             error));
-    job->num_realizations = counts[REALIZATIONS];
-    job->num_points = counts[POINTS];
-    job->smallest_points = counts[SMALLEST];
-    job->largest_points = counts[LARGEST];
-    return ps_snapshot_doubles(snapshot, "images", job->images,
-                               num_images(question) * pixels_of(question), error);
-}
-
-pspec_status ps_interpolation_job_run(ps_interpolation_job *job, ps_error *error) {
-    const ps_interpolation_question *const question = job->question;
-    ps_set_loop loop = {.job = job,
-                        .give = give,
-                        .skip = skip,
-                        .walk = walk,
-                        .spec = &question->limits.checkpoint,
-                        .device = job->device};
-    PS_TRY(PS_NEW(&job->rows, 2 * num_rows(question), "errors", error));
-    job->next_rows = job->rows + num_rows(question);
-    if (num_images(question) > 0) {
-        PS_TRY(ps_allocate_for(&job->images, num_images(question),
-                               pixels_of(question) * sizeof(double), "images", error));
-    }
-    PS_TRY(ps_power_sets_allocate(&job->sets, 1, error));
-    return ps_set_loop_run(&loop, error);
-}
-
-const ps_interpolation_row *ps_interpolation_job_row(const ps_interpolation_job *job,
-                                                     size_t smoothness, size_t function) {
-    return &job->rows[smoothness * job->question->panorama->num + function];
 }

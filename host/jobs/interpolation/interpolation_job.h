@@ -47,6 +47,12 @@ typedef struct ps_interpolation_row {
     size_t num_steps;       /* of conjugate gradients; 0: a factor */
 } ps_interpolation_row;
 
+/* The same of one set, which rows are made of. */
+typedef struct ps_interpolation_error {
+    double square, norm, largest_error, residual, condition;
+    size_t num_steps;
+} ps_interpolation_error;
+
 typedef struct ps_interpolation_job {
     const ps_interpolation_question *question;
     ps_power_sets sets;
@@ -60,8 +66,9 @@ typedef struct ps_interpolation_job {
     size_t rows_of_block;
     uint64_t num_realizations;
     uint64_t num_points, smallest_points, largest_points; /* in all; of the smallest set, .. */
-    ps_interpolation_row *rows;      /* [num_smoothness][functions] of the sets that are done, */
-    ps_interpolation_row *next_rows; /* and the same with the one that is being done */
+    ps_interpolation_row *rows; /* [num_smoothness][functions] of the sets that are done, */
+    uint64_t number;            /* and of the set that is being done, which has that number */
+    ps_interpolation_error *errors;
     double *images; /* of the first set, [num_smoothness][functions][height][width]; NULL */
 } ps_interpolation_job;
 
@@ -75,6 +82,9 @@ void ps_interpolation_job_destroy(ps_interpolation_job *job); /* NULL is allowed
 /* Equal points of a set, and those that are so near that a kernel tells no difference, are
  * PSPEC_ERROR_INPUT with their numbers. */
 pspec_status ps_interpolation_job_run(ps_interpolation_job *job, ps_error *error) PS_MUST_CHECK;
+/* The part of it that is in interpolation_job.c: fills errors, which are 0 before, with those of
+ * sets.sets[0]. */
+pspec_status ps_interpolation_job_use_set(ps_interpolation_job *job, ps_error *error) PS_MUST_CHECK;
 /* Gives back what only realizations need; after run. */
 void ps_interpolation_job_release(ps_interpolation_job *job);
 

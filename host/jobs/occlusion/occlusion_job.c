@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "jobs/occlusion/rays.h"
-#include "jobs/set_loop.h"
+#include "jobs/rows/set_loop.h"
 #include "math/neumaier.h"
 #include "math/random/random.h"
 
@@ -22,6 +22,13 @@ typedef struct work {
     ps_sums pixels;   /* squares of the last realization */
     ps_neumaier seen, points;
 } work;
+
+/* Of a realization. */
+typedef struct set_row {
+    uint64_t num_points;
+    double seen;    /* sum of V over pixels */
+    ps_sums pixels; /* of squares of what they are off */
+} set_row;
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
@@ -85,11 +92,11 @@ static pspec_status open_source(work *self, ps_error *error) {
                                  error);
 }
 
-static pspec_status next_set(work *self, bool *has_set, ps_error *error) {
+static pspec_status next_set(work *self, uint64_t number, bool *has_set, ps_error *error) {
     PS_TRY(ps_source_next_whole(self->source, &self->set, has_set, error));
     const pspec_pattern pattern = {self->set.dimension, self->set.num_points, self->set.points,
                                    NULL};
-    ps_pattern_count count = {.realization = self->result->num_realizations, .on_sphere = true};
+    ps_pattern_count count = {.realization = number, .on_sphere = true};
     return *has_set && self->question->sampler == NULL
                ? ps_pattern_count_add(&count, &pattern, error)
                : PSPEC_OK;
@@ -111,68 +118,73 @@ static pspec_status make_room(work *self, ps_error *error) {
 
 /* ---- one realization ------------------------------------------------------------------------ */
 
-static void compare(work *self) {
+/* Keeps the image of the first set. */
+static void compare(work *self, uint64_t number, set_row *row) {
     const ps_reference *const reference = self->question->reference;
-    ps_occlusion_result *const result = self->result;
     const size_t num_pixels = self->question->view->num_pixels;
     const double share = (is_folded(self->question) ? 1.0 : 2.0) / (double)self->set.num_points;
-    double mean = 0;
-    double unused = 0;
-    self->pixels = (ps_sums){0};
+    ps_neumaier sum = {0, 0};
     for (size_t i = 0; i < num_pixels; i++) {
         const double seen = share * self->counts[i];
         const double off = seen - reference->seen[i];
-        ps_sums_add(&self->pixels, off * off);
-        ps_neumaier_add(&self->seen, seen);
-        if (result->num_realizations == 0) {
-            result->seen[i] = seen;
+        ps_sums_add(&row->pixels, off * off);
+        ps_neumaier_add(&sum, seen);
+        if (number == 0) {
+            self->result->seen[i] = seen;
         }
     }
-    ps_sums_finish(&self->pixels, num_pixels, &mean, &unused);
-    ps_sums_add(&self->squares, mean);
+    row->seen = ps_neumaier_value(&sum);
 }
 
-static void note_points(work *self) {
-    ps_occlusion_result *const result = self->result;
-    const uint64_t num = self->set.num_points;
-    const bool is_first = result->num_realizations == 0;
-    result->smallest_points =
-        is_first || num < result->smallest_points ? num : result->smallest_points;
-    result->largest_points = num > result->largest_points ? num : result->largest_points;
-    ps_neumaier_add(&self->points, (double)num);
-}
-
-static pspec_status add_set(work *self, ps_error *error) {
+static pspec_status make_row(work *self, uint64_t number, set_row *row, ps_error *error) {
     const ps_occlusion_question *const question = self->question;
     const ps_ray_set set = {.points = self->set.points,
                             .num = self->set.num_points,
                             .is_folded = is_folded(question),
                             .seed = self->seed,
-                            .number = self->result->num_realizations};
+                            .number = number};
+    *row = (set_row){.num_points = self->set.num_points};
     PS_TRY(make_room(self, error));
     PS_TRY(ps_rays_count(self->rays, &set, self->counts, question->watch, error));
-    compare(self);
-    note_points(self);
-    self->result->num_realizations++;
+    compare(self, number, row);
     return PSPEC_OK;
 }
 
 /* ---- all of them ---------------------------------------------------------------------------- */
 
-static pspec_status give(void *payload, uint64_t num_done, size_t *num, ps_error *error) {
+static pspec_status make(void *payload, uint64_t first, size_t most, void *rows, size_t *num,
+                         ps_error *error) {
     work *const self = payload;
     const ps_occlusion_question *const question = self->question;
     const uint64_t total = question->sampler != NULL ? question->num_realizations : 0;
-    bool has_set = total == 0 || num_done < total;
-    PS_TRY(ps_watch_tell(question->watch, "realizations", num_done, total, NULL, error));
-    PS_TRY(has_set ? next_set(self, &has_set, error) : PSPEC_OK);
+    bool has_set = most > 0 && (total == 0 || first < total);
+    PS_TRY(ps_watch_tell(question->watch, "realizations", first, total, NULL, error));
+    PS_TRY(has_set ? next_set(self, first, &has_set, error) : PSPEC_OK);
     *num = has_set ? 1 : 0;
-    return has_set ? add_set(self, error) : PSPEC_OK;
+    return has_set ? make_row(self, first, rows, error) : PSPEC_OK;
 }
 
-static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+static void take(void *payload, uint64_t number, const void *row) {
+    work *const self = payload;
+    const set_row *const set = row;
+    ps_occlusion_result *const result = self->result;
+    const uint64_t num = set->num_points;
+    double mean = 0;
+    double unused = 0;
+    ps_sums_finish(&set->pixels, self->question->view->num_pixels, &mean, &unused);
+    ps_sums_add(&self->squares, mean);
+    self->pixels = set->pixels;
+    ps_neumaier_add(&self->seen, set->seen);
+    ps_neumaier_add(&self->points, (double)num);
+    result->smallest_points =
+        number == 0 || num < result->smallest_points ? num : result->smallest_points;
+    result->largest_points = num > result->largest_points ? num : result->largest_points;
+    result->num_realizations++;
+}
+
+static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error *error) {
     const work *const self = payload;
-    return ps_source_pass(self->source, num, self->question->watch, error);
+    return ps_source_pass(self->source, num, self->question->watch, passed, error);
 }
 
 static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
@@ -194,12 +206,18 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
 }
 
 static pspec_status add_all(work *self, ps_error *error) {
-    ps_set_loop loop = {.job = self,
-                        .give = give,
-                        .skip = skip,
-                        .walk = walk,
-                        .spec = &self->question->checkpoint,
-                        .device = self->question->device};
+    const ps_occlusion_question *const question = self->question;
+    ps_set_loop loop = {
+        .stream = {.job = self,
+                   .make = make,
+                   .pass = pass,
+                   .row_bytes = sizeof(set_row),
+                   .batch = 1,
+                   .total = question->sampler != NULL ? question->num_realizations : 0,
+                   .device = question->device},
+        .take = take,
+        .walk = walk,
+        .spec = &question->checkpoint};
     PS_TRY(ps_set_loop_run(&loop, error));
     return self->result->num_realizations > 0
                ? PSPEC_OK

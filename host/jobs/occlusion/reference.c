@@ -1,7 +1,7 @@
 #include "base/memory.h"
 #include "jobs/occlusion/occlusion_job.h"
 #include "jobs/occlusion/rays.h"
-#include "jobs/set_loop.h"
+#include "jobs/rows/set_loop.h"
 #include "math/lift.h"
 #include "math/neumaier.h"
 #include "math/random/random.h"
@@ -22,14 +22,6 @@ static void make_points(double *points, size_t n, uint64_t seed, uint64_t set) {
         const double turns = ((double)(j % n) + ps_random_uniform(&random)) / (double)n;
         ps_sphere_point_portable(ps_height_of_area(true, height), ps_turns_of(turns),
                                  points + 3 * j);
-    }
-}
-
-static void add(pixel_sums *sums, const uint32_t *counts, size_t num_pixels, size_t num_points) {
-    for (size_t i = 0; i < num_pixels; i++) {
-        const double seen = counts[i] / (double)num_points;
-        sums[i].sum += seen;
-        sums[i].square += seen * seen;
     }
 }
 
@@ -63,25 +55,35 @@ typedef struct work {
     uint64_t seed;
     ps_rays *rays;
     double *points;   /* [n^2][3] */
-    uint32_t *counts; /* [num_pixels] */
     pixel_sums *sums; /* [num_pixels] */
 } work;
 
-static pspec_status give(void *payload, uint64_t num_done, size_t *num, ps_error *error) {
+/* A row has the rays of every pixel that see nothing. */
+static pspec_status make(void *payload, uint64_t first, size_t most, void *rows, size_t *num,
+                         ps_error *error) {
     work *const self = payload;
     const ps_ray_set set = {.points = self->points,
                             .num = self->n * self->n,
                             .is_folded = true,
                             .seed = self->seed,
-                            .number = num_done};
-    *num = num_done < PS_REFERENCE_SETS ? 1 : 0;
+                            .number = first};
+    *num = most > 0 && first < PS_REFERENCE_SETS ? 1 : 0;
     if (*num == 0) {
         return PSPEC_OK;
     }
-    make_points(self->points, self->n, self->seed, num_done);
-    PS_TRY(ps_rays_count(self->rays, &set, self->counts, self->watch, error));
-    add(self->sums, self->counts, self->view->num_pixels, set.num);
-    return PSPEC_OK;
+    make_points(self->points, self->n, self->seed, first);
+    return ps_rays_count(self->rays, &set, rows, self->watch, error);
+}
+
+static void take(void *payload, uint64_t number, const void *row) {
+    work *const self = payload;
+    const uint32_t *const counts = row;
+    (void)number;
+    for (size_t i = 0; i < self->view->num_pixels; i++) {
+        const double seen = counts[i] / (double)(self->n * self->n);
+        self->sums[i].sum += seen;
+        self->sums[i].square += seen * seen;
+    }
 }
 
 static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
@@ -94,11 +96,17 @@ static pspec_status shoot(work *self, ps_reference *out, ps_device *device,
                           const ps_checkpoint_spec *checkpoint, ps_error *error) {
     const size_t num_pixels = self->view->num_pixels;
     const size_t num_points = self->n * self->n;
-    ps_set_loop loop = {
-        .job = self, .give = give, .walk = walk, .spec = checkpoint, .device = device};
+    ps_set_loop loop = {.stream = {.job = self,
+                                   .make = make,
+                                   .row_bytes = num_pixels * sizeof(uint32_t),
+                                   .batch = 1,
+                                   .total = PS_REFERENCE_SETS,
+                                   .device = device},
+                        .take = take,
+                        .walk = walk,
+                        .spec = checkpoint};
     PS_TRY(PS_NEW(&out->seen, num_pixels, "pixels", error));
     PS_TRY(PS_NEW(&self->points, 3 * num_points, "points", error));
-    PS_TRY(PS_NEW(&self->counts, num_pixels, "counts of rays", error));
     PS_TRY(PS_NEW(&self->sums, num_pixels, "sums of rays", error));
     PS_TRY(ps_rays_create(&self->rays, self->view, num_points, device, error));
     PS_TRY(ps_set_loop_run(&loop, error));
@@ -126,7 +134,6 @@ pspec_status ps_reference_make(ps_reference *out, const ps_view *view, uint64_t 
     const pspec_status status = shoot(&self, out, device, checkpoint, error);
     ps_rays_destroy(self.rays);
     free(self.points);
-    free(self.counts);
     free(self.sums);
     return status;
 }

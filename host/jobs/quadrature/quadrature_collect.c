@@ -46,7 +46,6 @@ static pspec_status check_forms(const ps_quadrature_job *job, ps_error *error) {
 
 pspec_status ps_quadrature_collect(ps_quadrature_job *job, ps_error *error) {
     collect_means(job);
-    job->result.facts = job->rules.facts;
     ps_estimator_describe(job->runner.estimator, &job->description);
     PS_TRY(ps_text_check(&job->description, error));
     return check_forms(job, error);

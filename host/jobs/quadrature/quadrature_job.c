@@ -8,75 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- one rule ------------------------------------------------------------------------------ */
-
-static void add_degrees(ps_quadrature_job *job) {
-    for (size_t l = 0; l <= job->setup.max_degree; l++) {
-        const ps_degree_error *const degree = &job->degrees[l];
-        ps_sums_add(&job->sums[PS_RULE_SUMS * l + PS_RULE_D2], degree->d2);
-        ps_sums_add(&job->sums[PS_RULE_SUMS * l + PS_RULE_C2], degree->c2);
-        ps_sums_add(&job->sums[PS_RULE_SUMS * l + PS_RULE_E2], degree->e2);
-    }
-}
-
-/* The next rule of the batch, whose spectrum is c_l0 and c2. */
-static pspec_status take_rule(ps_quadrature_job *job, const double *c_l0, const double *c2,
-                              ps_error *error) {
-    ps_quadrature_result *const out = &job->result;
-    ps_rule_sums *const sums = &job->of_rules;
-    const ps_rule_observer *const observer = &job->question->observer;
-    const size_t r = job->num_told++;
-    const ps_weighted_rule *const rule = &job->rules.batch[r];
-    ps_spectral_error spectral;
-    PS_TRY(ps_spectral_error_of(&job->setup.representer, job->setup.max_degree, c_l0, c2,
-                                &rule->weight, job->degrees, &spectral, error));
-    PS_TRY(observer->hear == NULL ? PSPEC_OK
-                                  : observer->hear(observer->payload, out->num_realizations,
-                                                   &job->rules.sets.patterns[r], job->degrees,
-                                                   job->setup.max_degree, error));
-    ps_rules_add_facts(&job->rules, r);
-    const uint64_t num = ++out->num_realizations;
-    add_degrees(job);
-    ps_sums_add(&sums->squared, rule->kernel.squared);
-    ps_sums_add(&sums->zonal, spectral.zonal);
-    ps_sums_add(&sums->anisotropic, spectral.anisotropic);
-    ps_sums_add(&sums->tail, rule->kernel.squared - spectral.zonal - spectral.anisotropic);
-    ps_sums_add(&sums->weight_sum, rule->weight.sum);
-    out->tail_model += (spectral.tail_model - out->tail_model) / (double)num;
-    out->tail_bound += (spectral.tail_bound - out->tail_bound) / (double)num;
-    out->numerical_bound = fmax(out->numerical_bound, rule->kernel.bound);
-    out->weight_size = fmax(out->weight_size, rule->weight.size);
-    return PSPEC_OK;
-}
-
-/* From sums over pairs. */
-static void hear(void *payload, const double *zonal, const double *c2) {
-    ps_quadrature_job *const job = payload;
-    for (size_t l = 0; l <= job->setup.max_degree; l++) {
-        job->c_l0[l] = sqrt((2 * (double)l + 1) / PS_FOUR_PI) * zonal[l];
-    }
-    if (job->told_status == PSPEC_OK) {
-        job->told_status = take_rule(job, job->c_l0, c2, job->error);
-    }
-}
-
-/* From coefficients. */
-static pspec_status sum_coefficients(ps_quadrature_job *job, const pspec_pattern *pattern,
-                                     ps_error *error) {
-    const size_t last = job->setup.max_degree;
-    PS_TRY(ps_estimator_coefficients(job->runner.estimator, pattern, PS_SPHERICAL_HARMONICS,
-                                     job->coefficients, error));
-    for (size_t l = 0; l <= last; l++) {
-        job->c_l0[l] = job->coefficients[2 * l];
-        job->c2[l] = 0;
-        for (size_t m = 1; m <= l; m++) {
-            const double *const c = job->coefficients + 2 * (m * (2 * last + 1 - m) / 2 + l);
-            job->c2[l] += 2 * (c[0] * c[0] + c[1] * c[1]);
-        }
-    }
-    return take_rule(job, job->c_l0, job->c2, error);
-}
-
 /* ---- what the runner asks ------------------------------------------------------------------ */
 
 static pspec_status tell(void *payload, ps_error *error) {
@@ -102,9 +33,42 @@ static ps_estimator_options choose_options(void *payload) {
                                   .normalization = by_pairs ? PSPEC_NORMALIZATION_PAIRS
                                                             : PSPEC_NORMALIZATION_EFFECTIVE,
                                   .want_c2 = by_pairs,
-                                  .observer = {hear, payload},
+                                  .observer = {ps_quadrature_hear, payload},
                                   .should_stop = should_stop,
                                   .payload = payload};
+}
+
+static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error *error) {
+    ps_quadrature_job *const job = payload;
+    ps_passed_sets sets = {0};
+    PS_TRY(ps_power_sets_skip(&job->rules.sets, num, tell, job, &sets, error));
+    job->rules.num_read += sets.num;
+    *passed = sets.num;
+    return sets.longest > 0 ? ps_estimator_expect(job->runner.estimator, sets.longest, error)
+                            : PSPEC_OK;
+}
+
+/* What decides on another plan is the largest of all rules, whoever has summed them. */
+enum { LARGEST_POWER, LARGEST_SHARE, LARGEST_LENGTH_ERROR, LARGEST_POINTS, NUM_LARGEST };
+
+static pspec_status measure(void *payload, double *numbers, ps_error *error) {
+    const ps_quadrature_job *const job = payload;
+    PS_TRY(ps_estimator_settle(job->runner.estimator, error));
+    const ps_accuracy accuracy = ps_estimator_accuracy(job->runner.estimator);
+    numbers[LARGEST_POWER] = accuracy.largest_mean_power;
+    numbers[LARGEST_SHARE] = accuracy.largest_share;
+    numbers[LARGEST_LENGTH_ERROR] = accuracy.length_error;
+    numbers[LARGEST_POINTS] = (double)accuracy.largest_points;
+    return PSPEC_OK;
+}
+
+static void take_largest(void *payload, const double *numbers) {
+    const ps_quadrature_job *const job = payload;
+    const ps_accuracy others = {.largest_mean_power = numbers[LARGEST_POWER],
+                                .largest_share = numbers[LARGEST_SHARE],
+                                .length_error = numbers[LARGEST_LENGTH_ERROR],
+                                .largest_points = (uint64_t)numbers[LARGEST_POINTS]};
+    ps_estimator_join_accuracy(job->runner.estimator, &others);
 }
 
 /* Sets of a batch are in memory all at once; and a checkpoint comes between two batches, of which
@@ -121,55 +85,51 @@ static size_t choose_batch(const ps_quadrature_job *job) {
     return (double)batch < fit ? batch : (size_t)fit;
 }
 
+/* Members of a team have rows of all rules; a rule alone is done by each. */
+static pspec_status begin_rows(ps_quadrature_job *job, ps_error *error) {
+    const ps_quadrature_setup *const setup = &job->setup;
+    const bool is_alone = setup->num_realizations == 1;
+    ps_row_stream *const stream = &job->stream;
+    ps_row_stream_free(stream);
+    *stream = (ps_row_stream){.job = job,
+                              .make = ps_quadrature_make_rows,
+                              .pass = pass,
+                              .row_bytes = ps_quadrature_row_bytes(job),
+                              .batch = job->rules.capacity,
+                              .total = setup->num_realizations,
+                              .team = is_alone ? NULL : job->question->limits.checkpoint.team,
+                              .device = setup->device};
+    if (setup->by_pairs) {
+        stream->measure = measure;
+        stream->take_largest = take_largest;
+        stream->num_largest = NUM_LARGEST;
+    }
+    return ps_row_stream_begin(stream, 0, error);
+}
+
 /* Nothing is averaged yet. */
 static pspec_status begin(void *payload, ps_error *error) {
     ps_quadrature_job *const job = payload;
     ps_quadrature_degree *const degrees = job->result.degrees;
     free(job->result.weights);
+    job->num_summed = 0;
     job->result = (ps_quadrature_result){.degrees = degrees};
     job->of_rules = (ps_rule_sums){0};
     if (job->question->observer.begin != NULL) {
         job->question->observer.begin(job->question->observer.payload, job);
     }
     memset(job->sums, 0, PS_RULE_SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
-    return ps_rules_allocate(&job->rules, choose_batch(job), error);
-}
-
-static pspec_status sum_batch(ps_quadrature_job *job, ps_error *error) {
-    job->num_told = 0;
-    if (job->setup.by_pairs) {
-        job->error = error;
-        PS_TRY(ps_estimator_add(job->runner.estimator, job->rules.sets.patterns, job->rules.num,
-                                error));
-        return job->told_status;
-    }
-    for (size_t r = 0; r < job->rules.num; r++) {
-        PS_TRY(sum_coefficients(job, &job->rules.sets.patterns[r], error));
-    }
-    return PSPEC_OK;
-}
-
-/* Of the points as they were given: those that were dropped have none. */
-static pspec_status keep_weights(ps_quadrature_job *job, ps_error *error) {
-    const ps_rules *const rules = &job->rules;
-    const ps_weighted_rule *const rule = &rules->batch[0];
-    if (!job->question->keeps_weights) {
-        return PSPEC_OK;
-    }
-    PS_TRY(PS_NEW(&job->result.weights, rules->num_given, "weights", error));
-    job->result.num_weights = rules->num_given;
-    for (size_t j = 0; j < rules->sets.sets[0].num_points; j++) {
-        job->result.weights[rules->places[j]] = rule->weights[j];
-    }
-    return PSPEC_OK;
+    PS_TRY(ps_rules_allocate(&job->rules, choose_batch(job), error));
+    return begin_rows(job, error);
 }
 
 static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    PS_TRY(ps_rules_next(&job->rules, &job->setup.representer, most, error));
-    *num = job->rules.num;
-    PS_TRY(*num > 0 ? keep_weights(job, error) : PSPEC_OK);
-    return *num > 0 ? sum_batch(job, error) : PSPEC_OK;
+    PS_TRY(ps_row_stream_next(&job->stream, most, num, error));
+    for (size_t i = 0; i < *num; i++) {
+        ps_quadrature_take_row(job, ps_row_stream_row(&job->stream, i));
+    }
+    return PSPEC_OK;
 }
 
 /* e_l^2 matters where it is above the tolerance, and so does E^2. */
@@ -197,8 +157,8 @@ static pspec_status rewind_rules(void *payload, ps_error *error) {
 
 static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
     ps_quadrature_job *const job = payload;
-    job->rules.num_read = num;
-    return ps_power_sets_skip(&job->rules.sets, num, tell, job, error);
+    job->num_summed = ps_estimator_num_realizations(job->runner.estimator);
+    return ps_row_stream_begin(&job->stream, num, error);
 }
 
 /* Numbers of the result, as far as they are not made of the sums. */
@@ -221,14 +181,15 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
     PS_TRY(job->question->observer.walk != NULL
                ? job->question->observer.walk(job->question->observer.payload, snapshot, error)
                : PSPEC_OK);
-    return ps_rules_walk(&job->rules, snapshot, error);
+    return ps_rule_facts_walk(&job->result.facts, snapshot, error);
 }
 
 /* Sums over pairs are those of a batch, whose rules may not all have been heard of. */
 static bool count(void *payload, uint64_t *num) {
     const ps_quadrature_job *const job = payload;
     *num = job->result.num_realizations;
-    return !job->setup.by_pairs || *num == ps_estimator_num_realizations(job->runner.estimator);
+    return !job->setup.by_pairs ||
+           job->num_summed == ps_estimator_num_realizations(job->runner.estimator);
 }
 
 static const ps_runner_kind kind = {.plan = plan_again,
@@ -255,7 +216,6 @@ static pspec_status allocate(ps_quadrature_job *job, ps_error *error) {
     job->c_l0 = job->coefficients + num_coefficients;
     job->c2 = job->c_l0 + num;
     job->sums = (ps_sums *)(void *)(job->c2 + num);
-    PS_TRY(PS_NEW(&job->degrees, num, "degrees", error));
     return PS_NEW(&job->result.degrees, num, "degrees", error);
 }
 
@@ -329,11 +289,10 @@ pspec_status ps_quadrature_job_run(ps_quadrature_job *job, ps_error *error) {
 
 void ps_quadrature_job_release(ps_quadrature_job *job) {
     ps_runner_free(&job->runner);
+    ps_row_stream_free(&job->stream);
     ps_rules_free(&job->rules);
     free(job->block);
-    free(job->degrees);
     job->block = NULL;
-    job->degrees = NULL;
 }
 
 void ps_quadrature_job_destroy(ps_quadrature_job *job) {

@@ -6,6 +6,7 @@
 #define PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 
 #include "jobs/quadrature/quadrature_rules.h"
+#include "jobs/rows/row_stream.h"
 #include "jobs/runner.h"
 #include "spectra/sums.h"
 
@@ -59,10 +60,13 @@ struct ps_quadrature_job {
     double *coefficients; /* [ps_num_coefficients(L)], unless sums are over pairs */
     double *c_l0, *c2;    /* [L + 1] */
     ps_sums *sums;        /* [L + 1][PS_RULE_SUMS] */
-    ps_degree_error *degrees;
+    ps_row_stream stream; /* of rules */
+    char *rows;           /* those of the batch, of which the first has the number */
+    uint64_t first;
     size_t num_told; /* rules of the batch whose spectrum is there */
     pspec_status told_status;
-    ps_error *error; /* of what is told */
+    ps_error *error;     /* of what is told */
+    uint64_t num_summed; /* that the estimator has had, whole batches */
     ps_rule_sums of_rules;
 };
 
@@ -80,6 +84,16 @@ pspec_status ps_quadrature_job_rate(ps_quadrature_job *job, ps_error *error) PS_
 pspec_status ps_quadrature_job_run(ps_quadrature_job *job, ps_error *error) PS_MUST_CHECK;
 /* Gives the memory back that only realizations need; after run. */
 void ps_quadrature_job_release(ps_quadrature_job *job);
+
+/* ---- rows of rules (quadrature_rows.c) ------------------------------------------------------- */
+
+size_t ps_quadrature_row_bytes(const ps_quadrature_job *job);
+/* As the row stream and the estimator call them, of a job. */
+pspec_status ps_quadrature_make_rows(void *payload, uint64_t first, size_t most, void *rows,
+                                     size_t *num, ps_error *error) PS_MUST_CHECK;
+void ps_quadrature_hear(void *payload, const double *zonal, const double *c2);
+/* The next row of all. */
+void ps_quadrature_take_row(ps_quadrature_job *job, const void *rule);
 
 /* ---- the parts of it that are in quadrature_collect.c ---------------------------------------- */
 

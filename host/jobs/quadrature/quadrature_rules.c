@@ -83,7 +83,6 @@ void ps_rules_free(ps_rules *rules) {
 
 pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) {
     rules->num_read = 0;
-    rules->facts = (ps_rule_facts){0};
     return ps_power_sets_rewind(&rules->sets, error);
 }
 

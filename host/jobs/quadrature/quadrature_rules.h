@@ -38,7 +38,6 @@ typedef struct ps_rules {
     uint64_t num_read, most; /* rules; others are left unread */
     size_t *places;   /* [num_given] of the points of the only rule that are kept, where its */
     size_t num_given; /* weights are, too: points that it was given with */
-    ps_rule_facts facts;
 } ps_rules;
 
 /* {.question}: opens the source and says what is known of the rules. Freed by ps_rules_free, also
@@ -51,11 +50,12 @@ pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error
  * the last. */
 pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
-/* Rule r of the batch counts for the result. */
-void ps_rules_add_facts(ps_rules *rules, size_t r);
-/* What is there for the result, to a checkpoint or from one. */
-pspec_status ps_rules_walk(ps_rules *rules, ps_snapshot *snapshot, ps_error *error) PS_MUST_CHECK;
-/* Back to the first rule; what is there for the result is forgotten. */
+/* Adds those of a rule to those of the rules before; {0} before the first. */
+void ps_rule_facts_join(ps_rule_facts *facts, const ps_rule_facts *rule);
+/* To a checkpoint or from one. */
+pspec_status ps_rule_facts_walk(ps_rule_facts *facts, ps_snapshot *snapshot,
+                                ps_error *error) PS_MUST_CHECK;
+/* Back to the first rule. */
 pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -14,13 +14,19 @@
 
 typedef struct ps_quadrature_job ps_quadrature_job;
 
-/* Who hears of every rule of a job, in the order of realizations; {0}: nobody. */
+/* Who hears of rules of a job, and takes what it made of each in the order of realizations; {0}:
+ * nobody. */
 typedef struct ps_rule_observer {
     /* All that was heard is void: it comes again. */
     void (*begin)(void *payload, const ps_quadrature_job *job);
-    /* Number `rule` from 0, its points and weights, and its d_l^2 and C_l^2, [max_degree + 1]. */
+    /* Number `rule` from 0, its points and weights, and its d_l^2 and C_l^2, [max_degree + 1]:
+     * fills row[row_bytes], a multiple of 8. */
     pspec_status (*hear)(void *payload, uint64_t rule, const pspec_pattern *pattern,
-                         const ps_degree_error *degrees, size_t max_degree, ps_error *error);
+                         const ps_degree_error *degrees, size_t max_degree, void *row,
+                         ps_error *error);
+    /* The row of the next rule, which another member of a team may have made. */
+    void (*take)(void *payload, const void *row);
+    size_t row_bytes;
     /* What it has of those that it heard of, to a checkpoint or from one; NULL: nothing */
     ps_snapshot_walk *walk;
     /* That was the last; devices of the job are closed after it. */

@@ -11,9 +11,7 @@ static uint64_t greatest(uint64_t a, uint64_t b) {
     return a > b ? a : b;
 }
 
-void ps_rules_add_facts(ps_rules *rules, size_t r) {
-    ps_rule_facts *const facts = &rules->facts;
-    const ps_rule_facts *const rule = &rules->batch[r].facts;
+void ps_rule_facts_join(ps_rule_facts *facts, const ps_rule_facts *rule) {
     const bool is_first = facts->num_points == 0;
     facts->num_points += rule->num_points;
     facts->smallest_points =
@@ -28,8 +26,7 @@ void ps_rules_add_facts(ps_rules *rules, size_t r) {
     facts->largest_residual = fmax(facts->largest_residual, rule->largest_residual);
 }
 
-pspec_status ps_rules_walk(ps_rules *rules, ps_snapshot *snapshot, ps_error *error) {
-    ps_rule_facts *const facts = &rules->facts;
+pspec_status ps_rule_facts_walk(ps_rule_facts *facts, ps_snapshot *snapshot, ps_error *error) {
     double *const numbers[] = {&facts->largest_condition, &facts->largest_residual};
     enum { POINTS, SMALLEST, LARGEST, DROPPED, DUPLICATES, ILL, MATRICES, STEPS, NUM };
     uint64_t counts[NUM] = {facts->num_points,   facts->smallest_points, facts->largest_points,

@@ -52,6 +52,12 @@ static pspec_status make_room(ps_shade_job *self, size_t num_points, ps_error *e
     return ps_trials_create(&self->trials, self->light->integrand, &options, device, error);
 }
 
+/* Means of squares of a rule; the sums over its orientations count where there is one rule. */
+typedef struct rule_row {
+    double square, prediction, beyond;
+    ps_sums orientations;
+} rule_row;
+
 /* Squares of the errors of some orientations; those behind the last are there, and not counted. */
 static pspec_status measure_some(ps_shade_job *self, const pspec_pattern *pattern,
                                  double weight_sum, ps_random *random, size_t num, ps_sums *squares,
@@ -72,11 +78,10 @@ static pspec_status measure_some(ps_shade_job *self, const pspec_pattern *patter
 }
 
 static pspec_status measure(ps_shade_job *self, uint64_t rule, const pspec_pattern *pattern,
-                            double weight_sum, ps_error *error) {
+                            double weight_sum, rule_row *row, ps_error *error) {
     const uint64_t num = self->num_orientations;
     ps_random random = ps_random_init(self->seed, PS_STREAM_TRIALS, rule);
-    ps_sums squares = {0};
-    ps_mean mean;
+    double unused = 0;
     PS_TRY(make_room(self, pattern->num_points, error));
     for (uint64_t done = 0; done < num; done += self->trials_of_call) {
         const uint64_t left = num - done;
@@ -84,39 +89,47 @@ static pspec_status measure(ps_shade_job *self, uint64_t rule, const pspec_patte
             ps_watch_tell(&self->rules->question->watch, "orientations", done, num, NULL, error));
         PS_TRY(measure_some(self, pattern, weight_sum, &random,
                             left < self->trials_of_call ? (size_t)left : self->trials_of_call,
-                            &squares, error));
+                            &row->orientations, error));
     }
-    ps_sums_finish(&squares, num, &mean.mean, &mean.standard_error);
-    self->orientations = squares;
-    ps_sums_add(&self->squares, mean.mean);
+    ps_sums_finish(&row->orientations, num, &row->square, &unused);
     return PSPEC_OK;
 }
 
 /* (Q5) up to the degrees that both have; beyond, V/(4 pi) of the energy. */
-static void predict(ps_shade_job *self, const ps_degree_error *degrees, size_t max_degree,
-                    double weight_square) {
-    const ps_light *const light = self->light;
+static void predict(const ps_light *light, const ps_degree_error *degrees, size_t max_degree,
+                    double weight_square, rule_row *row) {
     const size_t last = max_degree < light->max_degree ? max_degree : light->max_degree;
     double sum = 0;
     for (size_t l = 0; l <= last; l++) {
         sum += light->powers[l] * (degrees[l].d2 + degrees[l].c2);
     }
-    const double beyond = weight_square / PS_FOUR_PI * ps_light_beyond(light, last);
-    ps_sums_add(&self->predictions, sum + beyond);
-    ps_sums_add(&self->parts_beyond, beyond);
+    row->beyond = weight_square / PS_FOUR_PI * ps_light_beyond(light, last);
+    row->prediction = sum + row->beyond;
 }
 
 static pspec_status hear(void *payload, uint64_t rule, const pspec_pattern *pattern,
-                         const ps_degree_error *degrees, size_t max_degree, ps_error *error) {
+                         const ps_degree_error *degrees, size_t max_degree, void *row,
+                         ps_error *error) {
     ps_shade_job *const self = payload;
+    rule_row *const own = row;
     const ps_rule view = {pattern->num_points, pattern->points, pattern->weights};
     const ps_weight_sums weights = ps_rule_weight_sums(&view);
+    *own = (rule_row){0};
+    predict(self->light, degrees, max_degree, weights.square, own);
+    return self->num_orientations > 0 ? measure(self, rule, pattern, weights.sum, own, error)
+                                      : PSPEC_OK;
+}
+
+static void take(void *payload, const void *row) {
+    ps_shade_job *const self = payload;
+    const rule_row *const own = row;
     if (self->num_orientations > 0) {
-        PS_TRY(measure(self, rule, pattern, weights.sum, error));
+        ps_sums_add(&self->squares, own->square);
+        self->orientations = own->orientations;
     }
-    predict(self, degrees, max_degree, weights.square);
+    ps_sums_add(&self->predictions, own->prediction);
+    ps_sums_add(&self->parts_beyond, own->beyond);
     self->num_rules++;
-    return PSPEC_OK;
 }
 
 static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
@@ -201,7 +214,8 @@ pspec_status ps_shade_job_make(ps_shade_job *out, const ps_light *light, uint64_
                           .wanted_orientations = num_orientations,
                           .seed = ps_random_seed_of(seed, PS_STREAM_TRIALS, ps_text_string(&text))};
     rules->batch = choose_batch(light, num_orientations, rules->sampler);
-    rules->observer = (ps_rule_observer){begin, hear, walk, end, add_phases, out};
+    rules->observer =
+        (ps_rule_observer){begin, hear, take, sizeof(rule_row), walk, end, add_phases, out};
     ps_text_free(&text);
     return status;
 }

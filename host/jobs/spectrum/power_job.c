@@ -213,9 +213,11 @@ static pspec_status rewind_sets(void *payload, ps_error *error) {
 /* What the device makes depends on the number of a realization, which the estimator counts. */
 static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
     ps_power_job *const job = payload;
-    return ps_power_job_leaves_points(job)
-               ? PSPEC_OK
-               : ps_power_sets_skip(&job->sets, num, ps_power_job_tell, job, error);
+    ps_passed_sets passed = {.num = num};
+    if (!ps_power_job_leaves_points(job)) {
+        PS_TRY(ps_power_sets_skip(&job->sets, num, ps_power_job_tell, job, &passed, error));
+    }
+    return ps_checkpoint_check_sets(passed.num, num, error);
 }
 
 /* There is nothing else that they change. */

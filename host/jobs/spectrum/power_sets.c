@@ -218,18 +218,15 @@ pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num, ps_look_at_se
 }
 
 pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_look_at_sets *look,
-                                void *payload, ps_error *error) {
+                                void *payload, ps_passed_sets *passed, ps_error *error) {
     const uint64_t kept = sets->keeps_first && num > 0 ? 1 : 0;
-    ps_passed_sets first = {0};
     ps_passed_sets rest = {0};
-    PS_TRY(ps_power_sets_pass(sets, kept, look, payload, &first, error));
+    PS_TRY(ps_power_sets_pass(sets, kept, look, payload, passed, error));
     const uint64_t skipped = ps_source_skip(sets->source, num - kept);
     PS_TRY(ps_power_sets_pass(sets, num - kept - skipped, look, payload, &rest, error));
-    return first.num + skipped + rest.num == num
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "there are fewer sets than the %llu that the checkpoint has",
-                         (unsigned long long)num);
+    passed->num += skipped + rest.num;
+    passed->longest = rest.longest > passed->longest ? rest.longest : passed->longest;
+    return PSPEC_OK;
 }
 
 /* ---- sets in blocks ---------------------------------------------------------------------- */

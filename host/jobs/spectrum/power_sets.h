@@ -95,10 +95,11 @@ pspec_status ps_power_sets_pass(ps_power_sets *sets, uint64_t num, ps_look_at_se
  * such a one, for ps_power_sets_stream; where has_next is false, there are no more. */
 pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
-/* The same of exactly so many, of which a sampler makes none but the first where it is kept.
- * PSPEC_ERROR_INPUT where there are fewer. */
+/* Passes over the next sets, num at most, of which a sampler makes none but the first where it is
+ * kept. */
 pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_look_at_sets *look,
-                                void *payload, ps_error *error) PS_MUST_CHECK;
+                                void *payload, ps_passed_sets *passed,
+                                ps_error *error) PS_MUST_CHECK;
 /* Gives the estimator the next set in blocks. */
 pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
                                   pspec_normalization normalization, ps_error *error) PS_MUST_CHECK;

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/round.h"
-#include "jobs/set_loop.h"
+#include "jobs/rows/set_loop.h"
 #include "jobs/variance/variance_sets.h"
 #include "math/random/rotation.h"
 #include "spectra/sums.h"
@@ -27,8 +27,7 @@ typedef struct measurement {
     ps_trials **trials;      /* [num_integrands] */
     double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
     double *estimates;       /* [batch][num_calls][trials_of_call] */
-    double *squares;         /* [num_integrands][batch], means over the trials of a set */
-    ps_sums *sums;           /* [num_integrands] of these */
+    ps_sums *sums;           /* [num_integrands] of rows */
     ps_block_sums *blocks;   /* the same */
 } measurement;
 
@@ -156,7 +155,6 @@ static pspec_status allocate(measurement *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->patterns, self->batch, "point sets", error));
     PS_TRY(PS_NEW(&self->moves, num_trials * move_numbers(self), "shifts", error));
     PS_TRY(PS_NEW(&self->estimates, num_trials, "estimates", error));
-    PS_TRY(PS_NEW(&self->squares, plan->num_integrands * self->batch, "squares", error));
     PS_TRY(PS_NEW(&self->sums, plan->num_integrands, "sums", error));
     return create_trials(self, error);
 }
@@ -173,7 +171,6 @@ static void release(measurement *self) {
     free(self->trials);
     free(self->moves);
     free(self->estimates);
-    free(self->squares);
     free(self->sums);
 }
 
@@ -230,7 +227,7 @@ static double mean_square(const double *estimates, size_t num, double exact) {
 }
 
 /* All trials of the batch, of one integrand. */
-static pspec_status estimate(measurement *self, size_t integrand, uint64_t done, size_t num,
+static pspec_status estimate(measurement *self, size_t integrand, uint64_t first, size_t num,
                              ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t numbers = self->trials_of_call * move_numbers(self);
@@ -238,55 +235,59 @@ static pspec_status estimate(measurement *self, size_t integrand, uint64_t done,
         const double *const moves = plan->is_moved ? self->moves + call * numbers : NULL;
         PS_TRY(ps_trials_run(self->trials[integrand], self->patterns, num, moves,
                              self->estimates + call * self->trials_of_call, error));
-        PS_TRY(
-            ps_watch_tell(plan->watch, "realizations measured", done, plan->num_sets, NULL, error));
+        PS_TRY(ps_watch_tell(plan->watch, "realizations measured", first, plan->num_sets, NULL,
+                             error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status run_batch(measurement *self, uint64_t done, size_t num, ps_error *error) {
+/* rows[num][num_integrands], means over the trials of a set */
+static pspec_status run_batch(measurement *self, uint64_t first, size_t num, double *rows,
+                              ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t stride = self->num_calls * self->trials_of_call;
     for (size_t i = 0; i < plan->num_integrands; i++) {
         const double exact = ps_integrand_integral(plan->integrands[i]);
-        PS_TRY(estimate(self, i, done, num, error));
+        PS_TRY(estimate(self, i, first, num, error));
         for (size_t r = 0; r < num; r++) {
-            self->squares[i * self->batch + r] =
+            rows[r * plan->num_integrands + i] =
                 mean_square(self->estimates + r * stride, (size_t)plan->num_shifts, exact);
         }
     }
     return PSPEC_OK;
 }
 
-static void add_batch(measurement *self, size_t num) {
-    for (size_t i = 0; i < self->plan->num_integrands; i++) {
-        for (size_t r = 0; r < num; r++) {
-            const double square = self->squares[i * self->batch + r];
-            ps_sums_add(&self->sums[i], square);
-            ps_block_sums_add(&self->blocks[i], square);
-        }
-    }
-}
-
 /* ---- all sets ------------------------------------------------------------------------------ */
 
-static pspec_status give(void *payload, uint64_t done, size_t *num, ps_error *error) {
+static pspec_status make(void *payload, uint64_t first, size_t most, void *rows, size_t *num,
+                         ps_error *error) {
     measurement *const self = payload;
     const ps_measurement_plan *const plan = self->plan;
-    const uint64_t left = plan->num_sets - done;
-    *num = left < self->batch ? (size_t)left : self->batch;
-    PS_TRY(ps_watch_tell(plan->watch, "realizations measured", done, plan->num_sets, NULL, error));
+    const uint64_t left = plan->num_sets - first;
+    *num = left < most ? (size_t)left : most;
+    PS_TRY(ps_watch_tell(plan->watch, "realizations measured", first, plan->num_sets, NULL, error));
     if (*num > 0) {
-        PS_TRY(fill_batch(self, plan->first + done, *num, error));
-        PS_TRY(run_batch(self, done, *num, error));
-        add_batch(self, *num);
+        PS_TRY(fill_batch(self, plan->first + first, *num, error));
+        PS_TRY(run_batch(self, first, *num, rows, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
+static void take(void *payload, uint64_t number, const void *row) {
+    measurement *const self = payload;
+    const double *const squares = row;
+    (void)number;
+    for (size_t i = 0; i < self->plan->num_integrands; i++) {
+        ps_sums_add(&self->sums[i], squares[i]);
+        ps_block_sums_add(&self->blocks[i], squares[i]);
+    }
+}
+
+static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error *error) {
     const ps_measurement_plan *const plan = ((const measurement *)payload)->plan;
-    return plan->is_one_set ? PSPEC_OK : ps_source_pass(plan->source, num, plan->watch, error);
+    *passed = num;
+    return plan->is_one_set ? PSPEC_OK
+                            : ps_source_pass(plan->source, num, plan->watch, passed, error);
 }
 
 static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
@@ -305,15 +306,19 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
 pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
                                 ps_block_sums *blocks, ps_error *error) {
     measurement self = {.plan = plan, .blocks = blocks};
-    ps_set_loop loop = {.job = &self,
-                        .give = give,
-                        .skip = skip,
+    ps_set_loop loop = {.stream = {.job = &self,
+                                   .make = make,
+                                   .pass = pass,
+                                   .row_bytes = plan->num_integrands * sizeof(double),
+                                   .total = plan->num_sets,
+                                   .device = plan->device},
+                        .take = take,
                         .walk = walk,
-                        .spec = plan->checkpoint,
-                        .device = plan->device};
+                        .spec = plan->checkpoint};
     choose_sizes(&self);
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, fit_memory(&self, error));
+    loop.stream.batch = self.batch;
     PS_TRY_OUT(status, allocate(&self, error));
     PS_TRY_OUT(status, ps_set_loop_run(&loop, error));
     for (size_t i = 0; i < plan->num_integrands; i++) {

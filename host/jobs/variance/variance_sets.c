@@ -1,7 +1,7 @@
 #include "jobs/variance/variance_sets.h"
 
 #include "base/memory.h"
-#include "jobs/set_loop.h"
+#include "jobs/rows/set_loop.h"
 #include "points/lists/weight_list.h"
 
 #include <math.h>
@@ -118,6 +118,7 @@ uint64_t ps_variance_sets_measured(const ps_variance_sets *sets) {
 
 pspec_status ps_variance_sets_seek(ps_variance_sets *sets, ps_error *error) {
     const uint64_t before = sets->num > 1 ? sets->num_predicting : 0;
+    uint64_t passed = 0;
     PS_TRY(ps_source_rewind(sets->source, error));
-    return ps_source_pass(sets->source, before, NULL, error);
+    return ps_source_pass(sets->source, before, NULL, &passed, error);
 }

@@ -201,30 +201,30 @@ static size_t find_owner(size_t i, size_t num_shares) {
 }
 
 bool ps_run_only_helps(const ps_run *run) {
-    return run->hooks.share != NULL && run->hooks.share->own > 0;
+    return !ps_team_is_led_here(run->hooks.team);
 }
 
 /* Answers of others than share 0 are in the cache; without one they would be lost. */
 static pspec_status answer_share(ps_run *run, ps_error *error) {
-    const ps_answer_share *const share = run->hooks.share;
+    const ps_team *const team = run->hooks.team;
     const bool helps = ps_run_only_helps(run);
     pspec_status status = PSPEC_OK;
     for (size_t i = 0; status == PSPEC_OK && run->cache != NULL && i < run->num_questions; i++) {
-        if (find_owner(i, share->num) == share->own) {
+        if (find_owner(i, team->num) == team->own) {
             status = answer_next(run, i, error);
         }
         if (helps) {
             ps_answer_free(&run->questions[i].answer);
         }
     }
-    return share->meet(status, share->payload, error);
+    return ps_team_meet(team, status, error);
 }
 
 pspec_status ps_run_answer(ps_run *run, ps_error *error) {
     const size_t num = ps_run_only_helps(run) ? 0 : run->num_questions;
     const double start = ps_clock_seconds();
     ps_answer_begin_next(&run->hooks);
-    pspec_status status = run->hooks.share != NULL ? answer_share(run, error) : PSPEC_OK;
+    pspec_status status = run->hooks.team != NULL ? answer_share(run, error) : PSPEC_OK;
     for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
         if (run->questions[i].answer.table == NULL) {
             status = answer_next(run, i, error);

@@ -168,7 +168,8 @@ pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
-/* With a share (hooks.share) its own into the cache first, then, of share 0, the rest. */
+/* Of a team (hooks.team) the share of this member goes into the cache first, then the first member
+ * does the rest. */
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Is the rest of the run that of another, who has share 0? */
 bool ps_run_only_helps(const ps_run *run);

@@ -9,13 +9,16 @@ if ! "$program" power --engine torus_direct --sampler white -n 4 -k 1 --device c
     exit 77
 fi
 
-is_same() { # ARGS...: table, NPZ and arrays of one device and of two
-    local file
+tables=(answer.npz answer.csv)
+is_same() { # ARGS...: tables and arrays of one device and of two
+    local file table
     rm -rf one several
     mkdir one several
-    (cd one && "$program" "$@" --device cpu -o answer.npz && "$program" "$@" --device cpu -o answer.csv) || complain "one device: $*"
-    (cd several && "$program" "$@" --device cpu:split=2 -o answer.npz 2>err) || complain "two devices: $*: $(<several/err)"
-    [[ ! -s several/err ]] || complain "$(<several/err)"
+    for table in "${tables[@]}"; do
+        (cd one && "$program" "$@" --device cpu -o "$table") || complain "one device: $*"
+        (cd several && "$program" "$@" --device cpu:split=2 -o "$table" 2>err) || complain "two devices: $*: $(<several/err)"
+        [[ ! -s several/err ]] || complain "$(<several/err)"
+    done
     (cd several && "$program" "$@" --device cpu:split=2/1,cpu:split=2/0 -o answer.csv) || complain "two devices: $*"
     rm several/err
     checked=$((checked + 1))
@@ -47,6 +50,19 @@ is_same power -k 8 "$PWD/clusters.txt"
 grep -q planned_twice several/answer.csv || complain 'clusters are planned once'
 is_same power --sampler white --sampler regular -n 64,256 --no-skip --no-self-check -m 300 -k 20
 
+# Rows of realizations.
+tables=(answer.csv)
+printf '2,0,1,0\n' >light.txt
+printf 'v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 5 4\n' >corner.obj
+light=coefficients:file=$PWD/light.txt
+is_same variance --integrand disk --integrand gaussian --sampler jittered -n 16,64 -m 100 -k 4
+is_same variance --integrand disk --columns xyw -k 3 "$sets"
+is_same quadrature --sampler white-hemisphere -n 64 -m 60 --brdf glossy:n=30 -l 20
+is_same quadrature --columns xyw --lift hemisphere --brdf diffuse -l 5 "$sets"
+is_same shade --sampler white-hemisphere -n 16 -m 20 --brdf diffuse --integrand "$light"
+is_same interpolation --sampler white-sphere -n 16 -m 7 --integrand "$light"
+is_same occlusion --mesh "$PWD/corner.obj" --image 8x8 --reference 64 --sampler white-sphere -n 4 -m 7
+
 # What the first device does alone, what has fewer blocks, a range.
 job=(power --engine torus_direct --sampler white -n 16 -k 2)
 alone() { # SENTENCE ARGS...
@@ -60,7 +76,9 @@ alone() { # SENTENCE ARGS...
 }
 alone 'the first of 2 devices works alone: realizations are shared in blocks of 128, and there are 100' "${job[@]}" -m 100
 alone 'works alone: all realizations of a sampler have the same powers' power --sampler sobol -n 4 -k 1 -m 300
-alone 'works alone: variance has no realizations that are shared' variance --integrand disk -n 4 -m 200 --sampler white
+alone 'works alone: one realization is not shared' quadrature --brdf diffuse -n 16 --sampler white-hemisphere
+"$program" "${job[@]}" -m 200 -o saved.npz
+alone 'works alone: check has no realizations that are shared' check --against saved.npz --sampler white -n 16 -m 200
 checked=$((checked + 1))
 for range in 0:256 256:600; do
     "$program" "${job[@]}" -m 600 --range $range --device cpu:split=2 -o "${range%:*}.npz"
@@ -98,10 +116,13 @@ cat >scene.yaml <<'END'
 scene: 1
 results:
   - {result: power, name: shared, samplers: white, points: 16, realizations: 600, max-frequency: 2}
-  - {result: variance, name: alone, samplers: white, points: 4, realizations: 200, integrands: disk}
+  - {result: quadrature, name: rows, samplers: white-hemisphere, points: 4, realizations: 20, brdf: diffuse}
+  - {result: quadrature, name: alone, samplers: white-hemisphere, points: 4, realizations: 1, brdf: diffuse}
 END
 POCL_DEVICES="pthread basic" "$program" run scene.yaml -o folder --device 0,1 --cache 0 >out 2>err || complain "a scene: $(<err)"
-[[ $(grep -c '^# device: .* + ' folder/shared.csv) == 1 ]] || complain "shared: $(grep '^# device' folder/shared.csv)"
+for name in shared rows; do
+    [[ $(grep -c '^# device: .* + ' folder/$name.csv) == 1 ]] || complain "$name: $(grep '^# device' folder/$name.csv)"
+done
 [[ $(grep '^# device' folder/alone.csv) != *' + '* ]] || complain "alone: $(grep '^# device' folder/alone.csv)"
 simulator=$(find /usr/lib* -name 'liboclgrind-rt-icd.so' | head -1)
 if [[ -n $simulator && -d /etc/OpenCL/vendors ]]; then

@@ -7,33 +7,15 @@
 # shellcheck source=tests/answers/ranks/ranks.sh
 . "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/ranks.sh"
 
-answer() { sed 's/^# command: .*//' "$1"; } # but for the command
-is_same() { # N ARGS...: table, NPZ and arrays of one process and of N ranks
-    local num=$1 file
-    shift
-    rm -rf one several
-    mkdir one several
-    (cd one && "$program" "$@" -o answer.npz) || complain "one process: $*"
-    cd several
-    ranks 0 "$num" "$@" -o answer.npz
-    sentence ''
-    cd ..
-    rm -f several/{out,err,sentences}
-    [[ $(ls one) == "$(ls several)" ]] || complain "files of $num ranks: $(ls several)"
-    for file in one/*; do
-        cmp "$file" "several/${file#one/}" || complain "$file of $num ranks is another: $*"
-    done
-}
-
 awk 'BEGIN { srand(5); for (s = 0; s < 300; s++) { if (s) print "#"
     for (i = 0; i < 5 + s % 3; i++) printf "%.9f %.9f %.9f\n", rand(), rand(), 0.5 + rand() } }' >sets.txt
 sets=$PWD/sets.txt
-is_same 2 power --engine host_direct -m 300 --sampler jittered --sampler white -n 9,16 -k 3
-is_same 3 power --engine host_direct --columns xyw -k 2 --normalize integral --full full.npy "$sets"
-is_same 2 angular --engine host_direct -m 300 --sampler white-sphere -n 4 -l 3
-is_same 3 pairs --engine host_direct --columns xyw --lift sphere -l 3 "$sets"
+is_as_one 2 power --engine host_direct -m 300 --sampler jittered --sampler white -n 9,16 -k 3
+is_as_one 3 power --engine host_direct --columns xyw -k 2 --normalize integral --full full.npy "$sets"
+is_as_one 2 angular --engine host_direct -m 300 --sampler white-sphere -n 4 -l 3
+is_as_one 3 pairs --engine host_direct --columns xyw --lift sphere -l 3 "$sets"
 if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
-    is_same 3 power -m 600 --sampler white -n 64 -k 8 --precision single
+    is_as_one 3 power -m 600 --sampler white -n 64 -k 8 --precision single
 fi
 
 # Powers of all parts decide together on another plan, each question for itself.
@@ -41,7 +23,7 @@ awk 'BEGIN { for (r = 0; r < 300; r++) { if (r) print "#"
     for (j = 0; j < 300; j++) print 0.5 + 1e-4 * (j % 17) + 1e-6 * r, 0.5 + 1e-4 * (j % 19) } }' >clusters.txt
 clusters=$PWD/clusters.txt
 is_planned_twice() { # N ARGS...
-    is_same "$@"
+    is_as_one "$@"
     "$program" "${@:2}" >out
     [[ $(<out) == *planned_twice* ]] || complain "planned once: $*"
 }

@@ -43,3 +43,20 @@ kill_ranks() { # PATTERN N ARGS...: soon after a checkpoint of that pattern is t
         while [[ -e /proc/$pid ]]; do sleep 0.02; done
     done
 }
+answer() { sed 's/^# command: .*//' "$1"; } # but for the command
+is_as_one() { # N ARGS...: table, NPZ and arrays of one process and of N ranks
+    local num=$1 file
+    shift
+    rm -rf one several
+    mkdir one several
+    (cd one && "$program" "$@" -o answer.npz) || complain "one process: $*"
+    pushd several >/dev/null || exit 1
+    ranks 0 "$num" "$@" -o answer.npz
+    sentence ''
+    popd >/dev/null || exit 1
+    rm -f several/{out,err,sentences}
+    [[ $(ls one) == "$(ls several)" ]] || complain "files of $num ranks: $(ls several)"
+    for file in one/*; do
+        cmp "$file" "several/${file#one/}" || complain "$file of $num ranks is another: $*"
+    done
+}

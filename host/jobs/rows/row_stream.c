@@ -1,0 +1,252 @@
+#include "jobs/rows/row_stream.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "device/kind.h"
+#include "store/checkpoint.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Members meet after about so long, which is long beside a message and short beside a job; the
+ * first times sooner, as nobody knows how long a realization takes. */
+static const double ROUND_SECONDS = 1;
+enum { FIRST_EACH = 1, MOST_GROWTH = 8, MOST_BYTES = 64 << 20 };
+
+/* What is before the rows of a slot; numbers of which the largest counts stand between. */
+typedef struct slot {
+    uint64_t num;   /* rows */
+    double seconds; /* that they took */
+} slot;
+
+/* ---- memory ---------------------------------------------------------------------------------- */
+
+static pspec_status reserve(void *memory, size_t *room, size_t num, size_t bytes, const char *what,
+                            ps_error *error) {
+    char **const block = memory;
+    if (num <= *room) {
+        return PSPEC_OK;
+    }
+    free(*block);
+    *block = NULL;
+    *room = 0;
+    PS_TRY(ps_allocate_for(block, num, bytes, what, error));
+    *room = num;
+    return PSPEC_OK;
+}
+
+static pspec_status make_room(ps_row_stream *self, size_t num, ps_error *error) {
+    return reserve(&self->rows, &self->room, num, self->row_bytes, "rows of realizations", error);
+}
+
+void ps_row_stream_free(ps_row_stream *stream) {
+    free(stream->rows);
+    free(stream->slots);
+    stream->rows = stream->slots = NULL;
+    stream->room = stream->slots_room = 0;
+}
+
+/* ---- own rows -------------------------------------------------------------------------------- */
+
+static pspec_status pass_to(ps_row_stream *self, uint64_t position, ps_error *error) {
+    const uint64_t num = position - self->position;
+    uint64_t passed = num;
+    if (num == 0 || self->has_ended) {
+        return PSPEC_OK;
+    }
+    PS_TRY(self->pass != NULL ? self->pass(self->job, num, &passed, error) : PSPEC_OK);
+    self->position += passed;
+    self->has_ended = passed < num;
+    return PSPEC_OK;
+}
+
+/* As many as are wanted, unless there are fewer. */
+static pspec_status make(ps_row_stream *self, size_t wanted, char *rows, size_t *num,
+                         ps_error *error) {
+    for (*num = 0; *num < wanted && !self->has_ended;) {
+        size_t some = 0;
+        const size_t left = wanted - *num;
+        PS_TRY(self->make(self->job, self->position, left < self->batch ? left : self->batch,
+                          rows + *num * self->row_bytes, &some, error));
+        self->position += some;
+        self->has_ended = some == 0;
+        *num += some;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done, ps_error *error) {
+    stream->num_done = num_done;
+    stream->position = 0;
+    stream->has_met = stream->has_ended = false;
+    stream->each = FIRST_EACH;
+    PS_TRY(pass_to(stream, num_done, error));
+    return ps_checkpoint_check_sets(stream->position, num_done, error);
+}
+
+/* ---- those of all ---------------------------------------------------------------------------- */
+
+/* What has to be the same of all members: a text, which is compared as it is. */
+typedef struct alike {
+    char text[1024];
+} alike;
+
+static pspec_status describe(const ps_row_stream *self, alike *out, ps_error *error) {
+    ps_text text = {0};
+    if (!self->team->is_mixed && self->device != NULL) {
+        const ps_device_kind kind = ps_device_kind_of(ps_device_get_limits(self->device));
+        ps_text_append(&text, "device %s\n", kind.text);
+    }
+    ps_text_append(&text, "%" PRIu64 " realizations of a checkpoint\n", self->num_done);
+    const pspec_status status = ps_text_check(&text, error);
+    snprintf(out->text, sizeof out->text, "%s", ps_text_string(&text));
+    ps_text_free(&text);
+    return status;
+}
+
+/* Every member comes to the same sentence. */
+static pspec_status compare(const alike *all, size_t num, ps_error *error) {
+    for (size_t i = 1; i < num; i++) {
+        const char *a = all[0].text;
+        const char *b = all[i].text;
+        while (*a == *b && *a != '\0') {
+            a++;
+            b++;
+        }
+        while (a > all[0].text && a[-1] != '\n') { /* the line that differs */
+            a--;
+            b--;
+        }
+        if (strcmp(a, b) != 0) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "rank %zu has \"%.*s\", and rank 0 \"%.*s\": what they compute would "
+                           "not be one result",
+                           i, (int)strcspn(b, "\n"), b, (int)strcspn(a, "\n"), a);
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status meet_first(ps_row_stream *self, ps_error *error) {
+    const ps_team *const team = self->team;
+    alike *all = NULL;
+    PS_TRY(PS_NEW(&all, team->num, "members of a team", error));
+    pspec_status status = describe(self, &all[team->own], error);
+    if (status == PSPEC_OK) {
+        status = team->exchange(team, PSPEC_OK, all, sizeof *all, error);
+    }
+    if (status == PSPEC_OK) {
+        status = compare(all, team->num, error);
+    }
+    free(all);
+    self->has_met = status == PSPEC_OK;
+    return status;
+}
+
+static size_t numbers_bytes(const ps_row_stream *self) {
+    return self->num_largest * sizeof(double);
+}
+
+/* Realizations of this round, of which every member has as many or one fewer. */
+static uint64_t count_round(const ps_row_stream *self, uint64_t most) {
+    const uint64_t left = self->total > 0 ? self->total - self->num_done : UINT64_MAX;
+    const uint64_t wanted = (uint64_t)self->team->num * self->each;
+    most = most < left ? most : left;
+    return most < wanted ? most : wanted;
+}
+
+static pspec_status fill_slot(ps_row_stream *self, char *own, uint64_t round, ps_error *error) {
+    const ps_team *const team = self->team;
+    const uint64_t share = round / team->num;
+    const uint64_t more = round % team->num; /* members that have one more */
+    const uint64_t before = team->own * share + (team->own < more ? team->own : more);
+    char *const rows = own + sizeof(slot) + numbers_bytes(self);
+    const double begun = ps_clock_seconds();
+    size_t num = 0;
+    PS_TRY(pass_to(self, self->num_done + before, error));
+    PS_TRY(make(self, (size_t)(share + (team->own < more)), rows, &num, error));
+    const slot head = {num, ps_clock_seconds() - begun};
+    memcpy(own, &head, sizeof head);
+    return self->measure != NULL
+               ? self->measure(self->job, (double *)(void *)(own + sizeof(slot)), error)
+               : PSPEC_OK;
+}
+
+/* Rows of all members, in their order, and how long the slowest took. */
+static size_t take_rows(ps_row_stream *self, size_t slot_bytes, double *seconds) {
+    size_t num = 0;
+    for (size_t i = 0; i < self->team->num; i++) {
+        const char *const at = self->slots + i * slot_bytes;
+        slot head;
+        memcpy(&head, at, sizeof head);
+        *seconds = head.seconds > *seconds ? head.seconds : *seconds;
+        memcpy(self->rows + num * self->row_bytes, at + sizeof head + numbers_bytes(self),
+               head.num * self->row_bytes);
+        num += head.num;
+    }
+    return num;
+}
+
+static void take_largest(ps_row_stream *self, size_t slot_bytes) {
+    double *const all = (double *)(void *)(self->slots + sizeof(slot));
+    for (size_t i = 1; i < self->team->num; i++) {
+        const double *const other =
+            (const double *)(const void *)(self->slots + i * slot_bytes + sizeof(slot));
+        for (size_t n = 0; n < self->num_largest; n++) {
+            all[n] = all[n] >= other[n] || isnan(all[n]) ? all[n] : other[n];
+        }
+    }
+    if (self->num_largest > 0) {
+        self->take_largest(self->job, all);
+    }
+}
+
+/* How many each has until they meet again. No result depends on it. */
+static void choose_each(ps_row_stream *self, double seconds) {
+    const double fit = (double)MOST_BYTES / (double)(self->team->num * self->row_bytes);
+    const double growth = ROUND_SECONDS / (seconds > 0 ? seconds : ROUND_SECONDS / MOST_GROWTH);
+    double each = (double)self->each * (growth < MOST_GROWTH ? growth : MOST_GROWTH);
+    each = each < fit ? each : fit;
+    self->each = each > 1 ? (size_t)each : 1;
+}
+
+static pspec_status next_of_team(ps_row_stream *self, uint64_t most, size_t *num, ps_error *error) {
+    const ps_team *const team = self->team;
+    const uint64_t round = count_round(self, most);
+    const size_t share = (size_t)(round / team->num + (round % team->num > 0));
+    const size_t bytes = sizeof(slot) + numbers_bytes(self) + share * self->row_bytes;
+    const size_t slot_bytes = (bytes + sizeof(double) - 1) / sizeof(double) * sizeof(double);
+    double seconds = 0;
+    *num = 0;
+    if (round == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(self->has_met ? PSPEC_OK : meet_first(self, error));
+    PS_TRY(reserve(&self->slots, &self->slots_room, team->num * slot_bytes, 1, "rows of members",
+                   error));
+    PS_TRY(make_room(self, (size_t)round, error));
+    PS_TRY(fill_slot(self, self->slots + team->own * slot_bytes, round, error));
+    PS_TRY(team->exchange(team, PSPEC_OK, self->slots, slot_bytes, error));
+    *num = take_rows(self, slot_bytes, &seconds);
+    take_largest(self, slot_bytes);
+    choose_each(self, seconds);
+    return PSPEC_OK;
+}
+
+pspec_status ps_row_stream_next(ps_row_stream *stream, uint64_t most, size_t *num,
+                                ps_error *error) {
+    const size_t batch = most < stream->batch ? (size_t)most : stream->batch;
+    *num = 0;
+    if (stream->team != NULL) {
+        PS_TRY(next_of_team(stream, most, num, error));
+    } else {
+        PS_TRY(make_room(stream, batch, error));
+        PS_TRY(stream->make(stream->job, stream->position, batch, stream->rows, num, error));
+        stream->position += *num;
+    }
+    stream->num_done += *num;
+    return PSPEC_OK;
+}

@@ -1,0 +1,61 @@
+/* What the realizations of a job come to, a row of bytes each, in their order: made here, or by all
+ * members of a team (base/process/team.h), of which every one has all rows.
+ *
+ * A row depends on its realization alone, whoever made it, and the job adds up rows one after the
+ * other: so its results have the same bits whatever the team. Members make as many in a row as take
+ * about a second, then they meet.
+ */
+#ifndef PS_JOBS_ROWS_ROW_STREAM_H
+#define PS_JOBS_ROWS_ROW_STREAM_H
+
+#include "base/process/team.h"
+#include "device/device.h"
+
+#include <stdint.h>
+
+typedef struct ps_row_stream {
+    /* set by the job */
+    void *job;
+    /* Makes the rows of the next realizations, of which `first` is the number of the first, at most
+     * `most`: *num, 0 behind the last. */
+    pspec_status (*make)(void *job, uint64_t first, size_t most, void *rows, size_t *num,
+                         ps_error *error);
+    /* Leaves the next num realizations out, *passed of them; there are no more where that is less.
+     * NULL: they need not be left out */
+    pspec_status (*pass)(void *job, uint64_t num, uint64_t *passed, ps_error *error);
+    /* After rows of this member: numbers[num_largest], of which all have the largest of any member
+     * to be taken; nan is larger than any. NULL: there are none */
+    pspec_status (*measure)(void *job, double *numbers, ps_error *error);
+    void (*take_largest)(void *job, const double *numbers);
+    size_t num_largest;
+    size_t row_bytes;
+    size_t batch;        /* most rows of a call of make */
+    uint64_t total;      /* realizations; 0: nobody knows */
+    const ps_team *team; /* NULL: nobody else */
+    ps_device *device;   /* that bits depend on, so that all members have such a one; NULL: none */
+    /* rows of the last call */
+    char *rows; /* [num][row_bytes] */
+    /* while it runs */
+    uint64_t num_done; /* rows that the job has */
+    uint64_t position; /* of this member among the realizations */
+    bool has_met;
+    bool has_ended; /* there are no more realizations */
+    size_t each;    /* realizations of a member until they meet next */
+    size_t room;    /* rows */
+    char *slots;
+    size_t slots_room; /* bytes */
+} ps_row_stream;
+
+/* From the first realization on, or from behind num_done that the job has. */
+pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done,
+                                 ps_error *error) PS_MUST_CHECK;
+/* The next rows, `most` at most: *num in stream->rows, 0 behind the last. Members with devices of
+ * other kinds, or at other realizations, are PSPEC_ERROR_INPUT. */
+pspec_status ps_row_stream_next(ps_row_stream *stream, uint64_t most, size_t *num,
+                                ps_error *error) PS_MUST_CHECK;
+static inline void *ps_row_stream_row(const ps_row_stream *stream, size_t i) {
+    return stream->rows + i * stream->row_bytes;
+}
+void ps_row_stream_free(ps_row_stream *stream); /* {0} is allowed */
+
+#endif

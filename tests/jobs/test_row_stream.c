@@ -1,0 +1,247 @@
+/* Rows of a team are those that one process has, in order, whatever the members, the end of the
+ * realizations, and how many are taken at a time; members that are not alike are refused by all. */
+#include "harness.h"
+
+#include "jobs/rows/row_stream.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_MEMBERS = 5, ROWS = 403, BATCH = 3 };
+
+/* ---- a team of threads ---------------------------------------------------------------------- */
+
+static struct {
+    pthread_barrier_t barrier;
+    void *slots[MOST_MEMBERS];
+} world;
+
+static pspec_status exchange(const ps_team *team, pspec_status status, void *slots, size_t bytes,
+                             ps_error *error) {
+    (void)error;
+    world.slots[team->own] = slots;
+    pthread_barrier_wait(&world.barrier);
+    for (size_t i = 0; i < team->num; i++) {
+        if (i != team->own) {
+            memcpy((char *)slots + i * bytes, (char *)world.slots[i] + i * bytes, bytes);
+        }
+    }
+    pthread_barrier_wait(&world.barrier);
+    return status;
+}
+
+/* ---- a job: row i is (i, i^2) --------------------------------------------------------------- */
+
+typedef struct row {
+    uint64_t number;
+    double square;
+} row;
+
+typedef struct job {
+    ps_row_stream stream;
+    ps_team team;
+    uint64_t at;       /* of its source */
+    uint64_t num_made; /* by this member */
+    uint64_t most;     /* rows that are taken at a time */
+    uint64_t begin;    /* that the job has */
+    double largest;
+    bool has_nan;
+    uint64_t num_taken;
+    bool is_in_order;
+    pspec_status status;
+    ps_error error;
+} job;
+
+static pspec_status make(void *payload, uint64_t first, size_t most, void *rows, size_t *num,
+                         ps_error *error) {
+    job *const self = payload;
+    row *const out = rows;
+    (void)error;
+    self->is_in_order = self->is_in_order && first == self->at && most <= BATCH;
+    for (*num = 0; *num < most && self->at < ROWS; (*num)++) {
+        const double number = (double)self->at;
+        out[*num] = (row){self->at++, number * number};
+        self->num_made++;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error *error) {
+    job *const self = payload;
+    const uint64_t left = ROWS - self->at;
+    (void)error;
+    *passed = num < left ? num : left;
+    self->at += *passed;
+    return PSPEC_OK;
+}
+
+/* The largest row that this member has made. */
+static pspec_status measure(void *payload, double *numbers, ps_error *error) {
+    const job *const self = payload;
+    (void)error;
+    numbers[0] = (double)self->num_made;
+    numbers[1] = self->has_nan ? NAN : (double)self->at;
+    return PSPEC_OK;
+}
+
+static void take_largest(void *payload, const double *numbers) {
+    job *const self = payload;
+    self->largest = numbers[1];
+}
+
+static void *run(void *payload) {
+    job *const self = payload;
+    size_t num = 1;
+    self->status = ps_row_stream_begin(&self->stream, self->begin, &self->error);
+    while (self->status == PSPEC_OK && num > 0) {
+        self->status = ps_row_stream_next(&self->stream, self->most, &num, &self->error);
+        for (size_t i = 0; self->status == PSPEC_OK && i < num; i++) {
+            const row *const one = ps_row_stream_row(&self->stream, i);
+            const uint64_t number = self->begin + self->num_taken++;
+            self->is_in_order = self->is_in_order && one->number == number &&
+                                one->square == (double)number * (double)number;
+        }
+    }
+    ps_row_stream_free(&self->stream);
+    return NULL;
+}
+
+static void begin(job *self, size_t own, size_t num, uint64_t total, uint64_t most) {
+    *self = (job){
+        .most = most, .is_in_order = true, .team = {.own = own, .num = num, .exchange = exchange}};
+    self->stream = (ps_row_stream){.job = self,
+                                   .make = make,
+                                   .pass = pass,
+                                   .measure = measure,
+                                   .take_largest = take_largest,
+                                   .num_largest = 2,
+                                   .row_bytes = sizeof(row),
+                                   .batch = BATCH,
+                                   .total = total,
+                                   .team = num > 1 ? &self->team : NULL};
+}
+
+static void run_all(job *jobs, size_t num) {
+    pthread_t threads[MOST_MEMBERS];
+    assert_int_equal(pthread_barrier_init(&world.barrier, NULL, (unsigned)num), 0);
+    for (size_t i = 0; i < num; i++) {
+        assert_int_equal(pthread_create(&threads[i], NULL, run, &jobs[i]), 0);
+    }
+    for (size_t i = 0; i < num; i++) {
+        pthread_join(threads[i], NULL);
+    }
+    pthread_barrier_destroy(&world.barrier);
+}
+
+/* ---- laws ----------------------------------------------------------------------------------- */
+
+static void rows_are_those_of_one(void **state) {
+    static const uint64_t mosts[] = {1, 2, 7, 100, UINT64_MAX};
+    job jobs[MOST_MEMBERS];
+    (void)state;
+    for (size_t num = 1; num <= MOST_MEMBERS; num++) {
+        for (size_t m = 0; m < 2 * sizeof mosts / sizeof *mosts; m++) {
+            uint64_t made = 0;
+            for (size_t i = 0; i < num; i++) {
+                begin(&jobs[i], i, num, m % 2 == 0 ? ROWS : 0, mosts[m / 2]);
+            }
+            run_all(jobs, num);
+            for (size_t i = 0; i < num; i++) {
+                assert_int_equal(jobs[i].status, PSPEC_OK);
+                assert_true(jobs[i].is_in_order);
+                assert_int_equal(jobs[i].num_taken, ROWS);
+                made += jobs[i].num_made;
+            }
+            assert_int_equal(made, ROWS); /* nobody makes what another does */
+        }
+    }
+}
+
+static void members_share_the_work(void **state) {
+    job jobs[MOST_MEMBERS];
+    (void)state;
+    for (size_t i = 0; i < MOST_MEMBERS; i++) {
+        begin(&jobs[i], i, MOST_MEMBERS, ROWS, UINT64_MAX);
+    }
+    run_all(jobs, MOST_MEMBERS);
+    for (size_t i = 0; i < MOST_MEMBERS; i++) {
+        assert_in_range(jobs[i].num_made, ROWS / MOST_MEMBERS - 8, ROWS / MOST_MEMBERS + 8);
+        assert_true(jobs[i].largest == ROWS); /* of whoever made the last one */
+    }
+}
+
+static void jobs_go_on_behind_what_they_have(void **state) {
+    enum { MEMBERS = 3 };
+    static const uint64_t begins[] = {1, 200, ROWS};
+    job jobs[MEMBERS];
+    (void)state;
+    for (size_t b = 0; b < sizeof begins / sizeof *begins; b++) {
+        for (size_t i = 0; i < MEMBERS; i++) {
+            begin(&jobs[i], i, MEMBERS, 0, UINT64_MAX);
+            jobs[i].begin = begins[b];
+        }
+        run_all(jobs, MEMBERS);
+        for (size_t i = 0; i < MEMBERS; i++) {
+            assert_int_equal(jobs[i].status, PSPEC_OK);
+            assert_true(jobs[i].is_in_order);
+            assert_int_equal(jobs[i].num_taken, ROWS - begins[b]);
+        }
+    }
+}
+
+static void nan_is_the_largest(void **state) {
+    job jobs[2];
+    (void)state;
+    for (size_t who = 0; who < 2; who++) {
+        for (size_t i = 0; i < 2; i++) {
+            begin(&jobs[i], i, 2, ROWS, UINT64_MAX);
+            jobs[i].has_nan = i == who;
+        }
+        run_all(jobs, 2);
+        assert_true(isnan(jobs[0].largest) && isnan(jobs[1].largest));
+    }
+}
+
+static void members_that_differ_are_refused_by_all(void **state) {
+    enum { MEMBERS = 3 };
+    job jobs[MEMBERS];
+    (void)state;
+    for (size_t i = 0; i < MEMBERS; i++) {
+        begin(&jobs[i], i, MEMBERS, 0, UINT64_MAX);
+        jobs[i].begin = i == 2 ? 9 : 8;
+    }
+    run_all(jobs, MEMBERS);
+    for (size_t i = 0; i < MEMBERS; i++) {
+        assert_int_equal(jobs[i].status, PSPEC_ERROR_INPUT);
+        assert_string_equal(jobs[i].error.message,
+                            "rank 2 has \"9 realizations of a checkpoint\", and rank 0 \"8 "
+                            "realizations of a checkpoint\": what they compute would not be one "
+                            "result");
+        assert_int_equal(jobs[i].num_taken, 0);
+    }
+}
+
+static void fewer_sets_than_a_checkpoint_has_are_refused(void **state) {
+    job one;
+    (void)state;
+    begin(&one, 0, 1, 0, UINT64_MAX);
+    one.begin = ROWS + 1;
+    run_all(&one, 1);
+    assert_int_equal(one.status, PSPEC_ERROR_INPUT);
+    assert_string_equal(one.error.message,
+                        "there are fewer sets than the 404 that the checkpoint has");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_are_those_of_one),
+        cmocka_unit_test(members_share_the_work),
+        cmocka_unit_test(jobs_go_on_behind_what_they_have),
+        cmocka_unit_test(nan_is_the_largest),
+        cmocka_unit_test(members_that_differ_are_refused_by_all),
+        cmocka_unit_test(fewer_sets_than_a_checkpoint_has_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
