@@ -1,7 +1,8 @@
 /* From values on angles to sum_m |c_lm|^2, by the table of grid_table.cl: lanes are degrees of one
  * parity, so that a vector of the table serves all realizations. A work-group has the orders that
  * are its number modulo the number of groups, so that what it adds up does not depend on the
- * device. Launch: (work-items of one group, groups).
+ * device; groups that have the same ones share the realizations (shares.h). Launch: (work-items of
+ * one group, groups times shares).
  *
  *   values   [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] of grid_values.cl
  *   table    [order][even, odd l - m][run][angle][vector of degrees][LANES] (grid_table.h)
@@ -17,6 +18,7 @@
 #include "shared/lanes.h"
 #include "sphere/nufft/orders_finish.h"
 #include "sphere/nufft/grid_table.h"
+#include "sphere/nufft/shares.h"
 #include "sphere/values.h"
 
 /* Vectors of degrees in registers: with real and imaginary parts of two realizations half of 32 of
@@ -139,8 +141,15 @@ __kernel void sphere_grid_sums(__global const real *restrict values, const uint 
                                __global const ulong *restrict offsets,
                                __global const uint *restrict begins, const uint most_runs,
                                const uint L, const uint num_angles, const uint only_even,
-                               const uint half_pitch, __global double *restrict all_powers) {
-    const uint group = get_global_id(1), groups = get_global_size(1);
+                               const uint half_pitch, const uint shares,
+                               __global double *restrict all_powers) {
+    const uint groups = get_global_size(1) / shares, group = get_global_id(1) / shares;
+    const uint share = get_global_id(1) % shares;
+    const uint begin = share_begin(share, shares, num_realizations);
+    const uint num = share_begin(share + 1, shares, num_realizations) - begin;
+    if (num == 0) {
+        return;
+    }
     const size_t parity_apart = (size_t)((num_angles + LANES - 1) / LANES) * 2 * LANES;
     const size_t powers_apart = 2 * (size_t)half_pitch;
     for (uint m = group; m <= L; m += groups) {
@@ -151,14 +160,16 @@ __kernel void sphere_grid_sums(__global const real *restrict values, const uint 
             __global double *powers = all_powers + (m * 2 + odd) * powers_apart;
             const size_t ends_apart = half_pitch;
 #else
-            __global double *powers = all_powers + group * num_realizations * powers_apart +
+            __global double *powers = all_powers +
+                                      ((size_t)group * num_realizations + begin) * powers_apart +
                                       (m + odd) % 2 * half_pitch + (m + odd) / 2;
             const size_t ends_apart = powers_apart;
 #endif
             if (only_even == 0 || (m + odd) % 2 == 0) {
                 sum_runs(rows, begins + (2 * m + odd) * most_runs, table_vectors(m, odd, L, LANES),
-                         values + m * order_pitch(value_sets, parity_apart) + odd * parity_apart,
-                         2 * parity_apart, num_realizations, powers, ends_apart);
+                         values + m * order_pitch(value_sets, parity_apart) + odd * parity_apart +
+                             begin * 2 * parity_apart,
+                         2 * parity_apart, num, powers, ends_apart);
             }
         }
         barrier_everywhere();

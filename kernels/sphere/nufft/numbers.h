@@ -19,9 +19,10 @@ typedef struct orders_sum_numbers {
     ps_u32 value_sets; /* of values there is room for so many realizations */
     ps_u32 num_realizations;
     ps_u32 half_pitch; /* of powers */
+    ps_u32 shares;     /* of the realizations, among work-groups (shares.h) */
 } orders_sum_numbers;
 
-SAME_SIZE(orders_sum_numbers, 44);
+SAME_SIZE(orders_sum_numbers, 48);
 
 /* grid_table.cl */
 typedef struct grid_table_numbers {

@@ -1,7 +1,8 @@
 /* From values on rings to sum_m |c_lm|^2. A work-group has the orders that are its number modulo
- * the number of groups, so that what it adds up does not depend on the device. For each order,
- * Lambda_lm is made for a run of degrees and a block of rings at a time, and used by all
- * realizations. Launch: (work-items of one group, groups).
+ * the number of groups, so that what it adds up does not depend on the device; groups that have the
+ * same ones share the realizations (shares.h). For each order, Lambda_lm is made for a run of
+ * degrees and a block of rings at a time, and used by all realizations of the share. Launch:
+ * (work-items of one group, groups times shares).
  *
  *   numbers    of numbers.h; their names are used here
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
@@ -12,10 +13,10 @@
  *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
  *   cosines    [ring_pitch]: cos(theta)
  *   distances, squares  ring_angles of orders_states.h
- *   states, scales  [group][2][even, odd l - m][ring_pitch], [group][2][ring_pitch]: scratch
- *   diagonal, diagonal_scales  [group][ring_pitch]: scratch
- *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
- *              realization more
+ *   states, scales  [group][share][2][even, odd l - m][ring_pitch], [group][share][2][ring_pitch]: scratch
+ *   diagonal, diagonal_scales  [group][share][ring_pitch]: scratch
+ *   sums       [group][share][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for
+ *              one realization more
  *   powers     [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room
  *              for RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
  *              [order][even, odd l - m][re, im][half_pitch]
@@ -26,6 +27,7 @@
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_product.h"
 #include "sphere/nufft/orders_work.h"
+#include "sphere/nufft/shares.h"
 #include "sphere/values.h"
 
 __kernel void
@@ -40,24 +42,34 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                   __global double *restrict all_powers, __local real *table,
                   __local double *coefficients, __local uint *begins) {
     const ring_numbers rings = numbers.rings;
-    const uint value_sets = numbers.value_sets, num_realizations = numbers.num_realizations;
+    const uint value_sets = numbers.value_sets, shares = numbers.shares;
     const uint L = rings.L, only_even = rings.only_even, half_pitch = numbers.half_pitch;
     const uint num_rings = rings.num_rings, ring_pitch = rings.ring_pitch, block = rings.block;
-    const uint group = get_global_id(1), groups = get_global_size(1);
+    const uint own = get_global_id(1), share = own % shares;
+    const uint groups = get_global_size(1) / shares, group = own / shares;
+    const uint begin_set = share_begin(share, shares, numbers.num_realizations);
+    const uint num_realizations =
+        share_begin(share + 1, shares, numbers.num_realizations) - begin_set;
     const size_t apart = 4 * (size_t)ring_pitch;
     const size_t powers_apart = 2 * (size_t)half_pitch;
-    __global double *states = all_states + group * 4 * (size_t)ring_pitch;
+    __global const real *own_values = values + begin_set * apart;
+    const size_t of_group = (size_t)group * numbers.num_realizations + begin_set;
+    __global double *states = all_states + own * 4 * (size_t)ring_pitch;
     __global real *sums =
-        all_sums + group * (size_t)(num_realizations + 1) * (2 * RUN_VECTORS * 2 * LANES);
-    __global double *powers = all_powers + (KEEP ? 0 : group * num_realizations * powers_apart);
+        all_sums + (group * (size_t)(numbers.num_realizations + shares) + begin_set + share) *
+                       (2 * RUN_VECTORS * 2 * LANES);
+    __global double *powers = all_powers + (KEEP ? 0 : of_group * powers_apart);
     ring_work work = {{states, states + 2 * (size_t)ring_pitch,
-                       all_scales + group * 2 * (size_t)ring_pitch, ring_pitch},
+                       all_scales + own * 2 * (size_t)ring_pitch, ring_pitch},
                       {distances, squares, rings.polar, rings.crossing, rings.equatorial},
-                      all_diagonals + group * (size_t)ring_pitch,
-                      all_diagonal_scales + group * (size_t)ring_pitch,
+                      all_diagonals + own * (size_t)ring_pitch,
+                      all_diagonal_scales + own * (size_t)ring_pitch,
                       num_rings,
                       block,
                       0};
+    if (num_realizations == 0) {
+        return;
+    }
     const order_starts from_order = {starts, start_scales, steps, step_scales, ratios, cosines};
     for (uint m = group; m <= L; m += groups) {
         const uint start = work.alive / block * block; /* the first block that is not all zeros */
@@ -88,8 +100,9 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                                                m == group,
                                                m == 0 ? 1 : 2,
                                                coefficients + OF_ALPHA + odd * (RUN_DEGREES / 2)};
-                    __global const real *from = values + m * order_pitch(value_sets, apart / 2) +
-                                                r * apart + odd * 2 * (size_t)ring_pitch + 2 * ring;
+                    __global const real *from = own_values +
+                                                m * order_pitch(value_sets, apart / 2) + r * apart +
+                                                odd * 2 * (size_t)ring_pitch + 2 * ring;
                     __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
 #if KEEP
                     __global double *to_powers =

@@ -70,13 +70,15 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
                                 size_t num, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_grid_table *table = &of(self)->table;
-    const ps_range range = ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS,
-                                                 4 * (double)shape->table_reals * (double)num);
+    const size_t shares = ps_sphere_sum_shares(shape, num);
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS * shares,
+                              4 * (double)shape->table_reals * (double)num);
     return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
                      PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
                      PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),
                      PS_U32(shape->max_degree), PS_U32(shape->num_angles), PS_U32(self->only_even),
-                     PS_U32(shape->half_pitch), PS_BUFFER(*to));
+                     PS_U32(shape->half_pitch), PS_U32(shares), PS_BUFFER(*to));
 }
 
 /* ---- the row ----------------------------------------------------------------------------- */

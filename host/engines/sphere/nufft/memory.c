@@ -72,6 +72,13 @@ static const double value_budget = 768 << 20;
  * for another. */
 enum { GROUPS_PER_CORE = 4 };
 
+/* GPUs have work-groups side by side instead, and each launch costs the time of some hundred sets
+ * of 1024 points: as many realizations as fill the card with a group for each, and for the sums of
+ * orders, of which there are PS_SPHERE_GROUPS groups, as many shares, of no fewer sets than the
+ * pairs of which a group's work-items have one each. Counted, not measured: 20000 sets of (1024,
+ * 64) take 13 rounds of four launches instead of the 313 of 64 sets each. */
+enum { SETS_PER_UNIT = 16, GROUPS_PER_UNIT = 4, LEAST_SHARE = 64 };
+
 static size_t fitting(double budget, uint64_t bytes, size_t most) {
     const double number = bytes > 0 ? floor(budget / (double)bytes) : (double)most;
     return number >= (double)most ? most : number > 1 ? (size_t)number : 1;
@@ -82,11 +89,15 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
     const size_t cores = ps_device_typical(limits).served_units;
     const uint64_t known = problem->num_realizations;
     const bool is_small = (double)shape->value_bytes * MOST_SMALL_AT_ONCE <= small_values;
-    const size_t wanted = is_small ? MOST_SMALL_AT_ONCE : MOST_AT_ONCE;
+    const size_t wanted = shape->is_gpu ? SETS_PER_UNIT * cores
+                          : is_small    ? MOST_SMALL_AT_ONCE
+                                        : MOST_AT_ONCE;
     const size_t most = known > 0 && known < wanted ? (size_t)known : wanted;
     const uint64_t vectors = problem->num_points * 3 * sizeof(double);
     const uint64_t set_bytes = vectors + problem->num_points * (2 * sizeof(uint64_t) + real_bytes);
-    shape->at_once = fitting(value_budget, shape->value_bytes, fitting(set_budget, vectors, most));
+    shape->at_once = fitting(fmin(value_budget, (double)limits->max_allocation_bytes),
+                             shape->value_bytes, fitting(set_budget, vectors, most));
+    shape->sum_shares = shape->is_gpu ? ps_divide_up(GROUPS_PER_UNIT * cores, PS_SPHERE_GROUPS) : 1;
     shape->together = shape->is_sorted ? 1 : fitting(point_budget, set_bytes, shape->at_once);
     shape->most_points = shape->together * problem->num_points;
     if (shape->is_sorted && shape->most_points > PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS) {
@@ -105,10 +116,16 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
                         : 1;
 }
 
+size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations) {
+    const size_t most = num_realizations / LEAST_SHARE;
+    return most < 1 ? 1 : most < shape->sum_shares ? most : shape->sum_shares;
+}
+
 /* ---- bytes ------------------------------------------------------------------------------- */
 
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t groups = PS_SPHERE_GROUPS;
+    const uint64_t sharing = groups * shape->sum_shares;
     const uint64_t points = ps_round_up(shape->most_points, shape->lanes);
     const uint64_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
     const uint64_t keys = (uint64_t)shape->bands * shape->tiles;
@@ -139,9 +156,9 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .gaps = ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes,
         .powers = groups * 2 * shape->half_pitch * sizeof(double),
         .sums = pitch > 0 && !shape->is_one_set ? groups * 4 * run * real_bytes : 0,
-        .states = groups * 4 * pitch * sizeof(double),
-        .scales = groups * 2 * pitch * sizeof(int32_t),
-        .diagonals = groups * pitch * sizeof(double),
+        .states = sharing * 4 * pitch * sizeof(double),
+        .scales = sharing * 2 * pitch * sizeof(int32_t),
+        .diagonals = sharing * pitch * sizeof(double),
         .table = shape->table_reals * real_bytes};
 }
 
@@ -163,13 +180,13 @@ void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     const bool is_fixed = (double)(each * shape->at_once) <= fixed_budget;
     shape->each_bytes = is_fixed ? 0 : each;
     shape->host_bytes = bytes.weights;
-    shape->fixed_bytes = bytes.weights + 2 * bytes.vectors + bytes.turns + bytes.weights + sorted +
-                         bytes.keys + bytes.starts + bytes.order + bytes.grids + bytes.rows +
-                         bytes.scratch + bytes.strip_turns + bytes.strip_weights + bytes.strips +
-                         bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
-                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
-                         bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
-                         (is_fixed ? shape->at_once * each : 0);
+    shape->fixed_bytes =
+        bytes.weights + 2 * bytes.vectors + bytes.turns + bytes.weights + sorted + bytes.keys +
+        bytes.starts + bytes.order + bytes.grids + bytes.rows + bytes.scratch + bytes.strip_turns +
+        bytes.strip_weights + bytes.strips + bytes.strip_starts + table_bytes(shape, real_bytes) +
+        shape->sum_shares * bytes.sums + bytes.states + bytes.scales + bytes.diagonals +
+        bytes.diagonals / 2 + bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
+        (is_fixed ? shape->at_once * each : 0);
     const uint64_t buffers[] = {bytes.table,
                                 bytes.grids,
                                 bytes.rows,

@@ -48,7 +48,7 @@ static pspec_status create(ps_sphere_state *self, ps_error *error) {
         {&own->scales, bytes.scales, "scales of rings"},
         {&own->diagonals, bytes.diagonals, "first degrees of rings"},
         {&own->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
-        {&own->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"}};
+        {&own->sums, (shape->at_once + shape->sum_shares) * bytes.sums, "sums over rings"}};
     PS_TRY(ps_sphere_ring_tables_create(&own->tables, shape, self->precision, self->device, error));
     PS_TRY(create_kernels(self, error));
     return PS_BUFFERS_CREATE(self->device, wanted, error);
@@ -198,12 +198,14 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
+    const size_t shares = ps_sphere_sum_shares(shape, num);
     const ps_range range =
-        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
+        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS * shares, flops);
     const orders_sum_numbers numbers = {.rings = ps_sphere_ring_numbers(shape, self->only_even),
                                         .value_sets = (uint32_t)shape->at_once,
                                         .num_realizations = (uint32_t)num,
-                                        .half_pitch = shape->half_pitch};
+                                        .half_pitch = shape->half_pitch,
+                                        .shares = (uint32_t)shares};
     return PS_LAUNCH(
         self->device, kernel, &range, error, PS_STRUCT(numbers), PS_BUFFER(self->values),
         PS_BUFFER(starts->starts), PS_BUFFER(starts->start_scales), PS_BUFFER(starts->steps),

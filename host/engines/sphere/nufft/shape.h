@@ -56,6 +56,7 @@ typedef struct ps_sphere_shape {
     size_t together;            /* between points and values on rings */
     size_t slots;               /* grids */
     size_t shares;              /* work-groups for each grid */
+    size_t sum_shares;          /* work-groups that have the same orders, at most */
     uint64_t most_points;       /* on the device at a time */
     uint64_t set_points;        /* of a realization that comes in strips, else 0 */
 
@@ -99,6 +100,9 @@ static inline unsigned ps_sphere_one_vectors(const ps_sphere_shape *shape) {
     return shape->sum_lanes * sizeof(double) == bytes_of_32 ? 4 : 2;
 }
 
+/* In how many shares (kernels/sphere/nufft/shares.h) so many realizations are summed. */
+size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations);
+
 /* Its parts, of memory.c, axis.c and cost.c. How many realizations at once, and what all of it
  * takes, for a shape with a grid. */
 void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
@@ -117,7 +121,7 @@ double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, 
                              ps_sphere_route route);
 
 /* Bytes of the buffers, which have the names of kernels/sphere/; values, powers and sums for each
- * of at_once realizations, sums for one more. */
+ * of at_once realizations, sums for sum_shares more. */
 typedef struct ps_sphere_bytes {
     uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
     uint64_t keys, starts;            /* on GPUs the order has the keys */

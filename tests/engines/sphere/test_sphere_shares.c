@@ -1,0 +1,88 @@
+/* Realizations of a batch that groups of the sums share on GPUs (kernels/sphere/nufft/shares.h):
+ * each has the bits that it has alone, in batches that shares divide, and do not. The layout is
+ * that of a GPU on whatever device there is. */
+#include "harness_sphere.h"
+#include "harness_sphere_shapes.h"
+
+#include "engines/sphere/nufft/shape.h"
+#include "sphere/nufft/shares.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUM_SETS = 200, NUM_POINTS = 23, DEGREE = 20 };
+
+static ps_device *device;
+
+/* Every realization is of one share, and pairs are not parted. */
+static void shares_cover_all(void **state) {
+    (void)state;
+    for (ps_u32 num = 1; num < 100; num++) {
+        for (ps_u32 shares = 1; shares < 20; shares++) {
+            assert_int_equal(share_begin(0, shares, num), 0);
+            assert_int_equal(share_begin(shares, shares, num), num);
+            for (ps_u32 s = 0; s < shares; s++) {
+                const ps_u32 begin = share_begin(s, shares, num);
+                assert_true(begin <= share_begin(s + 1, shares, num));
+                assert_true(begin % 2 == 0 || begin == num);
+            }
+        }
+    }
+}
+
+static void check(const ps_engine *engine, ps_sphere_route route, ps_precision precision,
+                  const pspec_pattern *patterns) {
+    static const size_t batches[] = {NUM_SETS, 131, 64};
+    ps_frequencies set = {0};
+    assert_ok(ps_frequencies_degrees(&set, DEGREE, false, error));
+    assert_ok(ps_frequencies_enumerate(&set, error));
+    const ps_problem problem = {.frequencies = &set,
+                                .num_points = NUM_POINTS,
+                                .num_realizations = NUM_SETS,
+                                .has_weights = true,
+                                .tolerance = 1e-5};
+    const ps_sphere_shape shape =
+        ps_sphere_shape_make(&problem, ps_device_get_limits(device), precision, route);
+    assert_int_equal(shape.at_once, NUM_SETS);
+    assert_int_equal(ps_sphere_sum_shares(&shape, NUM_SETS), 3);
+    assert_int_equal(ps_sphere_sum_shares(&shape, 1), 1);
+    double *alone = test_run_problem(engine, &problem, precision, device, patterns, NUM_SETS, 1);
+    for (size_t b = 0; b < sizeof batches / sizeof *batches; b++) {
+        double *found =
+            test_run_problem(engine, &problem, precision, device, patterns, NUM_SETS, batches[b]);
+        assert_memory_equal(found, alone, NUM_SETS * set.num * sizeof *found);
+        free(found);
+    }
+    free(alone);
+    ps_frequencies_free(&set);
+}
+
+static void sets_have_the_bits_that_they_have_alone(void **state) {
+    pspec_pattern patterns[NUM_SETS];
+    (void)state;
+    if (!ps_device_get_limits(device)->has_fp64) {
+        return;
+    }
+    for (unsigned i = 0; i < NUM_SETS; i++) {
+        patterns[i] = test_make_sphere_pattern(&test_sphere_shapes[i % 2], NUM_POINTS, i);
+    }
+    for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
+        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, precision, patterns);
+        check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, precision, patterns);
+    }
+    for (unsigned i = 0; i < NUM_SETS; i++) {
+        test_free_sphere_pattern(&patterns[i]);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_cover_all),
+        cmocka_unit_test(sets_have_the_bits_that_they_have_alone),
+    };
+    device = test_open_device();
+    ((ps_device_limits *)ps_device_get_limits(device))->has_dedicated_local_memory = true;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    ps_device_close(device);
+    return failed;
+}
