@@ -1,5 +1,8 @@
 #include "math/lift.h"
 
+#include "base/wide.h"
+#include "shared/sphere_point.h"
+
 #include <math.h>
 
 ps_height ps_height_of_ratio(double numerator, double denominator) {
@@ -14,34 +17,57 @@ ps_height ps_height_of_area(bool on_hemisphere, double x) {
     return (ps_height){2 * x - 1, 2 * (x < 1 - x ? x : 1 - x)};
 }
 
-static void place(ps_height height, double cosine, double sine, double *point) {
-    const double sine_theta = sqrt(height.t * (2 - height.t));
-    point[0] = sine_theta * cosine + 0.0; /* adding 0 makes a -0 positive */
-    point[1] = sine_theta * sine + 0.0;
-    point[2] = height.z + 0.0;
-}
-
 void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_DIMENSION]) {
     double cosine = 0;
     double sine = 0;
     ps_turns_cosine_sine(azimuth, &cosine, &sine);
-    place(height, cosine, sine, point);
+    sphere_point(height.z, height.t, cosine, sine, point);
 }
 
-void ps_sphere_point_portable(ps_height height, ps_turns azimuth,
-                              double point[PS_VECTOR_DIMENSION]) {
-    double cosine = 0;
-    double sine = 0;
-    ps_turns_portable(azimuth, &cosine, &sine);
-    place(height, cosine, sine, point);
-}
+enum { BLOCK = 64 }; /* points that are lifted side by side */
 
+#define LIFT_BLOCK(on_hemisphere, x, y, out)                                                       \
+    for (size_t j = 0; j < BLOCK; j++) {                                                           \
+        double point[PS_VECTOR_DIMENSION];                                                         \
+        sphere_lift(on_hemisphere, x[j], y[j], point);                                             \
+        out[0][j] = point[0];                                                                      \
+        out[1][j] = point[1];                                                                      \
+        out[2][j] = point[2];                                                                      \
+    }
+
+PS_WIDE_BODY(size_t, lift, (bool on_hemisphere, const double *pairs, double *vectors)) {
+    double x[BLOCK];
+    double y[BLOCK];
+    double out[PS_VECTOR_DIMENSION][BLOCK];
+    for (size_t j = 0; j < BLOCK; j++) {
+        x[j] = pairs[2 * j];
+        y[j] = pairs[2 * j + 1];
+    }
+    if (on_hemisphere) { /* known in each loop, which is vectorised then */
+        LIFT_BLOCK(1, x, y, out);
+    } else {
+        LIFT_BLOCK(0, x, y, out);
+    }
+    for (size_t j = 0; j < BLOCK; j++) {
+        for (size_t i = 0; i < PS_VECTOR_DIMENSION; i++) {
+            vectors[PS_VECTOR_DIMENSION * j + i] = out[i][j];
+        }
+    }
+    return BLOCK;
+}
+PS_WIDE(size_t, lift, (bool on_hemisphere, const double *pairs, double *vectors),
+        (on_hemisphere, pairs, vectors))
+
+/* From the end: a vector takes more room than its pair. */
 void ps_sphere_lift(bool on_hemisphere, size_t first, size_t end, double *points) {
-    for (size_t j = end; j-- > first;) { /* from the end: a vector takes more room than its pair */
-        const double x = points[2 * j];
-        const double y = points[2 * j + 1];
-        ps_sphere_point(ps_height_of_area(on_hemisphere, x), ps_turns_of(y),
-                        points + PS_VECTOR_DIMENSION * j);
+    size_t j = end;
+    while (j - first >= BLOCK) {
+        j -= BLOCK;
+        lift(on_hemisphere, points + 2 * j, points + PS_VECTOR_DIMENSION * j);
+    }
+    while (j-- > first) {
+        sphere_lift(on_hemisphere, points[2 * j], points[2 * j + 1],
+                    points + PS_VECTOR_DIMENSION * j);
     }
 }
 

@@ -27,11 +27,8 @@ ps_height ps_height_of_ratio(double numerator, double denominator);
  * [0,1]. */
 ps_height ps_height_of_area(bool on_hemisphere, double x);
 
-/* The unit vector (x, y, z). No coordinate is -0. */
+/* The unit vector (x, y, z), with the same bits on every machine. No coordinate is -0. */
 void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_DIMENSION]);
-/* The same by ps_turns_portable: its bits are those of every machine. */
-void ps_sphere_point_portable(ps_height height, ps_turns azimuth,
-                              double point[PS_VECTOR_DIMENSION]);
 
 /* Lambert's cylindrical equal-area map: points (x, y) of the plane, [..][2] at the beginning of the
  * array, become unit vectors [..][3] with height by ps_height_of_area(x) and azimuth y turns.

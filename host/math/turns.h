@@ -19,10 +19,8 @@ ps_turns ps_turns_of_fraction(uint64_t fraction);
 
 /* Cosine and sine of an angle, c and s, become those of so many quarters of a turn more. */
 void ps_turns_add_quarters(unsigned quarters, double c, double s, double *cosine, double *sine);
+/* By + - * alone, the same bits on every machine. */
 void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine);
-/* By + - * / alone, the same bits on every machine: right to two units in the last place of each.
- */
-void ps_turns_portable(ps_turns angle, double *cosine, double *sine);
 
 /* By + - * / alone, for what has to have the same bits on every machine: those of C libraries
  * differ in last places. Taylor's series up to an eighth of a turn, angle in radians: what is left

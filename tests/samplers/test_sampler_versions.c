@@ -23,7 +23,7 @@ static void versions_stand_for_bits(void **state) {
         {"bnot", 2, 1, UINT64_C(0xdb0b703c6b38706a)},
         {"fpo", 2, 1, UINT64_C(0x6ccc9a3147f8efcc)},
         {"ccvt", 2, 1, UINT64_C(0xc1e5432d365dcec7)},
-        {"ccvt-sphere", 3, 2, UINT64_C(0x808ed05c4ceab415)},
+        {"ccvt-sphere", 3, 3, UINT64_C(0xe6487e0e47606ae4)},
         {"gaussian-blue-noise", 2, 2, UINT64_C(0x36e8b9f0915103fb)},
         {"step", 2, 2, UINT64_C(0x9845960c79215b36)},
     };

@@ -20,8 +20,7 @@ static void make_points(double *points, size_t n, uint64_t seed, uint64_t set) {
     for (size_t j = 0; j < n * n; j++) {
         const double height = ((double)(j / n) + ps_random_uniform(&random)) / (double)n;
         const double turns = ((double)(j % n) + ps_random_uniform(&random)) / (double)n;
-        ps_sphere_point_portable(ps_height_of_area(true, height), ps_turns_of(turns),
-                                 points + 3 * j);
+        ps_sphere_point(ps_height_of_area(true, height), ps_turns_of(turns), points + 3 * j);
     }
 }
 

@@ -41,16 +41,14 @@ static ps_rotation portable_of_quaternion(const double q[4]) {
     return rotation;
 }
 
-typedef void turns_function(ps_turns angle, double *cosine, double *sine);
-
-static void draw_quaternion(ps_random *random, turns_function *of_turns, double q[4]) {
+static void draw_quaternion(ps_random *random, double q[4]) {
     const double u = ps_random_uniform(random);
     const ps_turns first = ps_turns_of(ps_random_uniform(random));
     const ps_turns second = ps_turns_of(ps_random_uniform(random));
     const double a = sqrt(u);
     const double b = sqrt(1 - u);
-    of_turns(first, &q[0], &q[1]);
-    of_turns(second, &q[2], &q[3]);
+    ps_turns_cosine_sine(first, &q[0], &q[1]);
+    ps_turns_cosine_sine(second, &q[2], &q[3]);
     q[0] *= a;
     q[1] *= a;
     q[2] *= b;
@@ -59,13 +57,13 @@ static void draw_quaternion(ps_random *random, turns_function *of_turns, double 
 
 ps_rotation ps_rotation_random(ps_random *random) {
     double q[4];
-    draw_quaternion(random, ps_turns_cosine_sine, q);
+    draw_quaternion(random, q);
     return ps_rotation_of_quaternion(q[0], q[1], q[2], q[3]);
 }
 
 ps_rotation ps_rotation_random_portable(ps_random *random) {
     double q[4];
-    draw_quaternion(random, ps_turns_portable, q);
+    draw_quaternion(random, q);
     return portable_of_quaternion(q);
 }
 

@@ -100,7 +100,7 @@ static pspec_status make_background(ps_ccvt *c, const ps_rotation *rotation, dou
     for (size_t first = 0; first < num; first += PIECE) {
         const size_t end = first + PIECE < num ? first + PIECE : num;
         for (size_t j = first; j < end; j++) {
-            ps_fibonacci_point_portable(j, num, piece + PS_CCVT_AXES * (j - first));
+            ps_fibonacci_point(j, num, piece + PS_CCVT_AXES * (j - first));
         }
         ps_rotate(rotation, piece, end - first);
         keep(c->at, first, end - first, piece);
@@ -114,7 +114,7 @@ static pspec_status draw_sites(ps_ccvt *c, ps_random *random, ps_error *error) {
         double point[PS_CCVT_AXES];
         const ps_height height = ps_height_of_area(false, ps_random_uniform(random));
         const ps_turns azimuth = ps_turns_of(ps_random_uniform(random));
-        ps_sphere_point_portable(height, azimuth, point);
+        ps_sphere_point(height, azimuth, point);
         keep(c->site, i, 1, point);
         PS_TRY(ps_ccvt_go_on(c, 1, error));
     }

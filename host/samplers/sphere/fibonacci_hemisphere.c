@@ -15,7 +15,7 @@ const ps_sampler ps_sampler_fibonacci_hemisphere = {
     .name = "fibonacci-hemisphere",
     .summary = "northern half of 2N spherical Fibonacci points",
     .domain = PS_SAMPLES_HEMISPHERE,
-    .nanoseconds = 21,
+    .nanoseconds = 15,
     .is_deterministic = ps_sampler_always,
     .generate = generate,
 };

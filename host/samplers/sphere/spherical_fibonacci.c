@@ -30,15 +30,14 @@ static ps_height height_of(size_t j, uint64_t num_heights) {
     return ps_height_of_ratio(denominator - (2 * (double)j + 1), denominator);
 }
 
-void ps_fibonacci_point_portable(size_t j, uint64_t num_heights, double *point) {
-    ps_sphere_point_portable(height_of(j, num_heights),
-                             ps_turns_of_fraction(ps_fibonacci_fraction(j)), point);
+void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point) {
+    ps_sphere_point(height_of(j, num_heights), ps_turns_of_fraction(ps_fibonacci_fraction(j)),
+                    point);
 }
 
 void ps_fibonacci_points(size_t first, size_t end, uint64_t num_heights, double *points) {
     for (size_t j = first; j < end; j++) {
-        ps_sphere_point(height_of(j, num_heights), ps_turns_of_fraction(ps_fibonacci_fraction(j)),
-                        points + PS_VECTOR_DIMENSION * j);
+        ps_fibonacci_point(j, num_heights, points + PS_VECTOR_DIMENSION * j);
     }
 }
 

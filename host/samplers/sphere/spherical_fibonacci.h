@@ -8,8 +8,8 @@
 uint64_t ps_fibonacci_fraction(uint64_t j);
 
 /* Point j, with z = 1 - (2j + 1)/num_heights: num_heights is their number for the sphere and twice
- * that for the hemisphere. With the same bits on every machine. */
-void ps_fibonacci_point_portable(size_t j, uint64_t num_heights, double *point);
+ * that for the hemisphere. */
+void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point);
 /* Points j = first .. end - 1 of the array. */
 void ps_fibonacci_points(size_t first, size_t end, uint64_t num_heights, double *points);
 /* All points of a request. PSPEC_ERROR_CANCELLED where the watch asks to stop. */

@@ -102,7 +102,7 @@ const ps_sampler ps_sampler_zphi = {
     .domain = PS_SAMPLES_SPHERE,
     .parameters = {{"strata", PS_STRATA_AUTO,
                     "AxB, slices of height x sectors; auto: square at the equator, B/A near pi"}},
-    .nanoseconds = 34,
+    .nanoseconds = 16,
     .is_deterministic = ps_sampler_never,
     .most_power = ps_sampler_white_power,
     .check = check,
