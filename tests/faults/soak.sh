@@ -71,7 +71,12 @@ saved=(
 )
 # Two devices share a job, where one can be split.
 if "$program" power --engine torus_direct --sampler white -n 4 -k 1 --device cpu:split=2/1 >/dev/null 2>&1; then
-    saved+=("power --sampler jittered -n 4096 -m 60000 -k 64 --device cpu:split=2")
+    saved+=(
+        "power --sampler jittered -n 4096 -m 60000 -k 64 --device cpu:split=2"
+        "quadrature --brdf glossy:n=30 --sampler white-hemisphere -n 512 -m 20000 --device cpu:split=2"
+        "variance --sampler jittered -n 64,256 -m 100000 --integrand disk --shifts 40 --device cpu:split=2"
+        "interpolation --sampler white-sphere --integrand map:width=128 -n 100,200 -m 800 --device cpu:split=2"
+    )
 fi
 begun_anew=(
     "truncation --brdf glossy:n=30 -l 20"
