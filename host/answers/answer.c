@@ -74,6 +74,12 @@ static pspec_status check_input(void *payload, const ps_request_file *input, ps_
 }
 
 pspec_status ps_answer_look_at_inputs(const ps_request *request, ps_error *why) {
+    if (request->reading.given.num > 0) {
+        return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "points of the caller are not shared");
+    }
+    if (request->integrands_given.num > 0) {
+        return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "functions of the caller are not shared");
+    }
     return ps_request_visit_inputs(request, check_input, NULL, why);
 }
 

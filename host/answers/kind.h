@@ -247,7 +247,8 @@ const char *ps_command_words(const ps_command *command, ps_option_id id);
 const ps_command *ps_command_nearest(const ps_command *const *table, const char *name,
                                      size_t *distance);
 
-/* Why inputs may not be read by several, who share the work: they come once. */
+/* Why inputs may not be read by several, who share the work: they come once, or are of a caller,
+ * who is asked by one thread. */
 pspec_status ps_answer_look_at_inputs(const ps_request *request, ps_error *why) PS_MUST_CHECK;
 /* `look_at_shares` of kinds whose realizations are rows: *num of them, UINT64_MAX where nobody has
  * counted. */

@@ -292,15 +292,13 @@ static int listen_in_thread(const pspec_progress_report *report, void *payload) 
     return report->done >= self->most;
 }
 
-static void several_devices(void **state) {
-    (void)state;
+static void ask_several_devices(const char *words) {
     pspec_context *const context = pspec_context_create();
     own_thread heard = {.thread = pthread_self(), .most = UINT64_MAX};
     pspec_answer *answer = NULL;
     assert_int_equal(pspec_context_set_device(context, "cpu:split=2"), PSPEC_OK);
     pspec_context_set_progress(context, listen_in_thread, &heard);
-    pspec_question *const question = test_public_question(
-        context, "power sampler=white points=64 realizations=3000 max-frequency=8");
+    pspec_question *const question = test_public_question(context, words);
     if (pspec_question_answer(&answer, question) == PSPEC_OK) {
         assert_true(heard.num_calls > 0 && heard.num_others == 0);
         heard.most = 0;
@@ -312,6 +310,14 @@ static void several_devices(void **state) {
     pspec_answer_destroy(answer);
     pspec_question_destroy(question);
     pspec_context_destroy(context);
+}
+
+/* Parts of a job, and rows of its realizations. */
+static void several_devices(void **state) {
+    (void)state;
+    ask_several_devices("power sampler=white points=64 realizations=3000 max-frequency=8");
+    ask_several_devices(
+        "quadrature sampler=white-hemisphere points=64 realizations=300 brdf=diffuse max-degree=8");
 }
 
 int main(void) {

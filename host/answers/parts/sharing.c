@@ -19,9 +19,6 @@ static pspec_status look(ps_error *why, const ps_command *command, const ps_requ
         return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s has no realizations that are shared",
                        command->name);
     }
-    if (request->reading.given.num > 0) {
-        return ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "points of the caller are not shared");
-    }
     PS_TRY(check_options(request, why));
     return ps_answer_look_at_inputs(request, why);
 }
