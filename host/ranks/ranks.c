@@ -183,12 +183,29 @@ static pspec_status send(ps_ranks *self, int to, ps_mpi_tag tag, const report *h
                : check(self, self->calls->send(to, PS_MPI_BYTES, bytes, head->num_bytes), error);
 }
 
+/* Bytes of a verdict go down a tree, in log2 of the ranks: to those whose number has one bit more,
+ * below all others of its own. */
+static pspec_status forward(ps_ranks *self, const void *bytes, size_t num, ps_error *error) {
+    int step = 1;
+    while (step < self->num && (self->own & step) == 0) {
+        step *= 2;
+    }
+    for (step /= 2; step > 0 && num > 0; step /= 2) {
+        if (self->own + step < self->num) {
+            PS_TRY(
+                check(self, self->calls->send(self->own + step, PS_MPI_BYTES, bytes, num), error));
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status tell_all(ps_ranks *self, const report *verdict, const void *bytes,
                              ps_error *error) {
     for (int rank = 1; rank < self->num; rank++) {
-        PS_TRY(send(self, rank, PS_MPI_VERDICT, verdict, bytes, error));
+        PS_TRY(
+            check(self, self->calls->send(rank, PS_MPI_VERDICT, verdict, sizeof *verdict), error));
     }
-    return PSPEC_OK;
+    return forward(self, bytes, verdict->num_bytes, error);
 }
 
 static pspec_status take_bytes(ps_ranks *self, int from, size_t num, ps_rank_bytes *out,
@@ -303,9 +320,12 @@ pspec_status ps_ranks_conclude(ps_ranks *self, pspec_status status, void *bytes,
     PS_TRY(check(self, self->calls->receive(0, PS_MPI_VERDICT, &verdict, sizeof verdict), error));
     self->is_stopped = false;
     if (verdict.num_bytes > 0 && verdict.num_bytes == num) {
-        PS_TRY(check(self, self->calls->receive(0, PS_MPI_BYTES, bytes, num), error));
+        const int parent = self->own & (self->own - 1);
+        PS_TRY(check(self, self->calls->receive(parent, PS_MPI_BYTES, bytes, num), error));
+        PS_TRY(forward(self, bytes, num, error));
     }
     if (verdict.error.status == PSPEC_OK && verdict.num_bytes != num) {
+        self->is_broken = true; /* others wait for what would go on from here */
         return ps_fail(error, PSPEC_ERROR_IO, "rank 0 gives %zu bytes instead of %zu",
                        (size_t)verdict.num_bytes, num);
     }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RANKS = 3, BYTES = 1000, NOBODY = -1 };
+enum { RANKS = 5, BYTES = 1000, NOBODY = -1 };
 
 /* ---- the world ----------------------------------------------------------------------------- */
 

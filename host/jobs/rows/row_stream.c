@@ -16,6 +16,10 @@
 static const double ROUND_SECONDS = 1;
 enum { FIRST_EACH = 1, MOST_GROWTH = 8, MOST_BYTES = 64 << 20 };
 
+/* Where a row of each member takes more, as pictures of many pixels do under hundreds of ranks,
+ * each member makes all rows itself. */
+enum { MOST_SLOT_BYTES = 512 << 20 };
+
 /* What is before the rows of a slot; numbers of which the largest counts stand between. */
 typedef struct slot {
     uint64_t num;   /* rows */
@@ -79,6 +83,10 @@ static pspec_status make(ps_row_stream *self, size_t wanted, char *rows, size_t 
 }
 
 pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done, ps_error *error) {
+    const ps_team *const team = stream->team;
+    if (team != NULL && (double)team->num * (double)stream->row_bytes > MOST_SLOT_BYTES) {
+        stream->team = NULL;
+    }
     stream->num_done = num_done;
     stream->position = 0;
     stream->has_met = stream->has_ended = false;

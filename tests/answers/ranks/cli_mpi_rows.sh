@@ -17,7 +17,7 @@ light=coefficients:file=$PWD/light.txt
 is_as_one 2 variance --engine host_direct --integrand disk --integrand gaussian --sampler jittered --sampler white -n 4,9 -m 40 -k 3
 is_as_one 3 variance --engine host_direct --integrand disk --columns xyw -k 3 "$sets"
 is_as_one 2 variance --engine host_direct --integrand disk --sampler sobol -n 16 -m 20 -k 3
-is_as_one 2 quadrature --engine host_direct --sampler white-hemisphere -n 9,16 -m 41 --brdf diffuse -l 5
+is_as_one 5 quadrature --engine host_direct --sampler white-hemisphere -n 9,16 -m 41 --brdf diffuse -l 5
 is_as_one 3 quadrature --engine host_direct --sampler white-hemisphere -n 16 -m 9 --brdf glossy:n=5 -l 5 --weights optimal
 is_as_one 3 quadrature --engine host_direct --columns xyw --lift hemisphere --brdf diffuse -l 5 "$sets"
 is_as_one 2 quadrature --engine host_direct --sampler fibonacci-hemisphere -n 16 -m 9 --brdf diffuse -l 5
