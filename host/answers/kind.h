@@ -256,8 +256,8 @@ pspec_status ps_answer_look_at_rows(uint64_t *num, ps_error *why, const ps_reque
                                     ps_error *error) PS_MUST_CHECK;
 
 /* Computes and tabulates, and keeps nothing else; in a team (hooks->team) the table is that of the
- * member that leads. *out is freed by ps_answer_free, also after an
- * error. A check that found differences is no error: the answer has the verdict. */
+ * member that leads. *out is freed by ps_answer_free, also after an error. A check that found
+ * differences is no error: the answer has the verdict. */
 pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);

@@ -2,6 +2,7 @@
 #include "device/kind.h"
 #include "engines/error_units.h"
 #include "jobs/estimator_private.h"
+#include "math/larger.h"
 
 #include <math.h>
 
@@ -152,16 +153,12 @@ pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) {
     return ps_accumulator_settle(estimator->accumulator, error);
 }
 
-/* nan stays */
-static double find_larger(double a, double b) {
-    return a >= b || isnan(a) ? a : b;
-}
-
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
     ps_accuracy accuracy = estimator->accuracy;
     accuracy.largest_mean_power =
-        find_larger(ps_accumulator_largest(estimator->accumulator), accuracy.largest_mean_power);
-    accuracy.error = error_at(estimator, accuracy.largest_mean_power);
+        ps_larger(ps_accumulator_largest(estimator->accumulator), accuracy.largest_mean_power);
+    accuracy.error =
+        ps_larger(error_at(estimator, accuracy.largest_mean_power), accuracy.error); /* of others */
     accuracy.largest_points = estimator->totals.largest_points;
     return accuracy;
 }
@@ -169,7 +166,8 @@ ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
 void ps_estimator_join_accuracy(ps_estimator *estimator, const ps_accuracy *others) {
     ps_accuracy *const own = &estimator->accuracy;
     ps_pattern_totals *const totals = &estimator->totals;
-    own->largest_mean_power = find_larger(own->largest_mean_power, others->largest_mean_power);
+    own->largest_mean_power = ps_larger(own->largest_mean_power, others->largest_mean_power);
+    own->error = ps_larger(own->error, others->error);
     own->largest_share = fmax(own->largest_share, others->largest_share);
     own->length_error = fmax(own->length_error, others->length_error);
     if (others->largest_points > totals->largest_points) {

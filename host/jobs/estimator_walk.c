@@ -18,7 +18,8 @@ static pspec_status walk_counts(ps_estimator *self, ps_snapshot *snapshot, ps_er
 static pspec_status walk_numbers(ps_estimator *self, ps_snapshot *snapshot, ps_error *error) {
     ps_accuracy *const accuracy = &self->accuracy;
     double *const numbers[] = {&accuracy->length_error, &accuracy->largest_share,
-                               &accuracy->self_check, &accuracy->largest_mean_power};
+                               &accuracy->self_check, &accuracy->largest_mean_power,
+                               &accuracy->error};
     return ps_snapshot_gather(snapshot, "numbers", numbers, sizeof numbers / sizeof numbers[0],
                               error);
 }

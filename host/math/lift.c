@@ -1,7 +1,7 @@
 #include "math/lift.h"
 
 #include "base/wide.h"
-#include "shared/sphere_point.h"
+#include "math/sphere_point.h"
 
 #include <math.h>
 
@@ -21,7 +21,7 @@ void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_
     double cosine = 0;
     double sine = 0;
     ps_turns_cosine_sine(azimuth, &cosine, &sine);
-    sphere_point(height.z, height.t, cosine, sine, point);
+    ps_sphere_point_of(height.z, height.t, cosine, sine, point);
 }
 
 enum { BLOCK = 64 }; /* points that are lifted side by side */
@@ -29,7 +29,7 @@ enum { BLOCK = 64 }; /* points that are lifted side by side */
 #define LIFT_BLOCK(on_hemisphere, x, y, out)                                                       \
     for (size_t j = 0; j < BLOCK; j++) {                                                           \
         double point[PS_VECTOR_DIMENSION];                                                         \
-        sphere_lift(on_hemisphere, x[j], y[j], point);                                             \
+        ps_sphere_point_of_area(on_hemisphere, x[j], y[j], point);                                 \
         out[0][j] = point[0];                                                                      \
         out[1][j] = point[1];                                                                      \
         out[2][j] = point[2];                                                                      \
@@ -44,9 +44,9 @@ PS_WIDE_BODY(size_t, lift, (bool on_hemisphere, const double *pairs, double *vec
         y[j] = pairs[2 * j + 1];
     }
     if (on_hemisphere) { /* known in each loop, which is vectorised then */
-        LIFT_BLOCK(1, x, y, out);
+        LIFT_BLOCK(true, x, y, out);
     } else {
-        LIFT_BLOCK(0, x, y, out);
+        LIFT_BLOCK(false, x, y, out);
     }
     for (size_t j = 0; j < BLOCK; j++) {
         for (size_t i = 0; i < PS_VECTOR_DIMENSION; i++) {
@@ -66,8 +66,8 @@ void ps_sphere_lift(bool on_hemisphere, size_t first, size_t end, double *points
         lift(on_hemisphere, points + 2 * j, points + PS_VECTOR_DIMENSION * j);
     }
     while (j-- > first) {
-        sphere_lift(on_hemisphere, points[2 * j], points[2 * j + 1],
-                    points + PS_VECTOR_DIMENSION * j);
+        ps_sphere_point_of_area(on_hemisphere, points[2 * j], points[2 * j + 1],
+                                points + PS_VECTOR_DIMENSION * j);
     }
 }
 

@@ -1,6 +1,6 @@
 #include "math/turns.h"
 
-#include "shared/sphere_point.h"
+#include "math/sphere_point.h"
 
 #include <math.h>
 
@@ -47,5 +47,5 @@ void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine) {
         quarters += rest > 0 ? 1 : QUARTERS - 1;
         rest -= rest > 0 ? QUARTER : -QUARTER;
     }
-    turn_cosine_sine((double)(quarters % QUARTERS), rest, cosine, sine);
+    ps_turn_cosine_sine((double)(quarters % QUARTERS), rest, cosine, sine);
 }

@@ -2,8 +2,8 @@
 #include "spectra/spectrum_sums.h"
 
 #include "engines/error_units.h"
+#include "math/larger.h"
 
-#include <math.h>
 #include <string.h>
 
 uint64_t ps_spectrum_sums_first(const ps_spectrum_sums *sums) {
@@ -80,16 +80,11 @@ static pspec_status check_order(const ps_spectrum_sums *sums, const ps_spectrum_
                          end, next_first, names[0], names[1]);
 }
 
-/* nan stays */
-static double find_larger(double a, double b) {
-    return a >= b || isnan(a) ? a : b;
-}
-
 void ps_spectrum_sums_join_errors(ps_spectrum_sums *sums, const ps_spectrum_sums *next) {
-    sums->error = find_larger(sums->error, next->error);
-    sums->amplitude_error = find_larger(sums->amplitude_error, next->amplitude_error);
-    sums->largest_share = find_larger(sums->largest_share, next->largest_share);
-    sums->largest_power = find_larger(sums->largest_power, next->largest_power);
+    sums->error = ps_larger(sums->error, next->error);
+    sums->amplitude_error = ps_larger(sums->amplitude_error, next->amplitude_error);
+    sums->largest_share = ps_larger(sums->largest_share, next->largest_share);
+    sums->largest_power = ps_larger(sums->largest_power, next->largest_power);
     if (sums->amplitude_error > 0) {
         sums->error = ps_pair_sums_error(sums->amplitude_error, sums->largest_share);
     }
@@ -111,6 +106,6 @@ pspec_status ps_spectrum_sums_join(ps_spectrum_sums *sums, const ps_spectrum_sum
         totals->smallest_points = next->totals.smallest_points;
     }
     ps_spectrum_sums_join_errors(sums, next);
-    sums->length_error = find_larger(sums->length_error, next->length_error);
+    sums->length_error = ps_larger(sums->length_error, next->length_error);
     return PSPEC_OK;
 }

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 typedef struct device_team device_team;
 
@@ -23,7 +24,8 @@ typedef struct member {
     ps_answer answer;
     pspec_status status;
     ps_error error;
-    const char *slots; /* while it meets the others */
+    const char *slots; /* while it meets the others, of so many bytes each */
+    size_t bytes;
 } member;
 
 struct device_team {
@@ -32,6 +34,9 @@ struct device_team {
     pthread_cond_t has_changed;
     member *members; /* [num] */
     size_t num;
+    /* What the first has told last */
+    char phase[128];
+    uint64_t done, total;
     /* Under the mutex */
     size_t num_waiting;
     uint64_t num_meetings;
@@ -40,8 +45,37 @@ struct device_team {
 
 /* ---- meetings -------------------------------------------------------------------------------- */
 
-/* Until all are here; false: one has failed, and will not come. */
-static bool wait_for_all(device_team *self) {
+static bool has_failed(device_team *self) {
+    pthread_mutex_lock(&self->mutex);
+    const bool has = self->failed != NULL;
+    pthread_mutex_unlock(&self->mutex);
+    return has;
+}
+
+/* With the mutex, which is free meanwhile. The first of the members is the thread of who called,
+ * whose watch is asked: it does not wait for ever. */
+static pspec_status wait_a_little(device_team *self, const member *own, ps_error *error) {
+    enum { NANOSECONDS = 100000000, OF_SECOND = 1000000000 }; /* ten times a second: base/watch.h */
+    struct timespec until;
+    if (own->team.own > 0) {
+        pthread_cond_wait(&self->has_changed, &self->mutex);
+        return PSPEC_OK;
+    }
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += NANOSECONDS;
+    until.tv_sec += until.tv_nsec / OF_SECOND;
+    until.tv_nsec %= OF_SECOND;
+    pthread_cond_timedwait(&self->has_changed, &self->mutex, &until);
+    pthread_mutex_unlock(&self->mutex);
+    const pspec_status status =
+        ps_watch_tell(&self->task->hooks->watch, self->phase, self->done, self->total, NULL, error);
+    pthread_mutex_lock(&self->mutex);
+    return status;
+}
+
+/* Until all are here; what one has failed by is another matter. */
+static pspec_status wait_for_all(device_team *self, const member *own, ps_error *error) {
+    pspec_status status = PSPEC_OK;
     pthread_mutex_lock(&self->mutex);
     const uint64_t meeting = self->num_meetings;
     if (++self->num_waiting == self->num) {
@@ -49,46 +83,52 @@ static bool wait_for_all(device_team *self) {
         self->num_meetings++;
         pthread_cond_broadcast(&self->has_changed);
     }
-    while (self->num_meetings == meeting && self->failed == NULL) {
-        pthread_cond_wait(&self->has_changed, &self->mutex);
+    while (status == PSPEC_OK && self->num_meetings == meeting && self->failed == NULL) {
+        status = wait_a_little(self, own, error);
     }
     const bool are_here = self->num_meetings > meeting;
     pthread_mutex_unlock(&self->mutex);
-    return are_here;
+    return are_here ? PSPEC_OK
+           : status != PSPEC_OK
+               ? status
+               : ps_fail(error, PSPEC_ERROR_CANCELLED, "another device has failed");
 }
 
 static pspec_status exchange(const ps_team *team, pspec_status status, void *slots, size_t bytes,
                              ps_error *error) {
     member *const own = team->payload;
     device_team *const self = own->owner;
+    PS_TRY(status);
     own->slots = slots;
-    bool are_here = status == PSPEC_OK && wait_for_all(self);
-    for (size_t i = 0; are_here && bytes > 0 && i < self->num; i++) {
-        if (i != team->own) {
-            memcpy((char *)slots + i * bytes, self->members[i].slots + i * bytes, bytes);
+    own->bytes = bytes;
+    PS_TRY(wait_for_all(self, own, error));
+    for (size_t i = 0; i < self->num; i++) {
+        const member *const other = &self->members[i];
+        if (other->bytes != bytes) {
+            return ps_fail(error, PSPEC_ERROR_IO, "devices do not do the same: %zu and %zu bytes",
+                           other->bytes, bytes);
+        }
+        if (i != team->own && bytes > 0) {
+            memcpy((char *)slots + i * bytes, other->slots + i * bytes, bytes);
         }
     }
-    are_here = are_here && wait_for_all(self); /* nobody needs the slots of another any more */
-    return status != PSPEC_OK || are_here
-               ? status
-               : ps_fail(error, PSPEC_ERROR_CANCELLED, "another device has failed");
+    return wait_for_all(self, own, error); /* nobody needs the slots of another any more */
 }
 
 /* ---- members --------------------------------------------------------------------------------- */
 
 /* Of members but the first, whose watch is that of who called. */
 static int tell(const ps_watch_report *report, void *payload) {
-    device_team *const self = payload;
     (void)report;
-    pthread_mutex_lock(&self->mutex);
-    const bool stops = self->failed != NULL;
-    pthread_mutex_unlock(&self->mutex);
-    return stops;
+    return has_failed(payload);
 }
 
 static int tell_first(const ps_watch_report *report, void *payload) {
     device_team *const self = payload;
     const ps_watch *const watch = &self->task->hooks->watch;
+    snprintf(self->phase, sizeof self->phase, "%s", report->phase);
+    self->done = report->done;
+    self->total = report->total;
     return tell(report, payload) ||
            (watch->tell != NULL && watch->tell(report, watch->payload) != 0);
 }
@@ -116,7 +156,7 @@ static pspec_status answer(member *self, ps_error *error) {
     ps_answer_hooks hooks = is_first ? *task->hooks : (ps_answer_hooks){0};
     PS_TRY(open_device(self, error));
     hooks.watch = (ps_watch){is_first ? tell_first : tell, owner};
-    hooks.payload = is_first ? hooks.payload : owner;
+    hooks.tell_profile = NULL; /* that of every device is told at the end */
     hooks.device = self->device;
     hooks.team = &self->team;
     request.limits.device = self->selector;
@@ -199,7 +239,9 @@ static void end(device_team *self, ps_answer *out) {
 static bool drop(const device_team *self, bool *is_dropped) {
     const member *const failed = self->failed;
     const ps_selectors *const selectors = self->task->selectors;
-    if (self->num == 1 || !ps_crew_is_of_device(failed->status)) {
+    const bool is_of_limit = failed->status == PSPEC_ERROR_MEMORY &&
+                             self->task->request->limits.constraints.memory_limit > 0;
+    if (self->num == 1 || !ps_crew_is_of_device(failed->status) || is_of_limit) {
         return false;
     }
     for (size_t i = 0; i < selectors->num; i++) {
@@ -232,7 +274,7 @@ static pspec_status run(device_team *self, ps_answer *out, bool *is_dropped, ps_
 pspec_status ps_device_team_answer(ps_answer *out, const ps_device_team_task *task,
                                    ps_error *error) {
     const ps_device_limits *const limits = ps_device_get_limits(task->hooks->device);
-    device_team self = {.task = task};
+    device_team self = {.task = task, .phase = "realizations"};
     bool *is_dropped = NULL;
     char name[128];
     *out = (ps_answer){0};

@@ -195,8 +195,13 @@ static pspec_status answer_as_team(ps_answer *out, sharing *self, answer_one *on
     } else {
         PS_TRY(crew->kind->look_at_shares(&num, &why, crew->request, error));
     }
+    self->task.num_parts = crew->selectors->num; /* as parts there is one for each */
     warn(crew, &why);
     self->is_done = why.message[0] == '\0';
+    if (self->is_done && num < crew->selectors->num) {
+        ps_answer_warn(crew->hooks, "%zu of %zu devices have nothing to do: there is work for %zu",
+                       crew->selectors->num - (size_t)num, crew->selectors->num, (size_t)num);
+    }
     return self->is_done ? ps_device_team_answer(out, &task, error) : PSPEC_OK;
 }
 
@@ -218,7 +223,6 @@ static pspec_status answer(ps_answer *out, sharing *self, const ps_kind *kind,
         return PSPEC_OK;
     }
     if (kind->look_at_shares != NULL) {
-        self->task.num_parts = self->selectors.num;
         return answer_as_team(out, self, one, error);
     }
     PS_TRY(plan(&self->task, &why, error));

@@ -1,8 +1,8 @@
 /* A command of several ranks (ranks/ranks.h): each has some of the parts of the job
  * (parts/parts.h), and rank 0 merges their answers and writes what one process would have written,
- * to the bit. A command that keeps what it makes (`look_at_shares` of its row) is shared by what is
- * kept. All else is done by rank 0 alone, and the others wait. Ranks NULL are one
- * process, which has parts where it goes on with a job that several have begun. */
+ * to the bit. A command with `look_at_shares` in its row is that of a team, of all ranks. All else
+ * is done by rank 0 alone, and the others wait. Ranks NULL are one process, which has parts where
+ * it goes on with a job that several have begun. */
 #ifndef PS_ANSWERS_RANKS_RANKS_WORK_H
 #define PS_ANSWERS_RANKS_RANKS_WORK_H
 

@@ -5,6 +5,7 @@
 #include "rules/distance_split.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,7 +50,14 @@ static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error
 }
 
 /* What decides on another plan is the largest of all rules, whoever has summed them. */
-enum { LARGEST_POWER, LARGEST_SHARE, LARGEST_LENGTH_ERROR, LARGEST_POINTS, NUM_LARGEST };
+enum {
+    LARGEST_POWER,
+    LARGEST_SHARE,
+    LARGEST_LENGTH_ERROR,
+    LARGEST_POINTS,
+    LARGEST_ERROR, /* of engines that may be others (--mixed) */
+    NUM_LARGEST
+};
 
 static pspec_status measure(void *payload, double *numbers, ps_error *error) {
     const ps_quadrature_job *const job = payload;
@@ -59,6 +67,7 @@ static pspec_status measure(void *payload, double *numbers, ps_error *error) {
     numbers[LARGEST_SHARE] = accuracy.largest_share;
     numbers[LARGEST_LENGTH_ERROR] = accuracy.length_error;
     numbers[LARGEST_POINTS] = (double)accuracy.largest_points;
+    numbers[LARGEST_ERROR] = accuracy.error;
     return PSPEC_OK;
 }
 
@@ -67,7 +76,8 @@ static void take_largest(void *payload, const double *numbers) {
     const ps_accuracy others = {.largest_mean_power = numbers[LARGEST_POWER],
                                 .largest_share = numbers[LARGEST_SHARE],
                                 .length_error = numbers[LARGEST_LENGTH_ERROR],
-                                .largest_points = (uint64_t)numbers[LARGEST_POINTS]};
+                                .largest_points = (uint64_t)numbers[LARGEST_POINTS],
+                                .error = numbers[LARGEST_ERROR]};
     ps_estimator_join_accuracy(job->runner.estimator, &others);
 }
 
@@ -99,6 +109,8 @@ static pspec_status begin_rows(ps_quadrature_job *job, ps_error *error) {
                               .total = setup->num_realizations,
                               .team = is_alone ? NULL : job->question->limits.checkpoint.team,
                               .device = setup->device};
+    snprintf(stream->plan, sizeof stream->plan, "engine %s in %s precision",
+             setup->plan.chosen->engine->name, ps_precision_name(setup->plan.chosen->precision));
     if (setup->by_pairs) {
         stream->measure = measure;
         stream->take_largest = take_largest;

@@ -3,10 +3,10 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "device/kind.h"
+#include "math/larger.h"
 #include "store/checkpoint.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ enum { FIRST_EACH = 1, MOST_GROWTH = 8, MOST_BYTES = 64 << 20 };
 
 /* Where a row of each member takes more, as pictures of many pixels do under hundreds of ranks,
  * each member makes all rows itself. */
-enum { MOST_SLOT_BYTES = 512 << 20 };
+enum { MOST_SLOT_BYTES = 128 << 20 };
 
 /* What is before the rows of a slot; numbers of which the largest counts stand between. */
 typedef struct slot {
@@ -107,6 +107,9 @@ static pspec_status describe(const ps_row_stream *self, alike *out, ps_error *er
     if (!self->team->is_mixed && self->device != NULL) {
         const ps_device_kind kind = ps_device_kind_of(ps_device_get_limits(self->device));
         ps_text_append(&text, "device %s\n", kind.text);
+    }
+    if (!self->team->is_mixed && self->plan[0] != '\0') {
+        ps_text_append(&text, "%s\n", self->plan);
     }
     ps_text_append(&text, "%" PRIu64 " realizations of a checkpoint\n", self->num_done);
     const pspec_status status = ps_text_check(&text, error);
@@ -204,7 +207,7 @@ static void take_largest(ps_row_stream *self, size_t slot_bytes) {
         const double *const other =
             (const double *)(const void *)(self->slots + i * slot_bytes + sizeof(slot));
         for (size_t n = 0; n < self->num_largest; n++) {
-            all[n] = all[n] >= other[n] || isnan(all[n]) ? all[n] : other[n];
+            all[n] = ps_larger(all[n], other[n]);
         }
     }
     if (self->num_largest > 0) {

@@ -33,6 +33,7 @@ typedef struct ps_row_stream {
     uint64_t total;      /* realizations; 0: nobody knows */
     const ps_team *team; /* NULL: nobody else */
     ps_device *device;   /* that bits depend on, so that all members have such a one; NULL: none */
+    char plan[128];      /* what else they depend on, a line; "": nothing */
     /* rows of the last call */
     char *rows; /* [num][row_bytes] */
     /* while it runs */
@@ -50,7 +51,7 @@ typedef struct ps_row_stream {
 pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done,
                                  ps_error *error) PS_MUST_CHECK;
 /* The next rows, `most` at most: *num in stream->rows, 0 behind the last. Members with devices of
- * other kinds, or at other realizations, are PSPEC_ERROR_INPUT. */
+ * other kinds, with other plans, or at other realizations, are PSPEC_ERROR_INPUT. */
 pspec_status ps_row_stream_next(ps_row_stream *stream, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
 static inline void *ps_row_stream_row(const ps_row_stream *stream, size_t i) {

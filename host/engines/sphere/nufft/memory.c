@@ -76,12 +76,17 @@ enum { GROUPS_PER_CORE = 4 };
  * of 1024 points: as many realizations as fill the card with a group for each, and for the sums of
  * orders, of which there are PS_SPHERE_GROUPS groups, as many shares, of no fewer sets than the
  * pairs of which a group's work-items have one each. Counted, not measured: 20000 sets of (1024,
- * 64) take 13 rounds of four launches instead of the 313 of 64 sets each. */
-enum { SETS_PER_UNIT = 16, GROUPS_PER_UNIT = 4, LEAST_SHARE = 64 };
+ * 64) take 50 rounds of four launches instead of the 313 of 64 sets each. */
+enum { SETS_PER_UNIT = 4, GROUPS_PER_UNIT = 4, LEAST_SHARE = 64 };
 
 static size_t fitting(double budget, uint64_t bytes, size_t most) {
     const double number = bytes > 0 ? floor(budget / (double)bytes) : (double)most;
     return number >= (double)most ? most : number > 1 ? (size_t)number : 1;
+}
+
+/* Between the values of orders (kernels/sphere/values.h). */
+static uint64_t gap_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
+    return ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes;
 }
 
 static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
@@ -95,9 +100,12 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
     const size_t most = known > 0 && known < wanted ? (size_t)known : wanted;
     const uint64_t vectors = problem->num_points * 3 * sizeof(double);
     const uint64_t set_bytes = vectors + problem->num_points * (2 * sizeof(uint64_t) + real_bytes);
-    shape->at_once = fitting(fmin(value_budget, (double)limits->max_allocation_bytes),
-                             shape->value_bytes, fitting(set_budget, vectors, most));
+    const double largest =
+        (double)limits->max_allocation_bytes - (double)gap_bytes(shape, real_bytes);
+    shape->at_once = fitting(fmin(value_budget, largest), shape->value_bytes,
+                             fitting(set_budget, vectors, most));
     shape->sum_shares = shape->is_gpu ? ps_divide_up(GROUPS_PER_UNIT * cores, PS_SPHERE_GROUPS) : 1;
+    shape->sum_shares = ps_sphere_sum_shares(shape, shape->at_once);
     shape->together = shape->is_sorted ? 1 : fitting(point_budget, set_bytes, shape->at_once);
     shape->most_points = shape->together * problem->num_points;
     if (shape->is_sorted && shape->most_points > PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS) {
@@ -153,7 +161,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .strip_starts = work_groups * (strips + 1) * sizeof(uint32_t),
         .scratch = work_groups * 2 * shape->lanes * (shape->axis.n + rings / 2) * real_bytes,
         .values = shape->value_bytes,
-        .gaps = ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes,
+        .gaps = gap_bytes(shape, real_bytes),
         .powers = groups * 2 * shape->half_pitch * sizeof(double),
         .sums = pitch > 0 && !shape->is_one_set ? groups * 4 * run * real_bytes : 0,
         .states = sharing * 4 * pitch * sizeof(double),
@@ -168,9 +176,8 @@ static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
            routes[shape->route].tables(shape, real_bytes);
 }
 
-void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
-                            const ps_device_limits *limits, size_t real_bytes) {
-    choose_at_once(shape, problem, limits, real_bytes);
+/* What there is for at_once realizations, as fixed bytes and those of each. */
+static void add_up(ps_sphere_shape *shape, size_t real_bytes) {
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, real_bytes);
     const uint64_t sorted = shape->is_sorted ? bytes.turns + bytes.weights : 0;
     const uint64_t read = PS_READINGS * 2 * shape->half_pitch * sizeof(double);
@@ -198,6 +205,29 @@ void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         shape->largest_buffer =
             buffers[i] > shape->largest_buffer ? buffers[i] : shape->largest_buffer;
+    }
+}
+
+/* Batches of hundreds of sets become smaller where memory is little: what a set has of points and
+ * grids is its own, too. */
+static void spread_over_sets(ps_sphere_shape *shape, size_t real_bytes) {
+    ps_sphere_shape one = *shape;
+    ps_sphere_shape_shrink(&one, 1);
+    add_up(&one, real_bytes);
+    const uint64_t least = one.fixed_bytes + one.each_bytes;
+    const uint64_t all = shape->fixed_bytes + shape->at_once * shape->each_bytes;
+    if (shape->at_once > 1 && all > least) {
+        shape->each_bytes = (all - least) / (shape->at_once - 1) + 1;
+        shape->fixed_bytes = least > shape->each_bytes ? least - shape->each_bytes : 0;
+    }
+}
+
+void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
+                            const ps_device_limits *limits, size_t real_bytes) {
+    choose_at_once(shape, problem, limits, real_bytes);
+    add_up(shape, real_bytes);
+    if (shape->is_gpu) {
+        spread_over_sets(shape, real_bytes);
     }
 }
 

@@ -1,20 +1,16 @@
 /* A point of the sphere from its height and azimuth, by + - * and sqrt alone: the same bits on any
- * machine, and on devices that have doubles.
+ * machine.
  */
-#ifndef PS_SHARED_SPHERE_POINT_H
-#define PS_SHARED_SPHERE_POINT_H
+#ifndef PS_MATH_SPHERE_POINT_H
+#define PS_MATH_SPHERE_POINT_H
 
-#ifdef __OPENCL_C_VERSION__
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-#pragma OPENCL FP_CONTRACT OFF
-#else
 #include <math.h>
-#endif
+#include <stdbool.h>
 
 /* Taylor's series of sin(2 pi x) / x - 2 pi and of cos(2 pi x) in x^2, up to |x| = 1/8 of a turn:
  * what is left out is below 9e-20 and 3e-18. 2 pi itself has a low part, so that one rounding of
  * the product is all that the sine has beside that of the sum. */
-static inline double turn_sine(const double x, const double z) {
+static inline double ps_turn_sine(const double x, const double z) {
     double sum = 0.10422916220813984;
     sum = sum * z + -0.7181223017785006;
     sum = sum * z + 3.819952584848282;
@@ -27,7 +23,7 @@ static inline double turn_sine(const double x, const double z) {
     return x * 6.283185307179586 + x * sum;
 }
 
-static inline double turn_cosine(const double z) {
+static inline double ps_turn_cosine(const double z) {
     double sum = 0.28200596845579123;
     sum = sum * z + -1.714390711088672;
     sum = sum * z + 7.903536371318469;
@@ -41,7 +37,7 @@ static inline double turn_cosine(const double z) {
 
 /* The nearest whole number, of two the even one, |x| < 2^51: floor would keep loops from being
  * vectorised. */
-static inline double turn_whole(const double x) {
+static inline double ps_turn_whole(const double x) {
     const double rounder = 6755399441055744.0; /* 1.5 * 2^52: its last bit is a unit */
     return (x + rounder) - rounder;
 }
@@ -49,21 +45,21 @@ static inline double turn_whole(const double x) {
 /* Cosine and sine of quarters/4 + rest of a turn, quarters a whole number of 0 .. 7, |rest| <= 1/8.
  * Without branches, for the same reason: products with 0, 1 and -1 are exact, and so are their
  * sums. */
-static inline void turn_cosine_sine(const double quarters, const double rest, double *cosine,
-                                    double *sine) {
+static inline void ps_turn_cosine_sine(const double quarters, const double rest, double *cosine,
+                                       double *sine) {
     const double z = rest * rest;
-    const double s = turn_sine(rest, z);
-    const double c = turn_cosine(z);
-    const double halves = turn_whole(0.5 * quarters - 0.25); /* rounded down */
+    const double s = ps_turn_sine(rest, z);
+    const double c = ps_turn_cosine(z);
+    const double halves = ps_turn_whole(0.5 * quarters - 0.25); /* rounded down */
     const double odd = quarters - 2 * halves;
-    const double sign = 1 - 2 * (halves - 2 * turn_whole(0.5 * halves - 0.25));
+    const double sign = 1 - 2 * (halves - 2 * ps_turn_whole(0.5 * halves - 0.25));
     *cosine = sign * (c * (1 - odd) - s * odd);
     *sine = sign * (s * (1 - odd) + c * odd);
 }
 
 /* z, with t = 1 - |z|. No coordinate is -0. */
-static inline void sphere_point(const double z, const double t, const double cosine,
-                                const double sine, double *point) {
+static inline void ps_sphere_point_of(const double z, const double t, const double cosine,
+                                      const double sine, double *point) {
     const double sine_theta = sqrt(t * (2 - t));
     point[0] = sine_theta * cosine + 0.0;
     point[1] = sine_theta * sine + 0.0;
@@ -72,17 +68,17 @@ static inline void sphere_point(const double z, const double t, const double cos
 
 /* Lambert's cylindrical equal-area map of (x, y) in [0,1]^2: height x of the hemisphere, 2x - 1 of
  * the sphere, azimuth y turns. */
-static inline void sphere_lift(const int on_hemisphere, const double x, const double y,
-                               double *point) {
+static inline void ps_sphere_point_of_area(const bool on_hemisphere, const double x, const double y,
+                                           double *point) {
     /* Doubling is exact, and so is 1 - x from 1/2 on: each number is rounded once at most. */
     const double below = 1 - x, is_low = copysign(0.5, 0.5 - x) + 0.5;
     const double z = on_hemisphere ? x : 2 * x - 1;
     const double t = on_hemisphere ? below : 2 * (is_low * x + (1 - is_low) * below);
-    const double quarters = turn_whole(4 * y); /* the rest is exact */
+    const double quarters = ps_turn_whole(4 * y); /* the rest is exact */
     double cosine = 0;
     double sine = 0;
-    turn_cosine_sine(quarters, y - quarters * 0.25, &cosine, &sine);
-    sphere_point(z, t, cosine, sine, point);
+    ps_turn_cosine_sine(quarters, y - quarters * 0.25, &cosine, &sine);
+    ps_sphere_point_of(z, t, cosine, sine, point);
 }
 
 #endif
