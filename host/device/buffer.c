@@ -35,13 +35,12 @@ static pspec_status create_memory(ps_device *device, cl_mem *out, cl_mem_flags f
                        what, bytes, device->limits.name,
                        (unsigned long long)device->limits.max_allocation_bytes);
     }
-    cl_mem memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE | flags,
-                                   bytes > 0 ? bytes : 1, host, &code);
-    if (code != CL_SUCCESS) {
-        return ps_device_fail(code, "clCreateBuffer", error);
+    *out = flags == 0 ? ps_large_memory_create(device, bytes) : NULL;
+    if (*out == NULL) {
+        *out = clCreateBuffer(device->context, CL_MEM_READ_WRITE | flags, bytes > 0 ? bytes : 1,
+                              host, &code);
     }
-    *out = memory;
-    return PSPEC_OK;
+    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clCreateBuffer", error);
 }
 
 /* ---- pinned memory ------------------------------------------------------------------------ */
@@ -248,9 +247,9 @@ static pspec_status create_buffer(ps_device *device, ps_buffer *out, cl_mem_flag
                                   size_t bytes, const char *what, ps_error *error) {
     *out = (ps_buffer){0};
     PS_TRY(create_memory(device, &out->memory, flags, host, bytes, what, error));
-    out->bytes = bytes;
+    out->bytes = host == NULL ? bytes : 0; /* the host's own are not the device's */
     out->device = device;
-    device->buffer_bytes += bytes;
+    device->buffer_bytes += out->bytes;
     if (device->buffer_bytes > device->most_buffer_bytes) {
         device->most_buffer_bytes = device->buffer_bytes;
     }

@@ -121,4 +121,8 @@ pspec_status ps_profile_add(ps_device *device, const char *kernel, const ps_rang
         }                                                                                          \
     } while (0)
 
+/* large_memory.c: an object in memory of large pages where host and device share it; NULL: take
+ * what the driver has. */
+cl_mem ps_large_memory_create(ps_device *device, size_t bytes);
+
 #endif
