@@ -56,7 +56,10 @@
 
 /* Rings below this (2^-40, 2^-70) in the last degrees of a run count as zeros in all of it: towards
  * the poles Lambda_lm falls faster than exponentially, and grows with l. */
-#if PRECISION == 64
+#ifndef VALUE_PRECISION /* the same, unless a kernel says */
+#define VALUE_PRECISION PRECISION
+#endif
+#if VALUE_PRECISION == 64
 #define NEGLIGIBLE 8.470329472543003e-22
 #else
 #define NEGLIGIBLE 9.094947017729282e-13

@@ -1,17 +1,23 @@
 /* Lambda_lm of a run of degrees times the values of one realization on RING_UNIT rings, without a
  * table: lanes are rings, so that a number of Lambda_lm is used where it is made. Device only.
  *
+ * Only even l - m are made. Since cos(theta) Lambda_l = e_{l+1} Lambda_{l+1} + e_l Lambda_{l-1},
+ * sums T_l of Lambda_l times cos(theta) and the values of odd l - m give the coefficients of these,
+ *
+ *     c_{l+1} = (T_l - e_l c_{l-1}) / e_{l+1},
+ *
+ * so that a number of Lambda_lm is used four times, not twice. e_l / e_{l+1} < 1: an error of T_l
+ * comes back in each later degree as large as it was at most, with turning sign, and rounding of T
+ * is u, in double precision as all here.
+ *
  * All in double precision, whatever the values are: taking Lambda_lm to single precision costs what
  * a product does.
  */
 #ifndef PS_SPHERE_ORDERS_ONE_H
 #define PS_SPHERE_ORDERS_ONE_H
 
-#include "sphere/nufft/orders_states.h"
+#include "sphere/nufft/orders_evens.h"
 
-#ifndef VALUE_PRECISION
-#define VALUE_PRECISION 64
-#endif
 #if VALUE_PRECISION == 64
 typedef double value_real;
 #else
@@ -20,127 +26,204 @@ typedef float value_real;
 typedef value_real unaligned_values
     __attribute__((ext_vector_type(LANES), aligned(sizeof(value_real))));
 
-/* Of RING_UNIT rings. */
+/* What sums of a degree there are: [those of even l - m, of odd l - m][re, im]; one of the two
+ * where only even degrees are wanted. */
+#ifndef PARITIES
+#define PARITIES 2
+#endif
+#define PARTS (2 * PARITIES)
+#define SUM_NUMBERS (TABLE_ROW * PARTS * LANES)
+
+/* Of RING_UNIT rings; those of odd l - m are times cos(theta). */
 typedef struct ring_values {
-    doublev re[RING_VECTORS], im[RING_VECTORS];
+    doublev of[RING_VECTORS][PARTS];
 } ring_values;
 
-/* From [ring][re, im]; behind the last of `num` rings there are zeros. */
-static inline __attribute__((always_inline)) void
-load_values(ring_values *to, __global const value_real *from, const uint num) {
+/* Of one parity from [ring][re, im], times `factors` unless that is NULL; behind the last of `num`
+ * rings there are zeros. */
+static inline __attribute__((always_inline)) void load_values(ring_values *to, const uint part,
+                                                              __global const value_real *from,
+                                                              const uint num,
+                                                              __global const double *factors) {
     double re[RING_UNIT], im[RING_UNIT];
-    if (num >= RING_UNIT) {
-#pragma unroll
-        for (int j = 0; j < RING_VECTORS; j++) {
-            __global const unaligned_values *at =
-                (__global const unaligned_values *)(from + 2 * LANES * j);
-            const doublev first = TO_DOUBLEV(at[0]), second = TO_DOUBLEV(at[1]);
-            to->re[j] = (doublev)(first.even, second.even);
-            to->im[j] = (doublev)(first.odd, second.odd);
-        }
-        return;
-    }
-    for (uint i = 0; i < RING_UNIT; i++) {
+    for (uint i = 0; num < RING_UNIT && i < RING_UNIT; i++) {
         re[i] = i < num ? from[2 * i] : 0;
         im[i] = i < num ? from[2 * i + 1] : 0;
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        to->re[j] = *(const unaligned_doublev *)(re + LANES * j);
-        to->im[j] = *(const unaligned_doublev *)(im + LANES * j);
+        const doublev factor =
+            factors != 0 ? *(__global const unaligned_doublev *)(factors + j * LANES) : (doublev)1;
+        if (num >= RING_UNIT) {
+            __global const unaligned_values *at =
+                (__global const unaligned_values *)(from + 2 * LANES * j);
+            const doublev first = TO_DOUBLEV(at[0]), second = TO_DOUBLEV(at[1]);
+            to->of[j][part] = factor * (doublev)(first.even, second.even);
+            to->of[j][part + 1] = factor * (doublev)(first.odd, second.odd);
+        } else {
+            to->of[j][part] = factor * *(const unaligned_doublev *)(re + LANES * j);
+            to->of[j][part + 1] = factor * *(const unaligned_doublev *)(im + LANES * j);
+        }
     }
 }
 
-/* To the sums of a degree, [re, im][LANES]. */
+/* To the sums of a degree, [part][LANES]. */
 static inline __attribute__((always_inline)) void
 add_degree(__local double *sums, const doublev *lambda, const ring_values *values) {
-    doublev re = load_doubles(sums), im = load_doubles(sums + LANES);
 #pragma unroll
-    for (int j = 0; j < RING_VECTORS; j++) {
-        re = fma(lambda[j], values->re[j], re);
-        im = fma(lambda[j], values->im[j], im);
+    for (int part = 0; part < PARTS; part++) {
+        doublev sum = load_doubles(sums + part * LANES);
+#pragma unroll
+        for (int j = 0; j < RING_VECTORS; j++) {
+            sum = fma(lambda[j], values->of[j][part], sum);
+        }
+        store_doubles(sums + part * LANES, sum);
     }
-    store_doubles(sums, re);
-    store_doubles(sums + LANES, im);
 }
 
-/* LANES degrees of one parity. */
+/* Numbers grow by some 2^30 at most meanwhile: from l = m on by 17 sqrt(s / k) in the k-th degree
+ * of a ring that is scaled down s times. */
+#define EVENS_BETWEEN_LOOKS 4
+
+/* LANES degrees. */
 static inline __attribute__((always_inline)) void
 add_degrees(chain_state *states, const doublev *squares, const ring_values *values,
             __local const double *steps, __local const double *rests, __local double *sums,
             const bool is_scaled) {
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
+        const bool is_time = i % EVENS_BETWEEN_LOOKS == EVENS_BETWEEN_LOOKS - 1 || i == LANES - 1;
         doublev lambda[RING_VECTORS];
 #pragma unroll
         for (int j = 0; j < RING_VECTORS; j++) {
             lambda[j] = shown(&states[j], is_scaled);
-            advance(&states[j], squares[j], steps[2 * i], rests[2 * i]);
-            if (is_scaled && i % (DEGREES_BETWEEN_LOOKS / 2) == 1) {
+            advance(&states[j], squares[j], steps[i], rests[i]);
+            if (is_scaled && is_time) {
                 look(&states[j]);
             }
         }
-        add_degree(sums + i * 2 * LANES, lambda, values);
+        add_degree(sums + i * PARTS * LANES, lambda, values);
     }
 }
 
-/* `vectors` vectors of degrees of a parity, to sums [degree][re, im][LANES]; whether there is more
- * than zeros. */
-static inline bool add_chain_run(const ring_states states, const ring_angles angles,
-                                 const uint parity, const uint ring,
-                                 __local const double *coefficients, const ring_values *values,
-                                 __local double *sums, const uint vectors) {
-    __local const double *steps = coefficients + OF_STEP + parity;
-    __local const double *rests =
-        coefficients + (ring < angles.crossing ? OF_POLE : OF_EQUATOR) + parity;
-    chain_state state[RING_VECTORS];
-    doublev squares[RING_VECTORS];
-    bool is_scaled;
-    const bool is_there = begin_chain(state, squares, &is_scaled, states, angles, parity, ring,
-                                      steps, rests, 2 * LANES * vectors);
-    if (is_there && is_scaled) {
-        for (uint i = 0; i < vectors; i++) {
-            add_degrees(state, squares, values, steps + 2 * LANES * i, rests + 2 * LANES * i,
-                        sums + i * LANES * 2 * LANES, true);
+/* As try_chain of orders_states.h, of even l - m. */
+static inline bool try_evens(chain_state *states, const doublev *squares,
+                             __local const double *steps, __local const double *rests,
+                             const uint num) {
+    for (uint i = 0; i < num; i += LANES) {
+#pragma unroll
+        for (uint k = 0; k < LANES; k++) {
+#pragma unroll
+            for (int j = 0; j < RING_VECTORS; j++) {
+                advance(&states[j], squares[j], steps[i + k], rests[i + k]);
+            }
         }
-    } else if (is_there) {
-        for (uint i = 0; i < vectors; i++) {
-            add_degrees(state, squares, values, steps + 2 * LANES * i, rests + 2 * LANES * i,
-                        sums + i * LANES * 2 * LANES, false);
+#pragma unroll
+        for (int j = 0; j < RING_VECTORS; j++) {
+            look(&states[j]);
         }
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        store_state(states, &state[j], parity, ring + j * LANES);
+        while (is_large(&states[j])) {
+            look(&states[j]);
+        }
+    }
+    return is_more_than_zeros(states);
+}
+
+/* Rings that begin as zeros are tried first, since most of them end so, too: then nothing is to be
+ * added. Those of a unit that has more are not tried, since Lambda_lm does not vanish again. */
+static inline bool is_worth_adding(chain_state *states, const doublev *squares,
+                                   __local const double *steps, __local const double *rests,
+                                   const uint num) {
+    chain_state trial[RING_VECTORS];
+    if (is_more_than_zeros(states)) {
+        return true;
+    }
+#pragma unroll
+    for (int j = 0; j < RING_VECTORS; j++) {
+        trial[j] = states[j];
+    }
+    const bool is_there = try_evens(trial, squares, steps, rests, num);
+#pragma unroll
+    for (int j = 0; j < RING_VECTORS; j++) {
+        states[j] = is_there ? states[j] : trial[j];
     }
     return is_there;
 }
 
-/* By differences, both parities: sums of the odd degrees are `apart` numbers behind those of the
- * even ones. */
+/* `vectors` vectors of degrees, to sums [degree][part][LANES]; whether there is more than zeros. */
+static inline bool add_chain_run(const ring_states states, const ring_angles angles,
+                                 const uint ring, __local const double *coefficients,
+                                 const ring_values *values, __local double *sums,
+                                 const uint vectors) {
+    __local const double *steps = coefficients + EVEN_STEP;
+    __local const double *rests =
+        coefficients + (ring < angles.crossing ? EVEN_POLE : EVEN_EQUATOR);
+    chain_state state[RING_VECTORS];
+    doublev squares[RING_VECTORS];
+#pragma unroll
+    for (int j = 0; j < RING_VECTORS; j++) {
+        load_state(&state[j], states, 0, ring + j * LANES);
+        squares[j] = *(__global const unaligned_doublev *)(angles.squares + ring + j * LANES);
+    }
+    const bool is_there = is_worth_adding(state, squares, steps, rests, vectors * LANES);
+    bool is_scaled = is_scaled_down(state);
+    for (uint i = 0; is_there && i < vectors * LANES; i += LANES) {
+        if (is_scaled) {
+            add_degrees(state, squares, values, steps + i, rests + i, sums + i * PARTS * LANES,
+                        true);
+            is_scaled = is_scaled_down(state);
+        } else {
+            add_degrees(state, squares, values, steps + i, rests + i, sums + i * PARTS * LANES,
+                        false);
+        }
+    }
+#pragma unroll
+    for (int j = 0; j < RING_VECTORS; j++) {
+        store_state(states, &state[j], 0, ring + j * LANES);
+    }
+    return is_there;
+}
+
+/* By differences, which go through all degrees. */
+static inline __attribute__((always_inline)) void
+add_by_differences(chain_state *state, const doublev *t, __local const double *coefficients,
+                   const ring_values *values, __local double *sums, const uint num,
+                   const bool is_scaled) {
+    for (uint i = 0; i < num; i++) {
+        __local const double *differences = coefficients + EVEN_DIFFERENCE + 2 * i;
+        const doublev inverse = (doublev)coefficients[EVEN_INVERSE + i];
+        doublev lambda[RING_VECTORS];
+#pragma unroll
+        for (int j = 0; j < RING_VECTORS; j++) {
+            lambda[j] = shown(&state[j], is_scaled) * inverse;
+            advance_difference(&state[j], t[j], differences);
+            advance_difference(&state[j], t[j], differences + 1);
+            if (is_scaled && i % 2 == 1) {
+                look(&state[j]);
+            }
+        }
+        add_degree(sums + i * PARTS * LANES, lambda, values);
+    }
+}
+
 static inline bool add_difference_run(const ring_states states, const ring_angles angles,
                                       const uint ring, __local const double *coefficients,
                                       const ring_values *values, __local double *sums,
-                                      const size_t apart, const uint vectors) {
+                                      const uint vectors) {
     chain_state state[RING_VECTORS];
-    doublev t[RING_VECTORS], lambda[RING_VECTORS];
+    doublev t[RING_VECTORS];
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
         load_state(&state[j], states, 0, ring + j * LANES);
         t[j] = *(__global const unaligned_doublev *)(angles.distances + ring + j * LANES);
     }
-    for (uint i = 0; i < 2 * LANES * vectors; i++) {
-        const doublev inverse = (doublev)coefficients[OF_INVERSE + i];
-        const uint odd = i % 2;
-#pragma unroll
-        for (int j = 0; j < RING_VECTORS; j++) {
-            lambda[j] = shown(&state[j], true) * inverse;
-            advance_difference(&state[j], t[j], coefficients + OF_DIFFERENCE + i);
-            if (i % DEGREES_BETWEEN_LOOKS == DEGREES_BETWEEN_LOOKS - 1) {
-                look(&state[j]);
-            }
-        }
-        add_degree(sums + odd * apart + i / 2 * 2 * LANES, lambda, &values[odd]);
+    if (is_scaled_down(state)) {
+        add_by_differences(state, t, coefficients, values, sums, vectors * LANES, true);
+    } else {
+        add_by_differences(state, t, coefficients, values, sums, vectors * LANES, false);
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
@@ -149,30 +232,30 @@ static inline bool add_difference_run(const ring_states states, const ring_angle
     return is_more_than_zeros(state);
 }
 
-/* A run of RING_UNIT rings from `ring` on, of the parities that are wanted; whether there is more
- * than zeros in it, by that of even degrees alone, so that rings go on or not whether others are
- * wanted or not. values: of the even ones of the first ring, those of the odd ones
- * `values_apart` numbers behind; num: of rings that are left. */
+/* Where the values of an order are: those of odd l - m lie parity_apart behind those of even ones.
+ * Of one parity, it is `parity`. */
+typedef struct order_values {
+    __global const value_real *from;
+    size_t parity_apart;
+    __global const double *cosines;
+    uint parity;
+} order_values;
+
+/* A run of RING_UNIT rings from `ring` on, `num` of which are there; whether there is more than
+ * zeros in it. */
 static inline bool add_run(const ring_states states, const ring_angles angles, const uint ring,
                            const uint num, __local const double *coefficients,
-                           __global const value_real *values, const size_t values_apart,
-                           __local double *sums, const size_t apart, const uint even,
-                           const bool has_both, const uint vectors) {
-    ring_values both[2];
-    bool is_there = false;
-    load_values(&both[0], values, num);
-    load_values(&both[1], values + values_apart, num);
-    if (ring < angles.polar || ring >= angles.equatorial) {
-        return add_difference_run(states, angles, ring, coefficients, both, sums, apart, vectors);
+                           const order_values from, __local double *sums, const uint vectors) {
+    ring_values values;
+#pragma unroll
+    for (uint i = 0; i < PARITIES; i++) {
+        const uint parity = PARITIES == 2 ? i : from.parity;
+        load_values(&values, 2 * i, from.from + parity * from.parity_apart + 2 * ring, num,
+                    parity != 0 ? from.cosines + ring : 0);
     }
-    for (uint parity = 0; parity < 2; parity++) {
-        if (has_both || parity == even) {
-            const bool has_more = add_chain_run(states, angles, parity, ring, coefficients,
-                                                &both[parity], sums + parity * apart, vectors);
-            is_there = parity == even ? has_more : is_there;
-        }
-    }
-    return is_there;
+    return ring < angles.polar || ring >= angles.equatorial
+               ? add_difference_run(states, angles, ring, coefficients, &values, sums, vectors)
+               : add_chain_run(states, angles, ring, coefficients, &values, sums, vectors);
 }
 
 #endif

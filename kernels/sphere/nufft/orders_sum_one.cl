@@ -3,10 +3,11 @@
  * but for
  *
  *   values     of VALUE_PRECISION, written by a kernel of VALUE_LANES lanes
- *   num_realizations, sums  not looked at
- *   table      local, [even, odd l - m][degree of a run][re, im][LANES]: sums over rings
+ *   num_realizations, sums, begins  not looked at
+ *   table      local, SUM_NUMBERS of orders_one.h: sums over rings
  *
- * PRECISION is 64 and LANES is 2 at least. One work-item of a group goes through the rings.
+ * PRECISION is 64 and LANES is 2 at least; PARITIES is 1 where only even degrees are wanted. One
+ * work-item of a group goes through the rings.
  */
 #ifndef PRECISION
 #define PRECISION 64
@@ -17,15 +18,12 @@
 #include "sphere/nufft/orders_work.h"
 #include "sphere/values.h"
 
-/* Numbers of the sums of a parity. */
-#define SUM_NUMBERS (TABLE_ROW * 2 * LANES)
-
-/* Sums over lanes of LANES degrees, part 0 or 1 of [re, im]. */
+/* Sums over lanes of LANES degrees, of a part. */
 static inline doublev sum_lanes(__local const double *sums, const uint part) {
     doublev of[LANES], sum = (doublev)0;
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
-        of[i] = load_doubles(sums + (2 * i + part) * LANES);
+        of[i] = load_doubles(sums + (PARTS * i + part) * LANES);
     }
     transpose(of);
 #pragma unroll
@@ -35,31 +33,73 @@ static inline doublev sum_lanes(__local const double *sums, const uint part) {
     return sum;
 }
 
-/* What a run of degrees of a parity leaves. */
-static inline void finish_run(__local const double *sums, __local const double *alphas,
-                              __global double *powers, const size_t powers_apart,
-                              const double weight, const bool is_lowest, const uint vectors) {
-    for (uint v = 0; v < vectors; v++) {
-        __local const double *from = sums + v * LANES * 2 * LANES;
+/* From T_l of LANES degrees l, l + 2, ... to c_{l+1}, on from the c_{l-1} of the last call. */
+static inline doublev go_up(const doublev sums, double *last, const doublev scales,
+                            const doublev ratios) {
+    double from[LANES], ratio[LANES];
+    *(unaligned_doublev *)from = sums * scales;
+    *(unaligned_doublev *)ratio = ratios;
+    for (int i = 0; i < LANES; i++) {
+        *last = fma(-ratio[i], *last, from[i]);
+        from[i] = *last;
+    }
+    return *(unaligned_doublev *)from;
+}
+
+/* c_{l-1} of the last degree that there was. */
+typedef struct odd_degree {
+    double re, im;
+} odd_degree;
+
+/* Where what an order leaves goes, of even and of odd l - m. */
+typedef struct order_powers {
+    __global double *of[2];
+    size_t apart;
+    double weight;
+    bool is_lowest;
+} order_powers;
+
+/* Are these of even (0) or odd (1) l - m wanted, where `own` is the only parity unless both are? */
+static inline bool is_wanted(const uint parity, const uint own) {
+    const bool is_only = PARITIES == 1;
+    return !is_only || parity == own;
+}
+
+/* What a run of degrees from `first` on leaves, `vectors` of LANES even l - m; of odd ones there
+ * may be one vector less. */
+static inline void finish_run(const order_powers to, __local const double *sums,
+                              __local const double *alphas, odd_degree *last, const uint first,
+                              const uint m, const uint parity, const uint degrees) {
+    const doublev order = (doublev)(double)m, one = (doublev)1;
+    for (uint v = 0; 2 * LANES * v < degrees; v++) {
+        __local const double *from = sums + v * LANES * PARTS * LANES;
         const doublev alpha = load_doubles(alphas + v * LANES);
-        finish_sums(powers + v * LANES, powers_apart, weight, is_lowest, sum_lanes(from, 0) * alpha,
-                    sum_lanes(from, 1) * alpha);
+        if (is_wanted(0, parity)) {
+            finish_sums(to.of[0] + v * LANES, to.apart, to.weight, to.is_lowest,
+                        sum_lanes(from, 0) * alpha, sum_lanes(from, 1) * alpha);
+        }
+        if (2 * LANES * v + 1 < degrees && is_wanted(1, parity)) {
+            const doublev l = every_second_from(first + 2 * LANES * v);
+            const doublev above = squared_ratio(l + one, order);
+            const doublev ratio = sqrt(squared_ratio(l, order) / above);
+            const doublev scale = alpha / sqrt(above);
+            const doublev re = go_up(sum_lanes(from, PARTS - 2), &last->re, scale, ratio);
+            const doublev im = go_up(sum_lanes(from, PARTS - 1), &last->im, scale, ratio);
+            finish_sums(to.of[1] + v * LANES, to.apart, to.weight, to.is_lowest, re, im);
+        }
     }
 }
 
 /* All rings for a run of degrees; the first that is more than zeros. */
 static inline uint add_rings(const ring_work work, __local const double *coefficients,
-                             __global const value_real *values, const size_t values_apart,
-                             __local double *sums, const uint even, const bool has_both,
-                             const uint vectors) {
+                             const order_values values, __local double *sums, const uint vectors) {
     uint begin = work.num_rings;
-    for (uint i = 0; i < 2 * SUM_NUMBERS; i += LANES) {
+    for (uint i = 0; i < SUM_NUMBERS; i += LANES) {
         store_doubles(sums + i, (doublev)0);
     }
     for (uint ring = work.alive; ring < work.num_rings; ring += RING_UNIT) {
-        const bool is_there =
-            add_run(work.states, work.angles, ring, work.num_rings - ring, coefficients,
-                    values + 2 * ring, values_apart, sums, SUM_NUMBERS, even, has_both, vectors);
+        const bool is_there = add_run(work.states, work.angles, ring, work.num_rings - ring,
+                                      coefficients, values, sums, vectors);
         begin = is_there ? min(begin, ring) : begin;
     }
     return begin;
@@ -74,7 +114,7 @@ __kernel void sphere_orders_sum_one(
     __global double *restrict all_states, __global int *restrict all_scales,
     __global double *restrict all_diagonals, __global int *restrict all_diagonal_scales,
     __global double *restrict unused_sums, __global double *restrict all_powers,
-    __local double *sums, __local double *coefficients, __local uint *begins) {
+    __local double *sums, __local double *coefficients, __local uint *unused_begins) {
     const ring_numbers rings = numbers.rings;
     const uint L = rings.L, half_pitch = numbers.half_pitch, ring_pitch = rings.ring_pitch;
     const uint group = get_global_id(1), groups = get_global_size(1);
@@ -91,39 +131,31 @@ __kernel void sphere_orders_sum_one(
         rings.block,
         0};
     const order_starts from_order = {starts, start_scales, steps, step_scales, ratios, cosines};
-    (void)unused_sums;
-    for (uint m = group; m <= L; m += groups) {
+    (void)unused_sums, (void)unused_begins;
+    for (uint m = group; own_item() == 0 && m <= L; m += groups) {
         const uint even = m % 2; /* parity of l - m of even degrees */
-        const bool has_both = rings.only_even == 0;
-        __global const value_real *from =
-            values + m * order_pitch(numbers.value_sets, parity_apart);
-        begin_order(work, from_order, m, group, ring_pitch);
+        const order_values from = {values + m * order_pitch(numbers.value_sets, parity_apart),
+                                   parity_apart, cosines, even};
+        odd_degree last = {0, 0};
+        uint begin = 0;
+        begin_even_order(work, from_order, m, group, ring_pitch);
         for (uint first = m; first <= L; first += RUN_DEGREES) {
             const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
             const uint vectors = (degrees + 2 * LANES - 1) / (2 * LANES);
-            barrier_everywhere();
-            make_coefficients(coefficients, first, m, 2 * LANES * vectors);
-            if (own_item() == 0) {
-                begins[0] = add_rings(work, coefficients, from, parity_apart, sums, even, has_both,
-                                      vectors);
-            }
-            barrier_everywhere();
-            for (uint odd = own_item(); odd < 2; odd += num_items()) {
-                const uint in_parity = odd ? degrees / 2 : (degrees + 1) / 2;
 #if KEEP
-                __global double *to = powers + (m * 2 + odd) * powers_apart + (first - m) / 2;
+            __global double *of_even = powers + m * 2 * powers_apart + (first - m) / 2;
+            const order_powers to = {{of_even, of_even + powers_apart}, half_pitch, 1, true};
 #else
-                __global double *to = powers + (first + odd) % 2 * half_pitch + (first + odd) / 2;
+            const order_powers to = {{powers + first % 2 * half_pitch + first / 2,
+                                      powers + (first + 1) % 2 * half_pitch + (first + 1) / 2},
+                                     powers_apart,
+                                     m == 0 ? 1 : 2,
+                                     m == group};
 #endif
-                if (has_both || odd == even) {
-                    finish_run(sums + odd * SUM_NUMBERS,
-                               coefficients + OF_ALPHA + odd * (RUN_DEGREES / 2), to,
-                               KEEP ? half_pitch : powers_apart, m == 0 ? 1 : 2, m == group,
-                               (in_parity + LANES - 1) / LANES);
-                }
-            }
+            make_even_coefficients(coefficients, first, m, vectors);
+            begin = add_rings(work, coefficients, from, sums, vectors);
+            finish_run(to, sums, coefficients + EVEN_ALPHA, &last, first, m, even, degrees);
         }
-        barrier_everywhere();
-        work.alive = begins[0] / RING_UNIT * RING_UNIT;
+        work.alive = begin / RING_UNIT * RING_UNIT;
     }
 }

@@ -143,11 +143,11 @@ static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
         !limits->has_dedicated_local_memory) {
         shape->is_one_set = true;
         shape->sum_lanes = lanes;
-        choose_recurrences(shape, ps_sphere_one_vectors(shape) * lanes);
+        choose_recurrences(shape, PS_SPHERE_ONE_VECTORS * lanes);
     }
 }
 
-/* Of orders_sum_one.cl the table has sums of each degree of a run. */
+/* Of orders_sum_one.cl the table has sums of each degree of a run, real and imaginary. */
 static size_t table_bytes(const ps_sphere_shape *shape, size_t run, size_t real_bytes) {
     return shape->is_one_set ? run * 2 * shape->sum_lanes * sizeof(double)
                              : shape->block * run * real_bytes;
@@ -155,7 +155,8 @@ static size_t table_bytes(const ps_sphere_shape *shape, size_t run, size_t real_
 
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const unsigned lanes = shape->is_one_set ? shape->sum_lanes : shape->lanes;
-    const size_t run = 2 * (size_t)shape->run_vectors * lanes;
+    const size_t run =
+        2 * (size_t)(shape->is_one_set ? PS_SPHERE_ONE_RUN : shape->run_vectors) * lanes;
     const size_t bins = ps_nufft_bins(&shape->axis);
     return (ps_sphere_local){
         .windows = PS_NUFFT_CHUNK * (2 * bins + 3) * real_bytes,

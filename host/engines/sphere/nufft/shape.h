@@ -93,13 +93,6 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* RING_VECTORS of orders_sum_one.cl: registers hold three vectors and two of values for each. At
- * most 32 rings in all, to whose multiples ring_pitch is rounded. */
-static inline unsigned ps_sphere_one_vectors(const ps_sphere_shape *shape) {
-    const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
-    return shape->sum_lanes * sizeof(double) == bytes_of_32 ? 4 : 2;
-}
-
 /* In how many shares (kernels/sphere/nufft/shares.h) so many realizations are summed. */
 size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations);
 
@@ -163,6 +156,8 @@ enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
 enum {
     PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
     PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: in double precision, with a table */
+    PS_SPHERE_ONE_VECTORS = 2,  /* orders_one.h: of rings; registers hold four of values for each */
+    PS_SPHERE_ONE_RUN = 8,      /* orders_one.h: RUN_VECTORS, whose sums the nearest cache holds */
     PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
     PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */
     PS_SPHERE_CHAIN_AHEAD = 4,  /* orders_chains.h: and these */

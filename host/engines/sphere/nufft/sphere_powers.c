@@ -10,11 +10,13 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
     const size_t value_bytes = ps_real_bytes(self->precision);
     ps_defines defines = source->sums_one ? ps_defines_of(sizeof(double), shape->sum_lanes)
                                           : ps_defines_of(value_bytes, shape->lanes);
-    ps_defines_add(&defines, "-DRUN_VECTORS=%u -DALONE=%u", shape->run_vectors,
+    ps_defines_add(&defines, "-DRUN_VECTORS=%u -DALONE=%u",
+                   source->sums_one ? PS_SPHERE_ONE_RUN : shape->run_vectors,
                    self->is_alone ? 1u : 0u);
     if (source->sums_one) {
-        ps_defines_add(&defines, "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u",
-                       8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape));
+        ps_defines_add(
+            &defines, "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u -DPARITIES=%u",
+            8 * value_bytes, shape->lanes, PS_SPHERE_ONE_VECTORS, self->only_even ? 1u : 2u);
     }
     if (keeps) {
         ps_defines_add(&defines, "-DKEEP=1");
