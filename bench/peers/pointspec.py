@@ -97,7 +97,7 @@ class PointspecRunner:
                 self.peer.check(library.pspec_question_set(
                     question, option.encode(), None if value is None else str(value).encode()))
             start = self.points.rows.ctypes.data + 8 * first * case.points * case.dimension
-            self.peer.check(library.pspec_question_add(
+            self.peer.check(library.pspec_question_borrow(
                 question, ctypes.c_size_t(count), ctypes.c_size_t(case.points), case.dimension,
                 ctypes.c_void_p(start), None))
             self.peer.check(library.pspec_question_answer(ctypes.byref(answer), question))

@@ -3,24 +3,46 @@
 #include <float.h>
 #include <math.h>
 
-/* A square that overflows is infinite, and refused like any other. */
+static double length_off(double square) {
+    return fabs(sqrt(square) - 1);
+}
+
+static double square_of(const double *u) {
+    return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+}
+
+static pspec_status refuse_vector(const ps_pattern_count *count, const pspec_pattern *block,
+                                  ps_error *error) {
+    size_t j = 0;
+    while (j + 1 < block->num_points &&
+           length_off(square_of(block->points + j * PS_SPHERE_DIMENSION)) <= PS_UNIT_LENGTH_SLACK) {
+        j++;
+    }
+    const double *u = block->points + j * PS_SPHERE_DIMENSION;
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "set %llu, point %llu: the vector (%.17g, %.17g, %.17g) has the length %g "
+                   "instead of 1",
+                   (unsigned long long)count->realization + 1,
+                   (unsigned long long)(count->num_points + j + 1), u[0], u[1], u[2],
+                   sqrt(square_of(u)));
+}
+
+/* A square that overflows is infinite, and refused like any other. Roots grow with their squares,
+ * so that the shortest and the longest vector say what all of them are off at most. */
 static pspec_status check_vectors(ps_pattern_count *count, const pspec_pattern *block,
                                   ps_error *error) {
+    double least = 1, most = 1;
+    bool are_numbers = true;
     for (size_t j = 0; j < block->num_points; j++) {
-        const double *u = block->points + j * PS_SPHERE_DIMENSION;
-        const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-        const double off = fabs(length - 1);
-        count->length_error = off > count->length_error ? off : count->length_error;
-        if (!(off <= PS_UNIT_LENGTH_SLACK)) {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "set %llu, point %llu: the vector (%.17g, %.17g, %.17g) has the length "
-                           "%g instead of 1",
-                           (unsigned long long)count->realization + 1,
-                           (unsigned long long)(count->num_points + j + 1), u[0], u[1], u[2],
-                           length);
-        }
+        const double square = square_of(block->points + j * PS_SPHERE_DIMENSION);
+        least = square < least ? square : least;
+        most = square > most ? square : most;
+        are_numbers &= square == square;
     }
-    return PSPEC_OK;
+    const double off = fmax(length_off(least), length_off(most));
+    count->length_error = off > count->length_error ? off : count->length_error;
+    return are_numbers && off <= PS_UNIT_LENGTH_SLACK ? PSPEC_OK
+                                                      : refuse_vector(count, block, error);
 }
 
 static pspec_status check_coordinates(const ps_pattern_count *count, const pspec_pattern *block,

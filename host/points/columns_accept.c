@@ -109,8 +109,19 @@ static bool normalize(double *vector) {
     return true;
 }
 
-static size_t accept_vectors(bool normalizes, double *vectors, size_t num) {
+/* Without a way out, which compilers make more of. */
+static bool are_unit_vectors(const double *vectors, size_t num) {
+    bool are_good = true;
     for (size_t i = 0; i < num; i++) {
+        are_good &= ps_is_unit_vector(vectors + 3 * i);
+    }
+    return are_good;
+}
+
+/* Nearly always all are good. */
+static size_t accept_vectors(bool normalizes, double *vectors, size_t num) {
+    const bool are_good = !normalizes && are_unit_vectors(vectors, num);
+    for (size_t i = 0; !are_good && i < num; i++) {
         if (normalizes ? !normalize(vectors + 3 * i) : !ps_is_unit_vector(vectors + 3 * i)) {
             return i;
         }

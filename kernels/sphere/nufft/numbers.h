@@ -47,6 +47,7 @@ SAME_SIZE(grid_values_numbers, 52);
 
 /* orders_sort.cl */
 typedef struct orders_sort_numbers {
+    ps_u64 first_point; /* vectors before it are left alone */
     ps_u64 num_points;
     ps_u64 part_points; /* of each part but the last, a multiple of LANES */
     ps_u64 shift;       /* of angles from the pole (turns.h) */
@@ -56,7 +57,7 @@ typedef struct orders_sort_numbers {
     ps_u32 unused;      /* fills the size up to whole numbers of eight bytes */
 } orders_sort_numbers;
 
-SAME_SIZE(orders_sort_numbers, 48);
+SAME_SIZE(orders_sort_numbers, 56);
 
 /* orders_bands.cl */
 typedef struct orders_bands_numbers {

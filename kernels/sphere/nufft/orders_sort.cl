@@ -3,7 +3,7 @@
  * (parts), rounded up at will.
  *
  *   numbers          of numbers.h; their names are used here
- *   points, weights  [num_points][3], [num_points]
+ *   points, weights  [first_point + num_points][3], [num_points]
  *   turns            [num_points, rounded up to LANES][2]: scratch
  *   keys             [num_points]: scratch
  *   sorted, heights  [num_points][2] of sphere/turns.h, [num_points]: as long as the points; heights are left alone
@@ -53,7 +53,7 @@ __kernel void sphere_orders_sort(const orders_sort_numbers numbers,
     }
     for (size_t first = begin; first < end; first += LANES) {
         const uint num = (uint)min((size_t)LANES, end - first);
-        make_turns(points, turns, first, num_points, numbers.shift);
+        make_turns(points + 3 * numbers.first_point, turns, first, num_points, numbers.shift);
         make_keys(turns, keys, first, num, numbers.n, numbers.width, bands, tiles);
         for (uint i = 0; i < num; i++) {
             start[keys[first + i]]++;
@@ -81,7 +81,7 @@ __kernel void sphere_orders_keys(const orders_sort_numbers numbers,
     if (first >= num_points) {
         return;
     }
-    make_turns(points, turns, first, num_points, numbers.shift);
+    make_turns(points + 3 * numbers.first_point, turns, first, num_points, numbers.shift);
     make_keys(turns, keys, first, (uint)min((size_t)LANES, num_points - first), numbers.n,
               numbers.width, numbers.bands, numbers.tiles);
 }

@@ -103,14 +103,51 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
 void ps_sphere_places_free(ps_sphere_places *points) {
     ps_nufft_order_free(&points->order);
     ps_feed_free(&points->vectors);
-    PS_BUFFERS_RELEASE(&points->turns, &points->weights, &points->offsets, &points->keys,
-                       &points->sorted, &points->heights, &points->starts);
+    PS_BUFFERS_RELEASE(&points->lent, &points->turns, &points->weights, &points->offsets,
+                       &points->keys, &points->sorted, &points->heights, &points->starts);
     free(points->host_weights);
     free(points->host_offsets);
     *points = (ps_sphere_places){0};
 }
 
 /* ---- make -------------------------------------------------------------------------------- */
+
+pspec_status ps_sphere_places_lend(ps_sphere_places *points, const pspec_pattern *pattern,
+                                   ps_error *error) {
+    const size_t bytes = pattern->num_points * PS_SPHERE_DIMENSION * sizeof(double);
+    const ps_device_limits *limits = ps_device_get_limits(points->device);
+    if (!limits->has_unified_memory || bytes > limits->max_allocation_bytes) {
+        return PSPEC_OK;
+    }
+    points->lent_points = pattern->points;
+    return ps_buffer_share(points->device, &points->lent, pattern->points, bytes, "points", error);
+}
+
+pspec_status ps_sphere_places_return(ps_sphere_places *points, ps_error *error) {
+    if (points->lent.memory == NULL) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = ps_device_finish(points->device, error);
+    ps_buffer_release(&points->lent);
+    return status;
+}
+
+static const ps_buffer *vectors_of(const ps_sphere_places *self) {
+    return self->lent.memory != NULL ? &self->lent : &self->vectors.filled;
+}
+
+/* Some of the lent points stay where they are. */
+static pspec_status look_at_lent(ps_sphere_places *self, const pspec_pattern *some,
+                                 ps_error *error) {
+    const size_t num_offsets_of_one = 2;
+    self->first_point = (size_t)(some->points - self->lent_points) / PS_SPHERE_DIMENSION;
+    self->host_offsets[0] = 0;
+    self->host_offsets[1] = some->num_points;
+    return self->first_point > 0 /* nobody asks for more of them where points are sorted */
+               ? PSPEC_OK
+               : ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
+                                 num_offsets_of_one * sizeof(uint64_t), error);
+}
 
 static void copy_points(ps_sphere_places *self, double *vectors, const ps_batch *batch) {
     size_t at = 0;
@@ -128,6 +165,10 @@ static void copy_points(ps_sphere_places *self, double *vectors, const ps_batch 
  * took as long as the transforms of 256 points. */
 static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
     void *vectors = NULL;
+    if (self->lent.memory != NULL) {
+        return look_at_lent(self, batch->patterns, error);
+    }
+    self->first_point = 0;
     PS_TRY(ps_feed_begin(&self->vectors, &vectors, error));
     copy_points(self, vectors, batch);
     PS_TRY(ps_feed_end(
@@ -179,7 +220,7 @@ static pspec_status order_points(ps_sphere_places *self, const orders_sort_numbe
     PS_TRY(ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (num_parts + 1) * sizeof(uint64_t), error));
     PS_TRY(PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(*numbers),
-                     PS_BUFFER(self->vectors.filled), PS_BUFFER(self->turns),
+                     PS_BUFFER(*vectors_of(self)), PS_BUFFER(self->turns),
                      PS_BUFFER(self->order.keys)));
     return ps_nufft_order_run(&self->order, &points, num_parts, error);
 }
@@ -190,7 +231,8 @@ static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
     const size_t parts = ps_divide_up(self->num_points, PS_SPHERE_PART_POINTS);
     const ps_range range =
         ps_range_heavy(self->device, parts, 1, 1, flops_per_point * (double)self->num_points, 0);
-    const orders_sort_numbers numbers = {.num_points = self->num_points,
+    const orders_sort_numbers numbers = {.first_point = self->first_point,
+                                         .num_points = self->num_points,
                                          .part_points = PS_SPHERE_PART_POINTS,
                                          .shift = self->shift,
                                          .n = shape->axis.n,
@@ -202,9 +244,9 @@ static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
         return order_points(self, &numbers, parts, error);
     }
     return PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(self->vectors.filled), PS_BUFFER(self->weights),
-                     PS_BUFFER(self->turns), PS_BUFFER(self->keys), PS_BUFFER(self->sorted),
-                     PS_BUFFER(self->heights), PS_BUFFER(self->starts));
+                     PS_BUFFER(*vectors_of(self)), PS_BUFFER(self->weights), PS_BUFFER(self->turns),
+                     PS_BUFFER(self->keys), PS_BUFFER(self->sorted), PS_BUFFER(self->heights),
+                     PS_BUFFER(self->starts));
 }
 
 pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,

@@ -169,23 +169,37 @@ static pspec_status add_sorted(ps_sphere_state *self, bool is_first, ps_error *e
                      PS_LOCAL(local.cells));
 }
 
-/* Points of the only pattern, a chunk at a time. */
-static pspec_status make_sorted(ps_sphere_state *self, size_t first_value, const ps_batch *one,
-                                ps_error *error) {
-    const size_t most = self->shape.most_points, shares = self->shape.shares;
+/* Points of the only pattern, a chunk at a time. Once they are sorted, they may go. */
+static pspec_status add_chunks(ps_sphere_state *self, const ps_batch *one, ps_error *error) {
+    const size_t most = self->shape.most_points;
     const pspec_pattern *pattern = one->patterns;
-    const some_realizations whole = {0, 1, first_value};
     for (size_t at = 0; at < pattern->num_points; at += most) {
+        const size_t left = pattern->num_points - at;
         pspec_pattern chunk = *pattern;
         chunk.points += at * PS_SPHERE_DIMENSION;
         chunk.weights = pattern->weights != NULL ? pattern->weights + at : NULL;
-        chunk.num_points = pattern->num_points - at < most ? pattern->num_points - at : most;
+        chunk.num_points = left < most ? left : most;
         ps_batch some = *one;
         some.patterns = &chunk;
         PS_TRY(ps_batch_go_on(one, error));
         PS_TRY(ps_sphere_places_make(&self->points, &some, error));
+        PS_TRY(left <= most ? ps_sphere_places_return(&self->points, error) : PSPEC_OK);
         PS_TRY(add_sorted(self, at == 0, error));
     }
+    return PSPEC_OK;
+}
+
+static pspec_status make_sorted(ps_sphere_state *self, size_t first_value, const ps_batch *one,
+                                ps_error *error) {
+    const size_t shares = self->shape.shares;
+    const some_realizations whole = {0, 1, first_value};
+    PS_TRY(ps_sphere_places_lend(&self->points, one->patterns, error));
+    const pspec_status added = add_chunks(self, one, error);
+    /* no longer lent unless something failed */
+    const pspec_status returned =
+        ps_sphere_places_return(&self->points, added == PSPEC_OK ? error : NULL);
+    PS_TRY(added);
+    PS_TRY(returned);
     PS_TRY(run_steps(self, whole, STEP_AROUND, shares, error));
     return run_steps(self, whole, STEP_RINGS, shares, error);
 }

@@ -27,6 +27,9 @@ typedef struct ps_sphere_places {
     void *host_weights;     /* [most_points] float or double */
     uint64_t *host_offsets; /* [together + 1], where there is an order of the parts */
     ps_feed vectors;        /* [most_points][3] */
+    ps_buffer lent;         /* of ps_sphere_places_lend; {0}: none */
+    const double *lent_points;
+    size_t first_point; /* of what is lent */
     ps_buffer turns, weights, offsets;
     ps_buffer keys, sorted, heights, starts; /* of kernels/sphere/nufft/orders_sort.cl */
 } ps_sphere_places;
@@ -40,6 +43,13 @@ void ps_sphere_places_free(ps_sphere_places *points);
 /* Makes the places of at most shape->together patterns, of shape->most_points points together. */
 pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
                                    ps_error *error) PS_MUST_CHECK;
+
+/* Where host and device share memory, the next calls of ps_sphere_places_make are told parts of a
+ * pattern, which is then read where it is. It must stay until ps_sphere_places_return. */
+pspec_status ps_sphere_places_lend(ps_sphere_places *points, const pspec_pattern *pattern,
+                                   ps_error *error) PS_MUST_CHECK;
+/* Waits until nothing reads it any more. */
+pspec_status ps_sphere_places_return(ps_sphere_places *points, ps_error *error) PS_MUST_CHECK;
 
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
