@@ -54,7 +54,8 @@ static pspec_status take_set(asking *self, size_t i, ps_error *error) {
                                     .next = next,
                                     .payload = set,
                                     .most = set->give != NULL ? set->num : 0,
-                                    .num = set->num_kept};
+                                    .num = set->num_kept,
+                                    .stays = set->give == NULL};
     request->reading.given.num = i + 1;
     if (strcmp(name, PS_CALLER_POINTS) == 0) {
         PS_TRY(ps_grow(&files, &question->files_capacity, request->num_files + 1,

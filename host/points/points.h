@@ -45,6 +45,7 @@ typedef struct ps_point_set {
     bool has_weights;
     ps_box box; /* of the file or of the options, that became [0,1)^d; {0}: none */
     size_t points_capacity, weights_capacity; /* in doubles */
+    bool is_lent; /* points are those of a caller of the library: nobody changes or frees them */
 } ps_point_set;
 
 void ps_point_set_free(ps_point_set *set);
@@ -80,6 +81,7 @@ typedef struct ps_given_set {
     void *payload;
     uint64_t most;      /* sets; 0: as many as there are. For what makes sets without an end */
     uint64_t num;       /* sets that there are, for whoever plans; 0: nobody knows */
+    bool stays;         /* views stay valid as long as the set does */
     uint64_t num_calls; /* of next, counted by readers, so that each knows whose view there is */
 } ps_given_set;
 
@@ -124,6 +126,8 @@ typedef struct ps_point_options {
     ps_morph morph;         /* of points that are lifted to the hemisphere */
     bool has_morph;         /* somebody said which: who knows a better default leaves it alone */
     uint64_t memory_limit;  /* bytes that a set may take; 0: half of the memory that is free */
+    bool may_lend;          /* whoever reads changes no points: those of given sets that stay, and
+                               are points as they are, are not copied */
     bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
     ps_given_sets given;    /* borrowed */
 } ps_point_options;

@@ -13,7 +13,9 @@ enum {
 };
 
 void ps_point_set_free(ps_point_set *set) {
-    free(set->points);
+    if (!set->is_lent) {
+        free(set->points);
+    }
     free(set->weights);
     *set = (ps_point_set){0};
 }
@@ -25,10 +27,15 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
     if (!ps_size_multiply(num_points, set->dimension, &num_coordinates)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for %zu points", num_points);
     }
-    void *memory = set->points;
+    const double *const lent = set->is_lent ? set->points : NULL;
+    void *memory = set->is_lent ? NULL : set->points;
     PS_TRY(
         ps_grow(&memory, &set->points_capacity, num_coordinates, sizeof(double), "points", error));
     set->points = memory;
+    if (lent != NULL) {
+        memcpy(set->points, lent, set->num_points * set->dimension * sizeof *lent);
+        set->is_lent = false;
+    }
     if (before < set->points_capacity && num_coordinates >= least_large) {
         ps_memory_use_large_pages(set->points, num_coordinates * sizeof *set->points);
     }
@@ -211,6 +218,34 @@ static pspec_status reserve_block(ps_point_reader *reader, ps_point_set *set, si
     return reserve(reader, set, set->num_points + *num, error);
 }
 
+/* ---- points that stay where they are ----------------------------------------------------- */
+
+/* Nothing is read into the set, whose points are those of the view from its first on. */
+static bool can_lend(const ps_point_reader *reader, const ps_point_set *set) {
+    const ps_point_options *const options = &reader->options;
+    return options->may_lend && reader->given != NULL && reader->given->stays &&
+           ps_layout_is_plain(&reader->layout) && options->box.num_axes == 0 && !options->wrap &&
+           !options->normalize_vectors && (set->num_points == 0 || set->is_lent);
+}
+
+static pspec_status take_lent(ps_point_reader *reader, ps_point_set *set, size_t max_points,
+                              ps_rows_read *out, ps_error *error) {
+    const size_t fitting = block_rows(reader);
+    PS_TRY(read_rows(reader, NULL, max_points < fitting ? max_points : fitting, out, error));
+    const double *const rows = out->rows;
+    if (set->num_points == 0) {
+        if (!set->is_lent) {
+            free(set->points);
+        }
+        set->points = out->rows;
+        set->points_capacity = 0;
+        set->is_lent = true;
+    }
+    const size_t good =
+        ps_columns_accept(&reader->layout, &reader->options, rows, out->rows, out->num);
+    return good == out->num ? PSPEC_OK : refuse(reader, rows, good, error);
+}
+
 /* Appends at most max_points points; out tells how many came and what ended. */
 static pspec_status read_block(ps_point_reader *reader, ps_point_set *set, size_t max_points,
                                ps_rows_read *out, ps_error *error) {
@@ -223,10 +258,16 @@ static pspec_status read_block(ps_point_reader *reader, ps_point_set *set, size_
         }
         PS_TRY(resolve_layout(reader, out->rows, error));
         shape_set(reader, set);
+        if (can_lend(reader, set)) { /* from its beginning, which a view shows again */
+            return take_lent(reader, set, max_points, out, error);
+        }
         PS_TRY(ps_points_reserve(set, set->num_points + out->num, error));
         return take_staged(reader, set, out, error);
     }
     shape_set(reader, set);
+    if (can_lend(reader, set)) {
+        return take_lent(reader, set, max_points, out, error);
+    }
     PS_TRY(reserve_block(reader, set, max_points, &num, error));
     if (ps_layout_is_plain(&reader->layout)) {
         return take_plain(reader, set, num, out, error);

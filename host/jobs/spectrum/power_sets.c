@@ -233,6 +233,10 @@ pspec_status ps_power_sets_skip(ps_power_sets *sets, uint64_t num, ps_look_at_se
 
 static void drop_points(ps_point_set *set, size_t num) {
     set->num_points -= num;
+    if (set->is_lent) {
+        set->points += num * set->dimension;
+        return;
+    }
     if (num > 0) {
         memmove(set->points, set->points + num * set->dimension,
                 set->num_points * set->dimension * sizeof(double));

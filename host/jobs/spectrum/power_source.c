@@ -47,11 +47,12 @@ static uint64_t choose_whole_bytes(const ps_power_question *question) {
 static pspec_status open_files(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const uint64_t whole_bytes = choose_whole_bytes(question);
-    const ps_source_options options = {.points = question->point_options,
-                                       .whole_bytes = whole_bytes,
-                                       .kept_bytes = whole_bytes,
-                                       .should_stop = ps_power_job_should_stop,
-                                       .payload = job};
+    ps_source_options options = {.points = question->point_options,
+                                 .whole_bytes = whole_bytes,
+                                 .kept_bytes = whole_bytes,
+                                 .should_stop = ps_power_job_should_stop,
+                                 .payload = job};
+    options.points.may_lend = !question->is_turned;
     job->num_realizations = question->num_sets;
     job->sets.source = question->source;
     job->sets.is_borrowed = question->source != NULL;
