@@ -12,8 +12,4 @@ static inline uint start_of_band(const uint band, const uint n, const uint bands
     return (uint)(((ulong)band * n + bands - 1) / bands);
 }
 
-static inline uint band_of_cell(const uint cell, const uint n, const uint bands) {
-    return (uint)((ulong)cell * bands / n);
-}
-
 #endif

@@ -60,6 +60,8 @@ typedef struct orders_sort_numbers {
 SAME_SIZE(orders_sort_numbers, 56);
 
 /* orders_bands.cl */
+enum { STAGED_POINTS = 256 }; /* a multiple of CHUNK (nufft/place.h) */
+
 typedef struct orders_bands_numbers {
     ps_u64 part_points;    /* as in orders_sort.cl */
     window_numbers window; /* the same on both axes */

@@ -4,6 +4,7 @@
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/sphere/nufft/shape.h"
+#include "sphere/nufft/numbers.h"
 
 #include <math.h>
 
@@ -143,6 +144,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
     /* No buffer may be empty, so that one place is there without strips, too. */
     const uint64_t strip_points =
         has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
+    const uint64_t staged = shape->is_sorted ? (uint64_t)shape->bands * STAGED_POINTS : 1;
     const uint64_t rings = shape->transform_rings;
     const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
     const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
@@ -164,6 +166,8 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .gaps = gap_bytes(shape, real_bytes),
         .powers = groups * 2 * shape->half_pitch * sizeof(double),
         .sums = pitch > 0 && !shape->is_one_set ? groups * 4 * run * real_bytes : 0,
+        .staged = staged * 2 * sizeof(uint64_t),
+        .staged_heights = staged * real_bytes,
         .states = sharing * 4 * pitch * sizeof(double),
         .scales = sharing * 2 * pitch * sizeof(int32_t),
         .diagonals = sharing * pitch * sizeof(double),
@@ -190,10 +194,10 @@ static void add_up(ps_sphere_shape *shape, size_t real_bytes) {
     shape->fixed_bytes =
         bytes.weights + 2 * bytes.vectors + bytes.turns + bytes.weights + sorted + bytes.keys +
         bytes.starts + bytes.order + bytes.grids + bytes.rows + bytes.scratch + bytes.strip_turns +
-        bytes.strip_weights + bytes.strips + bytes.strip_starts + table_bytes(shape, real_bytes) +
-        shape->sum_shares * bytes.sums + bytes.states + bytes.scales + bytes.diagonals +
-        bytes.diagonals / 2 + bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
-        (is_fixed ? shape->at_once * each : 0);
+        bytes.strip_weights + bytes.strips + bytes.strip_starts + bytes.staged +
+        bytes.staged_heights + table_bytes(shape, real_bytes) + shape->sum_shares * bytes.sums +
+        bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 + bytes.table +
+        bytes.gaps + (making > rest ? making - rest : 0) + (is_fixed ? shape->at_once * each : 0);
     const uint64_t buffers[] = {bytes.table,
                                 bytes.grids,
                                 bytes.rows,

@@ -12,8 +12,9 @@ enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
 typedef struct rings {
     ps_sphere_ring_tables tables;
-    ps_kernel *orders, *bands; /* bands: of sorted points */
-    ps_buffer rows;            /* of orders.cl */
+    ps_kernel *orders, *bands;        /* bands: of sorted points */
+    ps_buffer rows;                   /* of orders.cl */
+    ps_buffer staged, staged_heights; /* of orders_bands.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
     ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
 } rings;
@@ -44,6 +45,8 @@ static pspec_status create(ps_sphere_state *self, ps_error *error) {
         {&own->strip_weights, bytes.strip_weights, "weights of strips"},
         {&own->strips, bytes.strips, "strips of points"},
         {&own->strip_starts, bytes.strip_starts, "starts of strips"},
+        {&own->staged, bytes.staged, "points of bands"},
+        {&own->staged_heights, bytes.staged_heights, "weights of bands"},
         {&own->states, bytes.states, "states of rings"},
         {&own->scales, bytes.scales, "scales of rings"},
         {&own->diagonals, bytes.diagonals, "first degrees of rings"},
@@ -58,7 +61,7 @@ static void free_own(void *own) {
     rings *const self = own;
     PS_BUFFERS_RELEASE(&self->rows, &self->strip_turns, &self->strip_weights, &self->strips,
                        &self->states, &self->scales, &self->diagonals, &self->diagonal_scales,
-                       &self->sums, &self->strip_starts);
+                       &self->sums, &self->strip_starts, &self->staged, &self->staged_heights);
     ps_sphere_ring_tables_free(&self->tables);
 }
 
@@ -165,8 +168,9 @@ static pspec_status add_sorted(ps_sphere_state *self, bool is_first, ps_error *e
                                                  flops_per_point * (double)points->num_points);
     return PS_LAUNCH(self->device, of(self)->bands, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(points->sorted), PS_BUFFER(*heights), PS_BUFFER(points->starts),
-                     PS_BUFFER(plan->coefficients), PS_BUFFER(self->grids), PS_LOCAL(local.windows),
-                     PS_LOCAL(local.cells));
+                     PS_BUFFER(plan->coefficients), PS_BUFFER(self->grids),
+                     PS_BUFFER(of(self)->staged), PS_BUFFER(of(self)->staged_heights),
+                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
 /* Points of the only pattern, a chunk at a time. Once they are sorted, they may go. */

@@ -37,6 +37,9 @@ static const size_t band_bytes = 384 << 10;
 /* Windows behind a band end in the next one. */
 enum { LEAST_BAND = PS_NUFFT_MAX_WIDTH };
 
+/* Enough for all cores; of more, rows behind bands would be most of the grid. */
+enum { MOST_BANDS = 64 };
+
 /* A set has bands where its windows cover every cell a few times. Not measured near the limit:
  * 1e7 points on 4096 x 2100 cells, which cover each 170 times, took a third of the time of one core
  * and cells in any order (Zen 3, PoCL 3.1). */
@@ -46,9 +49,11 @@ static void choose_bands(ps_sphere_shape *shape, double points, size_t real_byte
     const double width = shape->axis.window.width;
     const double n = shape->axis.n;
     const size_t fitting = band_bytes / (shape->pitch * real_bytes);
-    const uint32_t least = fitting > LEAST_BAND + shape->axis.window.width
-                               ? (uint32_t)fitting - shape->axis.window.width
-                               : LEAST_BAND;
+    const uint32_t in_cache = fitting > LEAST_BAND + shape->axis.window.width
+                                  ? (uint32_t)fitting - shape->axis.window.width
+                                  : LEAST_BAND;
+    const uint32_t of_many = shape->axis.n / MOST_BANDS;
+    const uint32_t least = in_cache > of_many ? in_cache : of_many;
     shape->is_sorted =
         points >= PS_SPHERE_LEAST_SORTED && points * width * width > least_covers * n * n / 2;
     shape->bands = shape->is_sorted && least < shape->axis.n ? shape->axis.n / least : 1;

@@ -122,7 +122,8 @@ typedef struct ps_sphere_bytes {
     uint64_t grids, rows, scratch;
     uint64_t strip_turns, strip_weights, strips, strip_starts;
     uint64_t values, powers, sums;
-    uint64_t gaps; /* between the values of orders: kernels/sphere/values.h */
+    uint64_t gaps;                   /* between the values of orders: kernels/sphere/values.h */
+    uint64_t staged, staged_heights; /* of points on their way to bands */
     uint64_t states, scales, diagonals;
     uint64_t table;
 } ps_sphere_bytes;
