@@ -320,6 +320,7 @@ void ps_device_close(ps_device *device) {
         clReleaseDevice(device->id);
     }
     ps_process_unlock();
+    ps_large_pool_leave(device->large);
     free(device);
 }
 

@@ -48,6 +48,9 @@ struct ps_kernel {
  * 580 (H100). Limits leave it out. */
 enum { PS_DRIVERS_LOCAL_BYTES = 64 };
 
+/* Memory of large_memory.c. */
+typedef struct ps_large_pool ps_large_pool;
+
 enum { PS_PROFILE_ROWS = 64 }; /* more kernels than the product has; further ones are not counted */
 
 struct ps_device {
@@ -75,6 +78,7 @@ struct ps_device {
     size_t group_size;   /* see ps_device_set_group_size; 0: default */
     ps_figures *figures; /* that limits.figures points to, or NULL */
     double launched_flops;
+    ps_large_pool *large;                     /* NULL: none yet */
     uint64_t buffer_bytes, most_buffer_bytes; /* of all buffers, now and at most */
     bool has_profile;
     ps_profile_row profile[PS_PROFILE_ROWS];
@@ -124,5 +128,7 @@ pspec_status ps_profile_add(ps_device *device, const char *kernel, const ps_rang
 /* large_memory.c: an object in memory of large pages where host and device share it; NULL: take
  * what the driver has. */
 cl_mem ps_large_memory_create(ps_device *device, size_t bytes);
+/* When the device is closed; NULL is allowed. What objects still have goes with them. */
+void ps_large_pool_leave(ps_large_pool *pool);
 
 #endif
