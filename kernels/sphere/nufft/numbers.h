@@ -10,6 +10,7 @@ typedef struct ring_numbers {
     ps_u32 polar, crossing, equatorial; /* ring_angles of orders_states.h */
     ps_u32 L, only_even;                /* even degrees only */
     ps_u32 num_rings, ring_pitch;
+    ps_u32 lead;  /* of num_rings, so many come before the pole, where nothing is */
     ps_u32 block; /* rings of a block, a multiple of RING_UNIT */
 } ring_numbers;
 
@@ -22,7 +23,7 @@ typedef struct orders_sum_numbers {
     ps_u32 shares;     /* of the realizations, among work-groups (shares.h) */
 } orders_sum_numbers;
 
-SAME_SIZE(orders_sum_numbers, 48);
+SAME_SIZE(orders_sum_numbers, 52);
 
 /* grid_table.cl */
 typedef struct grid_table_numbers {
@@ -30,7 +31,7 @@ typedef struct grid_table_numbers {
     ps_u32 num_angles, angle_pitch; /* of the table, and of filters */
 } grid_table_numbers;
 
-SAME_SIZE(grid_table_numbers, 40);
+SAME_SIZE(grid_table_numbers, 44);
 
 /* grid_values.cl */
 typedef struct grid_values_numbers {
@@ -68,8 +69,10 @@ typedef struct orders_bands_numbers {
     ps_u32 num_parts, tiles;
     ps_u32 is_first; /* the grid begins anew; else it is continued */
     ps_u32 bands, band_rows, pitch;
+    ps_u32 has_weights; /* else heights are not looked at, and all are 1 */
+    ps_u32 unused;      /* fills the size up to whole numbers of eight bytes */
 } orders_bands_numbers;
 
-SAME_SIZE(orders_bands_numbers, 48);
+SAME_SIZE(orders_bands_numbers, 56);
 
 #endif

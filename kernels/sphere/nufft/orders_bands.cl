@@ -23,11 +23,12 @@ typedef struct staged_points {
 } staged_points;
 
 static inline void stage_points(const staged_points to, __global const ulong *turns,
-                                __global const real *heights, const size_t from, const uint num) {
+                                __global const real *heights, const size_t from, const uint num,
+                                const bool has_weights) {
     for (uint i = own_item(); i < num; i += num_items()) {
         to.turns[2 * (to.num + i)] = turns[2 * (from + i)];
         to.turns[2 * (to.num + i) + 1] = turns[2 * (from + i) + 1];
-        to.heights[to.num + i] = heights[from + i];
+        to.heights[to.num + i] = has_weights ? heights[from + i] : (real)1;
     }
 }
 
@@ -65,7 +66,7 @@ sphere_orders_bands(const orders_bands_numbers numbers, __global const ulong *re
             const size_t end = part * part_points + start[1];
             for (size_t from = part * part_points + start[0]; from < end;) {
                 const uint num = (uint)min(end - from, (size_t)(STAGED_POINTS - points.num));
-                stage_points(points, sorted, heights, from, num);
+                stage_points(points, sorted, heights, from, num, numbers.has_weights != 0);
                 points.num += num;
                 from += num;
                 if (points.num == STAGED_POINTS) {

@@ -39,22 +39,24 @@ typedef struct ring_values {
     doublev of[RING_VECTORS][PARTS];
 } ring_values;
 
-/* Of one parity from [ring][re, im], times `factors` unless that is NULL; behind the last of `num`
- * rings there are zeros. */
+/* Of one parity from [ring][re, im], times `factors` unless that is NULL; there are `lead` zeros
+ * before the first of `num` rings, and zeros behind the last. */
 static inline __attribute__((always_inline)) void load_values(ring_values *to, const uint part,
                                                               __global const value_real *from,
-                                                              const uint num,
+                                                              const uint lead, const uint num,
                                                               __global const double *factors) {
     double re[RING_UNIT], im[RING_UNIT];
-    for (uint i = 0; num < RING_UNIT && i < RING_UNIT; i++) {
-        re[i] = i < num ? from[2 * i] : 0;
-        im[i] = i < num ? from[2 * i + 1] : 0;
+    const bool is_whole = lead == 0 && num >= RING_UNIT;
+    for (uint i = 0; !is_whole && i < RING_UNIT; i++) {
+        const bool is_there = i >= lead && i - lead < num;
+        re[i] = is_there ? from[2 * (i - lead)] : 0;
+        im[i] = is_there ? from[2 * (i - lead) + 1] : 0;
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
         const doublev factor =
             factors != 0 ? *(__global const unaligned_doublev *)(factors + j * LANES) : (doublev)1;
-        if (num >= RING_UNIT) {
+        if (is_whole) {
             __global const unaligned_values *at =
                 (__global const unaligned_values *)(from + 2 * LANES * j);
             const doublev first = TO_DOUBLEV(at[0]), second = TO_DOUBLEV(at[1]);
@@ -238,7 +240,7 @@ typedef struct order_values {
     __global const value_real *from;
     size_t parity_apart;
     __global const double *cosines;
-    uint parity;
+    uint parity, lead; /* lead: rings before the first value */
 } order_values;
 
 /* A run of RING_UNIT rings from `ring` on, `num` of which are there; whether there is more than
@@ -246,12 +248,14 @@ typedef struct order_values {
 static inline bool add_run(const ring_states states, const ring_angles angles, const uint ring,
                            const uint num, __local const double *coefficients,
                            const order_values from, __local double *sums, const uint vectors) {
+    const uint lead = ring < from.lead ? from.lead - ring : 0;
+    const uint first = ring < from.lead ? 0 : ring - from.lead;
     ring_values values;
 #pragma unroll
     for (uint i = 0; i < PARITIES; i++) {
         const uint parity = PARITIES == 2 ? i : from.parity;
-        load_values(&values, 2 * i, from.from + parity * from.parity_apart + 2 * ring, num,
-                    parity != 0 ? from.cosines + ring : 0);
+        load_values(&values, 2 * i, from.from + parity * from.parity_apart + 2 * first, lead,
+                    num - lead, parity != 0 ? from.cosines + ring : 0);
     }
     return ring < angles.polar || ring >= angles.equatorial
                ? add_difference_run(states, angles, ring, coefficients, &values, sums, vectors)

@@ -135,7 +135,7 @@ __kernel void sphere_orders_sum_one(
     for (uint m = group; own_item() == 0 && m <= L; m += groups) {
         const uint even = m % 2; /* parity of l - m of even degrees */
         const order_values from = {values + m * order_pitch(numbers.value_sets, parity_apart),
-                                   parity_apart, cosines, even};
+                                   parity_apart, cosines, even, rings.lead};
         odd_degree last = {0, 0};
         uint begin = 0;
         begin_even_order(work, from_order, m, group, ring_pitch);

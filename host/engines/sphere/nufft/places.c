@@ -44,6 +44,13 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
     return ps_feed_create(&self->vectors, bytes.vectors, self->device, error);
 }
 
+static pspec_status make_room_for_weights(ps_sphere_places *self, ps_error *error) {
+    return self->host_weights != NULL
+               ? PSPEC_OK
+               : ps_allocate(&self->host_weights, self->most_points, ps_real_bytes(self->precision),
+                             "weights", error);
+}
+
 static void set_weight(ps_sphere_places *self, size_t at, double weight) {
     if (self->precision == PS_SINGLE) {
         ((float *)self->host_weights)[at] = (float)weight;
@@ -52,12 +59,16 @@ static void set_weight(ps_sphere_places *self, size_t at, double weight) {
     }
 }
 
-/* They stay on the device until weights arrive. */
+/* They stay on the device until weights arrive; where points are sorted nobody looks at them. */
 static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error) {
+    self->has_unit_weights = true;
+    if (self->shape->is_sorted) {
+        return PSPEC_OK;
+    }
+    PS_TRY(make_room_for_weights(self, error));
     for (size_t j = 0; j < self->most_points; j++) {
         set_weight(self, j, 1);
     }
-    self->has_unit_weights = true;
     return ps_buffer_write(self->device, &self->weights, 0, self->host_weights,
                            self->most_points * ps_real_bytes(self->precision), error);
 }
@@ -85,15 +96,12 @@ static pspec_status create_kernels(ps_sphere_places *self, ps_error *error) {
 
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
                                      ps_precision precision, ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *out = (ps_sphere_places){.device = device,
                               .precision = precision,
                               .shape = shape,
                               .most_points = shape->most_points,
                               .lanes = shape->lanes,
                               .shift = shift_of(shape)};
-    PS_TRY(ps_allocate(&memory, out->most_points, ps_real_bytes(precision), "weights", error));
-    out->host_weights = memory;
     PS_TRY(PS_NEW(&out->host_offsets, num_offsets(shape), "offsets", error));
     PS_TRY(create_kernels(out, error));
     PS_TRY(create_buffers(out, error));
@@ -185,6 +193,7 @@ static pspec_status upload_weights(ps_sphere_places *self, const ps_batch *batch
     if (self->has_unit_weights) {
         return PSPEC_OK;
     }
+    PS_TRY(make_room_for_weights(self, error));
     for (size_t r = 0; r < batch->num_patterns; r++) {
         const pspec_pattern *pattern = &batch->patterns[r];
         const int exponent = batch->exponents != NULL ? batch->exponents[r] : 0;

@@ -152,7 +152,6 @@ static pspec_status add_sorted(ps_sphere_state *self, bool is_first, ps_error *e
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_places *points = &self->points;
     const ps_nufft_plan *plan = &self->tables.plan;
-    const ps_buffer *heights = points->has_unit_weights ? &points->weights : &points->heights;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double flops_per_point = 2000;
     const orders_bands_numbers numbers = {
@@ -163,14 +162,15 @@ static pspec_status add_sorted(ps_sphere_state *self, bool is_first, ps_error *e
         .is_first = is_first,
         .bands = shape->bands,
         .band_rows = shape->band_rows,
-        .pitch = shape->pitch};
+        .pitch = shape->pitch,
+        .has_weights = !points->has_unit_weights};
     const ps_range range = ps_sphere_group_range(self->device, self->is_alone, shape->bands,
                                                  flops_per_point * (double)points->num_points);
-    return PS_LAUNCH(self->device, of(self)->bands, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(points->sorted), PS_BUFFER(*heights), PS_BUFFER(points->starts),
-                     PS_BUFFER(plan->coefficients), PS_BUFFER(self->grids),
-                     PS_BUFFER(of(self)->staged), PS_BUFFER(of(self)->staged_heights),
-                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+    return PS_LAUNCH(
+        self->device, of(self)->bands, &range, error, PS_STRUCT(numbers), PS_BUFFER(points->sorted),
+        PS_BUFFER(points->heights), PS_BUFFER(points->starts), PS_BUFFER(plan->coefficients),
+        PS_BUFFER(self->grids), PS_BUFFER(of(self)->staged), PS_BUFFER(of(self)->staged_heights),
+        PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
 /* Points of the only pattern, a chunk at a time. Once they are sorted, they may go. */

@@ -104,22 +104,27 @@ enum { POLAR_RINGS = 16, EQUATORIAL_RINGS = 12 };
 
 /* In units of rings. */
 static void choose_recurrences(ps_sphere_shape *shape, uint32_t unit) {
-    const uint32_t last =
-        shape->num_rings > EQUATORIAL_RINGS ? shape->num_rings - EQUATORIAL_RINGS : 0;
-    shape->polar = (uint32_t)ps_round_up(POLAR_RINGS, unit);
-    shape->crossing = shape->num_rings / 2 / unit * unit;
+    const uint32_t num = shape->ring_lead + shape->num_rings;
+    const uint32_t last = num > EQUATORIAL_RINGS ? num - EQUATORIAL_RINGS : 0;
+    shape->polar = (uint32_t)ps_round_up(shape->ring_lead + POLAR_RINGS, unit);
+    shape->crossing = (shape->ring_lead + shape->num_rings / 2) / unit * unit;
     shape->equatorial = last / unit * unit;
+}
+
+static void measure_rings_in_memory(ps_sphere_shape *shape, size_t real_bytes) {
+    enum { LARGEST_UNIT = 32 };
+    shape->ring_pitch =
+        (uint32_t)ps_round_up((uint64_t)shape->ring_lead + shape->num_rings, LARGEST_UNIT);
+    shape->value_bytes =
+        4 * (uint64_t)shape->ring_pitch * ((size_t)shape->max_degree + 1) * real_bytes;
 }
 
 static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
     enum { LARGEST_LANES = 16 };
-    const uint32_t ring_unit = PS_SPHERE_RING_VECTORS * LARGEST_LANES;
-    shape->ring_pitch = (uint32_t)ps_round_up(shape->num_rings, ring_unit);
+    measure_rings_in_memory(shape, real_bytes);
     shape->block = choose_block(shape, real_bytes);
     shape->half_pitch = (uint32_t)ps_round_up(
         (uint64_t)shape->max_degree / 2 + 1 + shape->run_vectors * shape->lanes, LARGEST_LANES);
-    shape->value_bytes =
-        4 * (uint64_t)shape->ring_pitch * ((size_t)shape->max_degree + 1) * real_bytes;
 }
 
 /* Measures the table as kernels/sphere/nufft/grid_table.h lays it out. */
@@ -142,13 +147,16 @@ static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
  * each have rings, and sums of all of them to add up; nor of a set that comes in blocks, after
  * which nobody knows whether others follow. */
 static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
-                        const ps_device_limits *limits) {
+                        const ps_device_limits *limits, size_t real_bytes) {
     const unsigned lanes = ps_engine_lanes(limits, PS_DOUBLE);
     if (problem->num_realizations == 1 && problem->block_points == 0 &&
         !limits->has_dedicated_local_memory) {
         shape->is_one_set = true;
         shape->sum_lanes = lanes;
-        choose_recurrences(shape, PS_SPHERE_ONE_VECTORS * lanes);
+        const uint32_t unit = ps_sphere_one_vectors(shape) * lanes;
+        shape->ring_lead = (unit - shape->num_rings % unit) % unit;
+        measure_rings_in_memory(shape, real_bytes);
+        choose_recurrences(shape, unit);
     }
 }
 
@@ -190,7 +198,7 @@ static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits
     const uint32_t unit = 2 * shape->lanes;
     const double points = ps_planned_points(problem);
     measure_grid(shape, unit);
-    choose_sums(shape, problem, limits);
+    choose_sums(shape, problem, limits, real_bytes);
     choose_bands(shape, points, real_bytes);
     choose_strip(shape, limits, real_bytes);
     shape->grid_rows = shape->bands * shape->band_rows;

@@ -41,6 +41,8 @@ typedef struct ps_sphere_shape {
     uint32_t columns;          /* with cells in them, whole groups */
     uint32_t pairs;            /* of tiles of orders */
     uint32_t ring_pitch;       /* rings up to whole vectors */
+    uint32_t ring_lead;        /* rings of a set alone lie so much further, and fill units of rings
+                                  up to the equator: there they cost most, at the pole nothing */
     uint32_t run_vectors;      /* RUN_VECTORS of orders_chains.h */
     bool is_one_set;           /* one realization is expected: sums by orders_sum_one.cl, */
     unsigned sum_lanes;        /* whose LANES these are */
@@ -95,6 +97,13 @@ void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
 /* In how many shares (kernels/sphere/nufft/shares.h) so many realizations are summed. */
 size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations);
+
+/* RING_VECTORS of orders_sum_one.cl: for each, registers hold three vectors and four of values. At
+ * most 32 rings in all. */
+static inline unsigned ps_sphere_one_vectors(const ps_sphere_shape *shape) {
+    const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
+    return shape->sum_lanes * sizeof(double) == bytes_of_32 ? 3 : 2;
+}
 
 /* Its parts, of memory.c, axis.c and cost.c. How many realizations at once, and what all of it
  * takes, for a shape with a grid. */
@@ -157,7 +166,6 @@ enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
 enum {
     PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
     PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: in double precision, with a table */
-    PS_SPHERE_ONE_VECTORS = 2,  /* orders_one.h: of rings; registers hold four of values for each */
     PS_SPHERE_ONE_RUN = 8,      /* orders_one.h: RUN_VECTORS, whose sums the nearest cache holds */
     PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
     PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */

@@ -16,7 +16,7 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
     if (source->sums_one) {
         ps_defines_add(
             &defines, "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u -DPARITIES=%u",
-            8 * value_bytes, shape->lanes, PS_SPHERE_ONE_VECTORS, self->only_even ? 1u : 2u);
+            8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape), self->only_even ? 1u : 2u);
     }
     if (keeps) {
         ps_defines_add(&defines, "-DKEEP=1");

@@ -93,6 +93,7 @@ typedef struct host_tables {
 } host_tables;
 
 static void fill_ring(host_tables *host, const ps_sphere_shape *shape, uint32_t ring) {
+    const uint32_t at = shape->ring_lead + ring;
     const long double angle = PS_TWO_PI_L * ring / shape->rings;
     const long double sine = sinl(angle);
     const long double cosine = cosl(angle);
@@ -102,14 +103,14 @@ static void fill_ring(host_tables *host, const ps_sphere_shape *shape, uint32_t 
     for (int32_t m = 0; m < PS_SPHERE_GROUPS; m++) {
         start = m > 0 ? multiply(start, ratio(m) * sine) : start;
         step = multiply(step, sine);
-        host->starts[(size_t)m * host->num_rings + ring] = (double)start.value;
-        host->start_scales[(size_t)m * host->num_rings + ring] = start.scale;
+        host->starts[(size_t)m * host->num_rings + at] = (double)start.value;
+        host->start_scales[(size_t)m * host->num_rings + at] = start.scale;
     }
-    host->steps[ring] = (double)step.value;
-    host->step_scales[ring] = step.scale;
-    host->cosines[ring] = (double)cosine;
-    host->distances[ring] = (double)(2 * half * half);
-    host->squares[ring] = (double)(ring < shape->crossing ? -sine * sine : cosine * cosine);
+    host->steps[at] = (double)step.value;
+    host->step_scales[at] = step.scale;
+    host->cosines[at] = (double)cosine;
+    host->distances[at] = (double)(2 * half * half);
+    host->squares[at] = (double)(at < shape->crossing ? -sine * sine : cosine * cosine);
 }
 
 static void fill_ratios(host_tables *host) {
@@ -175,7 +176,8 @@ ring_numbers ps_sphere_ring_numbers(const ps_sphere_shape *shape, bool only_even
                           .equatorial = shape->equatorial,
                           .L = (uint32_t)shape->max_degree,
                           .only_even = only_even,
-                          .num_rings = shape->num_rings,
+                          .num_rings = shape->ring_lead + shape->num_rings,
+                          .lead = shape->ring_lead,
                           .ring_pitch = shape->ring_pitch,
                           .block = shape->block};
 }

@@ -24,7 +24,7 @@ typedef struct ps_sphere_places {
     bool has_unit_weights;  /* on the device */
     ps_kernel *turn;        /* or sort, or keys where there is an order */
     ps_nufft_order order;   /* of parts, on GPUs */
-    void *host_weights;     /* [most_points] float or double */
+    void *host_weights;     /* [most_points] float or double; NULL: none yet */
     uint64_t *host_offsets; /* [together + 1], where there is an order of the parts */
     ps_feed vectors;        /* [most_points][3] */
     ps_buffer lent;         /* of ps_sphere_places_lend; {0}: none */
