@@ -3,7 +3,7 @@
 #ifndef PS_SPHERE_ORDERS_EVENS_H
 #define PS_SPHERE_ORDERS_EVENS_H
 
-#include "sphere/nufft/orders_work.h"
+#include "sphere/nufft/orders_states.h"
 
 /* Of a run from degree `first` on, [..][TABLE_ROW] for l = first, first + 2, ... where nothing else
  * is said. */
@@ -16,6 +16,17 @@
 #define EVEN_ROOTS (12 * TABLE_ROW)     /* h_l from l = first - 2 on, as many */
 #define EVEN_AHEAD 2
 #define EVEN_ALPHA (EVEN_CHAIN + EVEN_AHEAD)
+
+/* Numbers of coefficients as states are, LANES of them from number i of a row on. */
+static inline void store_row(__local double *row, const uint i, const doublev x) {
+#if STATE_PRECISION == 64
+    store_doubles(row + i, x);
+#else
+    typedef float halfv __attribute__((ext_vector_type(LANES)));
+    typedef halfv unaligned_halfv __attribute__((aligned(sizeof(float))));
+    *(__local unaligned_halfv *)((__local float *)row + i) = PS_JOIN(convert_float, LANES)(x);
+#endif
+}
 
 /* Degrees l, l + 2, ... */
 static inline doublev every_second_from(const uint l) {
@@ -56,10 +67,10 @@ static inline void make_even_steps(__local double *to, const uint first, const d
         const doublev far = load_doubles(to + EVEN_ROOTS + 2 + i);
         const doublev step = alpha / (far * load_doubles(to + EVEN_ALPHA + 1 + i));
         const doublev diagonal = squared_ratio(l + one, order) + squared_ratio(l, order);
-        store_doubles(to + EVEN_STEP + i, step);
-        store_doubles(to + EVEN_POLE + i, step * (one - diagonal));
-        store_doubles(to + EVEN_EQUATOR + i, -step * diagonal);
-        store_doubles(to + EVEN_INVERSE + i, one / alpha);
+        store_row(to + EVEN_STEP, i, step);
+        store_row(to + EVEN_POLE, i, step * (one - diagonal));
+        store_row(to + EVEN_EQUATOR, i, -step * diagonal);
+        store_row(to + EVEN_INVERSE, i, one / alpha);
     }
 }
 
@@ -72,9 +83,9 @@ static inline void make_differences(__local double *to, const uint first, const 
         const doublev sum = l + one + order, difference = l + one - order;
         const doublev g = sqrt((twice + (doublev)3) * sum / ((twice + one) * difference));
         const doublev share = g / sum;
-        store_doubles(to + i, share * (l - order));
-        store_doubles(to + RUN_DEGREES + i, -share * (twice + one));
-        store_doubles(to + 2 * RUN_DEGREES + i, g);
+        store_row(to, i, share * (l - order));
+        store_row(to, RUN_DEGREES + i, -share * (twice + one));
+        store_row(to, 2 * RUN_DEGREES + i, g);
     }
 }
 
@@ -111,10 +122,17 @@ static inline void begin_even_order(const ring_work work, const order_starts fro
             value != (doublev)0 && fabs(value) < (doublev)SCALE_DOWN; /* true is -1 */
         value *= is_small ? (doublev)SCALE_UP : (doublev)1;
         scale -= TO_INTV(is_small);
+        double values[LANES];
+        int scales[LANES];
+        *(unaligned_doublev *)values = value;
+        *(unaligned_intv *)scales = scale;
         *(__global unaligned_doublev *)(work.diagonal + i) = value;
         *(__global unaligned_intv *)(work.diagonal_scales + i) = scale;
-        const chain_state state = {value, (doublev)0, scale};
-        store_state(work.states, &state, 0, i);
+        for (uint lane = 0; lane < LANES; lane++) {
+            work.states.value[i + lane] = values[lane];
+            work.states.before[i + lane] = 0;
+            work.states.scale[i + lane] = scales[lane];
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-/* Lambda_lm of a run of degrees times the values of one realization on RING_UNIT rings, without a
+/* Lambda_lm of a run of degrees times the values of one realization on ONE_UNIT rings, without a
  * table: lanes are rings, so that a number of Lambda_lm is used where it is made. Device only.
  *
  * Only even l - m are made. Since cos(theta) Lambda_l = e_{l+1} Lambda_{l+1} + e_l Lambda_{l-1},
@@ -8,10 +8,11 @@
  *
  * so that a number of Lambda_lm is used four times, not twice. e_l / e_{l+1} < 1: an error of T_l
  * comes back in each later degree as large as it was at most, with turning sign, and rounding of T
- * is u, in double precision as all here.
+ * is u.
  *
- * All in double precision, whatever the values are: taking Lambda_lm to single precision costs what
- * a product does.
+ * In double precision, whatever the values are: taking Lambda_lm to single precision costs what a
+ * product does. Where the tolerance allows it (STATE_PRECISION 32), Lambda_lm and sums of a run are
+ * floats, twice as many to a vector; what comes of them, and coefficients, are doubles.
  */
 #ifndef PS_SPHERE_ORDERS_ONE_H
 #define PS_SPHERE_ORDERS_ONE_H
@@ -23,8 +24,29 @@ typedef double value_real;
 #else
 typedef float value_real;
 #endif
-typedef value_real unaligned_values
-    __attribute__((ext_vector_type(LANES), aligned(sizeof(value_real))));
+typedef value_real valuev __attribute__((ext_vector_type(STATE_LANES)));
+typedef valuev unaligned_valuev __attribute__((aligned(sizeof(value_real))));
+#if STATE_PRECISION == 64
+#define TO_STATEV(x) TO_DOUBLEV(x)
+#define LANES_OF(x) (x)
+#else
+#define TO_STATEV(x) (x)
+#define LANES_OF(x) (TO_DOUBLEV((x).lo) + TO_DOUBLEV((x).hi))
+#endif
+
+/* Rings of a unit. */
+#define ONE_UNIT (RING_VECTORS * STATE_LANES)
+
+/* STATE_LANES numbers of rings. */
+static inline statev load_rings(__global const double *from) {
+#if STATE_PRECISION == 64
+    return *(__global const unaligned_doublev *)from;
+#else
+    return (
+        statev)(PS_JOIN(convert_float, LANES)(*(__global const unaligned_doublev *)from),
+                PS_JOIN(convert_float, LANES)(*(__global const unaligned_doublev *)(from + LANES)));
+#endif
+}
 
 /* What sums of a degree there are: [those of even l - m, of odd l - m][re, im]; one of the two
  * where only even degrees are wanted. */
@@ -34,9 +56,9 @@ typedef value_real unaligned_values
 #define PARTS (2 * PARITIES)
 #define SUM_NUMBERS (TABLE_ROW * PARTS * LANES)
 
-/* Of RING_UNIT rings; those of odd l - m are times cos(theta). */
+/* Of ONE_UNIT rings; those of odd l - m are times cos(theta). */
 typedef struct ring_values {
-    doublev of[RING_VECTORS][PARTS];
+    statev of[RING_VECTORS][PARTS];
 } ring_values;
 
 /* Of one parity from [ring][re, im], times `factors` unless that is NULL; there are `lead` zeros
@@ -45,41 +67,41 @@ static inline __attribute__((always_inline)) void load_values(ring_values *to, c
                                                               __global const value_real *from,
                                                               const uint lead, const uint num,
                                                               __global const double *factors) {
-    double re[RING_UNIT], im[RING_UNIT];
-    const bool is_whole = lead == 0 && num >= RING_UNIT;
-    for (uint i = 0; !is_whole && i < RING_UNIT; i++) {
+    const bool is_whole = lead == 0 && num >= ONE_UNIT;
+    state_real re[ONE_UNIT], im[ONE_UNIT];
+    for (uint i = 0; !is_whole && i < ONE_UNIT; i++) {
         const bool is_there = i >= lead && i - lead < num;
         re[i] = is_there ? from[2 * (i - lead)] : 0;
         im[i] = is_there ? from[2 * (i - lead) + 1] : 0;
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        const doublev factor =
-            factors != 0 ? *(__global const unaligned_doublev *)(factors + j * LANES) : (doublev)1;
+        const statev factor = factors != 0 ? load_rings(factors + j * STATE_LANES) : (statev)1;
         if (is_whole) {
-            __global const unaligned_values *at =
-                (__global const unaligned_values *)(from + 2 * LANES * j);
-            const doublev first = TO_DOUBLEV(at[0]), second = TO_DOUBLEV(at[1]);
-            to->of[j][part] = factor * (doublev)(first.even, second.even);
-            to->of[j][part + 1] = factor * (doublev)(first.odd, second.odd);
+            __global const unaligned_valuev *at =
+                (__global const unaligned_valuev *)(from + 2 * STATE_LANES * j);
+            const statev first = TO_STATEV(at[0]), second = TO_STATEV(at[1]);
+            to->of[j][part] = factor * (statev)(first.even, second.even);
+            to->of[j][part + 1] = factor * (statev)(first.odd, second.odd);
         } else {
-            to->of[j][part] = factor * *(const unaligned_doublev *)(re + LANES * j);
-            to->of[j][part + 1] = factor * *(const unaligned_doublev *)(im + LANES * j);
+            to->of[j][part] = factor * *(const unaligned_statev *)(re + STATE_LANES * j);
+            to->of[j][part + 1] = factor * *(const unaligned_statev *)(im + STATE_LANES * j);
         }
     }
 }
 
 /* To the sums of a degree, [part][LANES]. */
 static inline __attribute__((always_inline)) void
-add_degree(__local double *sums, const doublev *lambda, const ring_values *values) {
+add_degree(__local double *sums, const statev *lambda, const ring_values *values) {
 #pragma unroll
     for (int part = 0; part < PARTS; part++) {
-        doublev sum = load_doubles(sums + part * LANES);
+        __local unaligned_statev *at = (__local unaligned_statev *)(sums + part * LANES);
+        statev sum = *at;
 #pragma unroll
         for (int j = 0; j < RING_VECTORS; j++) {
             sum = fma(lambda[j], values->of[j][part], sum);
         }
-        store_doubles(sums + part * LANES, sum);
+        *at = sum;
     }
 }
 
@@ -89,13 +111,13 @@ add_degree(__local double *sums, const doublev *lambda, const ring_values *value
 
 /* LANES degrees. */
 static inline __attribute__((always_inline)) void
-add_degrees(chain_state *states, const doublev *squares, const ring_values *values,
-            __local const double *steps, __local const double *rests, __local double *sums,
+add_degrees(chain_state *states, const statev *squares, const ring_values *values,
+            __local const state_real *steps, __local const state_real *rests, __local double *sums,
             const bool is_scaled) {
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
         const bool is_time = i % EVENS_BETWEEN_LOOKS == EVENS_BETWEEN_LOOKS - 1 || i == LANES - 1;
-        doublev lambda[RING_VECTORS];
+        statev lambda[RING_VECTORS];
 #pragma unroll
         for (int j = 0; j < RING_VECTORS; j++) {
             lambda[j] = shown(&states[j], is_scaled);
@@ -109,8 +131,8 @@ add_degrees(chain_state *states, const doublev *squares, const ring_values *valu
 }
 
 /* As try_chain of orders_states.h, of even l - m. */
-static inline bool try_evens(chain_state *states, const doublev *squares,
-                             __local const double *steps, __local const double *rests,
+static inline bool try_evens(chain_state *states, const statev *squares,
+                             __local const state_real *steps, __local const state_real *rests,
                              const uint num) {
     for (uint i = 0; i < num; i += LANES) {
 #pragma unroll
@@ -136,8 +158,8 @@ static inline bool try_evens(chain_state *states, const doublev *squares,
 
 /* Rings that begin as zeros are tried first, since most of them end so, too: then nothing is to be
  * added. Those of a unit that has more are not tried, since Lambda_lm does not vanish again. */
-static inline bool is_worth_adding(chain_state *states, const doublev *squares,
-                                   __local const double *steps, __local const double *rests,
+static inline bool is_worth_adding(chain_state *states, const statev *squares,
+                                   __local const state_real *steps, __local const state_real *rests,
                                    const uint num) {
     chain_state trial[RING_VECTORS];
     if (is_more_than_zeros(states)) {
@@ -160,15 +182,16 @@ static inline bool add_chain_run(const ring_states states, const ring_angles ang
                                  const uint ring, __local const double *coefficients,
                                  const ring_values *values, __local double *sums,
                                  const uint vectors) {
-    __local const double *steps = coefficients + EVEN_STEP;
-    __local const double *rests =
-        coefficients + (ring < angles.crossing ? EVEN_POLE : EVEN_EQUATOR);
+    __local const state_real *steps = (__local const state_real *)(coefficients + EVEN_STEP);
+    __local const state_real *rests =
+        (__local const state_real *)(coefficients +
+                                     (ring < angles.crossing ? EVEN_POLE : EVEN_EQUATOR));
     chain_state state[RING_VECTORS];
-    doublev squares[RING_VECTORS];
+    statev squares[RING_VECTORS];
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        load_state(&state[j], states, 0, ring + j * LANES);
-        squares[j] = *(__global const unaligned_doublev *)(angles.squares + ring + j * LANES);
+        load_state(&state[j], states, 0, ring + j * STATE_LANES);
+        squares[j] = load_rings(angles.squares + ring + j * STATE_LANES);
     }
     const bool is_there = is_worth_adding(state, squares, steps, rests, vectors * LANES);
     bool is_scaled = is_scaled_down(state);
@@ -184,20 +207,22 @@ static inline bool add_chain_run(const ring_states states, const ring_angles ang
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        store_state(states, &state[j], 0, ring + j * LANES);
+        store_state(states, &state[j], 0, ring + j * STATE_LANES);
     }
     return is_there;
 }
 
 /* By differences, which go through all degrees. */
 static inline __attribute__((always_inline)) void
-add_by_differences(chain_state *state, const doublev *t, __local const double *coefficients,
+add_by_differences(chain_state *state, const statev *t, __local const double *coefficients,
                    const ring_values *values, __local double *sums, const uint num,
                    const bool is_scaled) {
+    __local const state_real *inverses = (__local const state_real *)(coefficients + EVEN_INVERSE);
     for (uint i = 0; i < num; i++) {
-        __local const double *differences = coefficients + EVEN_DIFFERENCE + 2 * i;
-        const doublev inverse = (doublev)coefficients[EVEN_INVERSE + i];
-        doublev lambda[RING_VECTORS];
+        __local const state_real *differences =
+            (__local const state_real *)(coefficients + EVEN_DIFFERENCE) + 2 * i;
+        const statev inverse = (statev)inverses[i];
+        statev lambda[RING_VECTORS];
 #pragma unroll
         for (int j = 0; j < RING_VECTORS; j++) {
             lambda[j] = shown(&state[j], is_scaled) * inverse;
@@ -216,11 +241,11 @@ static inline bool add_difference_run(const ring_states states, const ring_angle
                                       const ring_values *values, __local double *sums,
                                       const uint vectors) {
     chain_state state[RING_VECTORS];
-    doublev t[RING_VECTORS];
+    statev t[RING_VECTORS];
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        load_state(&state[j], states, 0, ring + j * LANES);
-        t[j] = *(__global const unaligned_doublev *)(angles.distances + ring + j * LANES);
+        load_state(&state[j], states, 0, ring + j * STATE_LANES);
+        t[j] = load_rings(angles.distances + ring + j * STATE_LANES);
     }
     if (is_scaled_down(state)) {
         add_by_differences(state, t, coefficients, values, sums, vectors * LANES, true);
@@ -229,7 +254,7 @@ static inline bool add_difference_run(const ring_states states, const ring_angle
     }
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
-        store_state(states, &state[j], 0, ring + j * LANES);
+        store_state(states, &state[j], 0, ring + j * STATE_LANES);
     }
     return is_more_than_zeros(state);
 }
@@ -243,7 +268,7 @@ typedef struct order_values {
     uint parity, lead; /* lead: rings before the first value */
 } order_values;
 
-/* A run of RING_UNIT rings from `ring` on, `num` of which are there; whether there is more than
+/* A run of ONE_UNIT rings from `ring` on, `num` of which are there; whether there is more than
  * zeros in it. */
 static inline bool add_run(const ring_states states, const ring_angles angles, const uint ring,
                            const uint num, __local const double *coefficients,

@@ -15,7 +15,6 @@
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_finish.h"
 #include "sphere/nufft/orders_one.h"
-#include "sphere/nufft/orders_work.h"
 #include "sphere/values.h"
 
 /* Sums over lanes of LANES degrees, of a part. */
@@ -23,7 +22,7 @@ static inline doublev sum_lanes(__local const double *sums, const uint part) {
     doublev of[LANES], sum = (doublev)0;
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
-        of[i] = load_doubles(sums + (PARTS * i + part) * LANES);
+        of[i] = LANES_OF(*(__local const unaligned_statev *)(sums + (PARTS * i + part) * LANES));
     }
     transpose(of);
 #pragma unroll
@@ -97,7 +96,7 @@ static inline uint add_rings(const ring_work work, __local const double *coeffic
     for (uint i = 0; i < SUM_NUMBERS; i += LANES) {
         store_doubles(sums + i, (doublev)0);
     }
-    for (uint ring = work.alive; ring < work.num_rings; ring += RING_UNIT) {
+    for (uint ring = work.alive; ring < work.num_rings; ring += ONE_UNIT) {
         const bool is_there = add_run(work.states, work.angles, ring, work.num_rings - ring,
                                       coefficients, values, sums, vectors);
         begin = is_there ? min(begin, ring) : begin;
@@ -120,7 +119,8 @@ __kernel void sphere_orders_sum_one(
     const uint group = get_global_id(1), groups = get_global_size(1);
     const size_t parity_apart = 2 * (size_t)ring_pitch;
     const size_t powers_apart = 2 * (size_t)half_pitch;
-    __global double *states = all_states + group * 4 * (size_t)ring_pitch;
+    __global state_real *states =
+        (__global state_real *)(all_states + group * 4 * (size_t)ring_pitch);
     __global double *powers = all_powers + (KEEP ? 0 : group * powers_apart);
     ring_work work = {
         {states, states + parity_apart, all_scales + group * parity_apart, ring_pitch},
@@ -156,6 +156,6 @@ __kernel void sphere_orders_sum_one(
             begin = add_rings(work, coefficients, from, sums, vectors);
             finish_run(to, sums, coefficients + EVEN_ALPHA, &last, first, m, even, degrees);
         }
-        work.alive = begin / RING_UNIT * RING_UNIT;
+        work.alive = begin / ONE_UNIT * ONE_UNIT;
     }
 }

@@ -13,16 +13,6 @@ static inline void normalize(double *value, int *scale) {
     }
 }
 
-/* What a work-group has of rings. Those below `alive` are nothing in all degrees, and stay so in
- * higher orders. */
-typedef struct ring_work {
-    ring_states states;
-    ring_angles angles;
-    __global double *diagonal;
-    __global int *diagonal_scales;
-    uint num_rings, block, alive;
-} ring_work;
-
 /* Degrees m and m + 1 of a ring, from Lambda_mm. By differences they are Lambda_mm and nothing. */
 static inline void begin_ring(const ring_work work, const uint i, const double value,
                               const int scale, const double second) {
@@ -33,15 +23,6 @@ static inline void begin_ring(const ring_work work, const uint i, const double v
     states.before[i] = states.before[states.parity_apart + i] = 0;
     work.diagonal_scales[i] = states.scale[i] = states.scale[states.parity_apart + i] = scale;
 }
-
-/* What orders begin with (orders_sum.cl). */
-typedef struct order_starts {
-    __global const double *starts;
-    __global const int *start_scales;
-    __global const double *steps;
-    __global const int *step_scales;
-    __global const double *ratios, *cosines;
-} order_starts;
 
 /* Degrees m and m + 1 of all rings up to ring_pitch, the first order of a group or from the one
  * before. */

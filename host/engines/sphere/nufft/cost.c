@@ -61,7 +61,7 @@ static double more_ring_cycles(const ps_sphere_shape *shape, double lanes, doubl
     const double cycles_of_product = 1.6;     /* of a vector of it and one realization */
     /* of a number and one realization without a table: 0.5 on a Zen 4, whose vectors take twice the
      * cycles (2026-11, N = 4096, L = 2000) */
-    const double cycles_of_one = 0.25;
+    const double cycles_of_one = shape->is_single_chain ? 0.15 : 0.25;
     const double cycles_per_ring =
         12; /* of a value on a circle, on its way to rings of both hemispheres */
     const double cycles_per_order = 250; /* whatever the degrees */

@@ -241,6 +241,9 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
     ps_text_append(text, "rings=%lu at_once=%zu bands=%lu strip=%lu",
                    (unsigned long)shape->num_rings, shape->at_once, (unsigned long)shape->bands,
                    (unsigned long)shape->strip);
+    if (shape->is_single_chain) {
+        ps_text_append(text, " lambda=single");
+    }
 }
 
 static const ps_sphere_source sums = {"sphere/nufft/orders_sum.cl", "sphere_orders_sum", false};

@@ -112,7 +112,7 @@ static void choose_recurrences(ps_sphere_shape *shape, uint32_t unit) {
 }
 
 static void measure_rings_in_memory(ps_sphere_shape *shape, size_t real_bytes) {
-    enum { LARGEST_UNIT = 32 };
+    enum { LARGEST_UNIT = 48 };
     shape->ring_pitch =
         (uint32_t)ps_round_up((uint64_t)shape->ring_lead + shape->num_rings, LARGEST_UNIT);
     shape->value_bytes =
@@ -143,6 +143,14 @@ static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
     shape->value_bytes = 4 * ps_round_up(shape->num_angles, shape->lanes) * num_orders * real_bytes;
 }
 
+/* Whether the tolerance has room for Lambda_lm in single precision. */
+static bool chain_is_exact(const ps_sphere_shape *shape, const ps_problem *problem) {
+    const double power = ps_expected_power(problem);
+    const double rest =
+        ps_sphere_nufft_error(&shape->axis, problem, PS_SINGLE, power, PS_SPHERE_BY_RINGS);
+    return hypot(rest, ps_sphere_chain_error(&shape->axis, problem, power)) <= problem->tolerance;
+}
+
 /* A realization alone needs no table that others would share. Not on GPUs, whose work-items would
  * each have rings, and sums of all of them to add up; nor of a set that comes in blocks, after
  * which nobody knows whether others follow. */
@@ -153,7 +161,9 @@ static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
         !limits->has_dedicated_local_memory) {
         shape->is_one_set = true;
         shape->sum_lanes = lanes;
-        const uint32_t unit = ps_sphere_one_vectors(shape) * lanes;
+        shape->is_single_chain = real_bytes == sizeof(float) && chain_is_exact(shape, problem);
+        const uint32_t vectors = ps_sphere_one_vectors(shape);
+        const uint32_t unit = vectors * lanes * (shape->is_single_chain ? 2 : 1);
         shape->ring_lead = (unit - shape->num_rings % unit) % unit;
         measure_rings_in_memory(shape, real_bytes);
         choose_recurrences(shape, unit);

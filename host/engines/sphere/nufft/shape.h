@@ -46,6 +46,7 @@ typedef struct ps_sphere_shape {
     uint32_t run_vectors;      /* RUN_VECTORS of orders_chains.h */
     bool is_one_set;           /* one realization is expected: sums by orders_sum_one.cl, */
     unsigned sum_lanes;        /* whose LANES these are */
+    bool is_single_chain;      /* its Lambda_lm in single precision */
     uint32_t polar, crossing, equatorial; /* ring_angles of orders_states.h */
     uint32_t block;                       /* rings of a block of orders_sum.cl */
     uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
@@ -100,7 +101,7 @@ size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realization
 
 /* RING_VECTORS of orders_sum_one.cl: for each, registers hold three vectors and four of values. At
  * most 32 rings in all. */
-static inline unsigned ps_sphere_one_vectors(const ps_sphere_shape *shape) {
+static inline uint32_t ps_sphere_one_vectors(const ps_sphere_shape *shape) {
     const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
     return shape->sum_lanes * sizeof(double) == bytes_of_32 ? 3 : 2;
 }
@@ -145,6 +146,10 @@ void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *w
 /* Expected error for sets of a mean power (ps_survey.error). */
 double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
                              ps_precision precision, double mean_power, ps_sphere_route route);
+
+/* What Lambda_lm in single precision adds to it, by squares. */
+double ps_sphere_chain_error(const ps_nufft_axis *axis, const ps_problem *problem,
+                             double mean_power);
 
 /* What a device at its peak would do while it works on one realization. */
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,

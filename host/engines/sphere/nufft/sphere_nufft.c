@@ -86,6 +86,15 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                      .largest_buffer_per_realization = row};
 }
 
+static double error_of(const ps_sphere_shape *shape, const ps_problem *problem,
+                       ps_precision precision, double mean_power) {
+    const double error =
+        ps_sphere_nufft_error(&shape->axis, problem, precision, mean_power, shape->route);
+    return shape->is_single_chain
+               ? hypot(error, ps_sphere_chain_error(&shape->axis, problem, mean_power))
+               : error;
+}
+
 static ps_survey survey_route(const ps_problem *problem, const ps_device_limits *limits,
                               ps_precision precision, ps_sphere_route route, const char *why_not) {
     if (why_not != NULL) {
@@ -95,8 +104,7 @@ static ps_survey survey_route(const ps_problem *problem, const ps_device_limits 
     ps_survey result = {.why_not = refuse_shape(&shape, limits, precision)};
     if (result.why_not == NULL) {
         result.work = work_of(&shape, problem, precision);
-        result.error = ps_sphere_nufft_error(&shape.axis, problem, precision,
-                                             ps_expected_power(problem), route);
+        result.error = error_of(&shape, problem, precision, ps_expected_power(problem));
     }
     return result;
 }
@@ -117,8 +125,7 @@ static ps_survey survey_cells(const ps_problem *problem, const ps_device_limits 
 static double error_of_state(const void *state, double mean_power, double weight_share) {
     const ps_sphere_state *self = state;
     (void)weight_share;
-    return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power,
-                                 self->shape.route);
+    return error_of(&self->shape, &self->problem, self->precision, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */

@@ -14,9 +14,11 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
                    source->sums_one ? PS_SPHERE_ONE_RUN : shape->run_vectors,
                    self->is_alone ? 1u : 0u);
     if (source->sums_one) {
-        ps_defines_add(
-            &defines, "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u -DPARITIES=%u",
-            8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape), self->only_even ? 1u : 2u);
+        ps_defines_add(&defines,
+                       "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u -DPARITIES=%u "
+                       "-DSTATE_PRECISION=%u",
+                       8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape),
+                       self->only_even ? 1u : 2u, shape->is_single_chain ? 32u : 64u);
     }
     if (keeps) {
         ps_defines_add(&defines, "-DKEEP=1");
