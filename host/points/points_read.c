@@ -21,8 +21,6 @@ void ps_point_set_free(ps_point_set *set) {
 }
 
 pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *error) {
-    const size_t least_large = 1 << 19; /* numbers that are worth pages of 2 MiB */
-    const size_t before = set->points_capacity;
     size_t num_coordinates = 0;
     if (!ps_size_multiply(num_points, set->dimension, &num_coordinates)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for %zu points", num_points);
@@ -35,9 +33,6 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
     if (lent != NULL) {
         memcpy(set->points, lent, set->num_points * set->dimension * sizeof *lent);
         set->is_lent = false;
-    }
-    if (before < set->points_capacity && num_coordinates >= least_large) {
-        ps_memory_use_large_pages(set->points, num_coordinates * sizeof *set->points);
     }
     if (set->has_weights) {
         memory = set->weights;
