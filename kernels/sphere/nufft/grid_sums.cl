@@ -18,7 +18,7 @@
 #include "shared/lanes.h"
 #include "sphere/nufft/orders_finish.h"
 #include "sphere/nufft/grid_table.h"
-#include "sphere/nufft/shares.h"
+#include "sphere/shares.h"
 #include "sphere/values.h"
 
 /* Vectors of degrees in registers: with real and imaginary parts of two realizations half of 32 of

@@ -27,7 +27,7 @@
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_product.h"
 #include "sphere/nufft/orders_work.h"
-#include "sphere/nufft/shares.h"
+#include "sphere/shares.h"
 #include "sphere/values.h"
 
 __kernel void

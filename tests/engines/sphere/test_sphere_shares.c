@@ -1,11 +1,11 @@
-/* Realizations of a batch that groups of the sums share on GPUs (kernels/sphere/nufft/shares.h):
+/* Realizations of a batch that groups of the sums share on GPUs (kernels/sphere/shares.h):
  * each has the bits that it has alone, in batches that shares divide, and do not. The layout is
  * that of a GPU on whatever device there is. */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
 #include "engines/sphere/nufft/shape.h"
-#include "sphere/nufft/shares.h"
+#include "sphere/shares.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -96,7 +96,7 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* In how many shares (kernels/sphere/nufft/shares.h) so many realizations are summed. */
+/* In how many shares (kernels/sphere/shares.h) so many realizations are summed. */
 size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations);
 
 /* RING_VECTORS of orders_sum_one.cl: for each, registers hold three vectors and four of values. At

@@ -2,8 +2,8 @@
  * many of them: share s of `shares` has those from share_begin(s, ..) up to share_begin(s + 1, ..).
  * Pairs stay together, so that each is summed as it would be by one work-group.
  */
-#ifndef PS_SPHERE_NUFFT_SHARES_H
-#define PS_SPHERE_NUFFT_SHARES_H
+#ifndef PS_SPHERE_SHARES_H
+#define PS_SPHERE_SHARES_H
 
 #include "shared/fixed.h"
 
