@@ -4,7 +4,7 @@
 enum {
     UNIFORMS_PER_BLOCK = 2,
     /* Blocks made together, so that their rounds overlap and vectorise: 2.7 ns a uniform (gcc 12,
-     * 3.2 by clang 15; -O3, SSE2, Zen 5), where fewer, whose loops gcc unrolls before that, take
+     * 3.2 by clang 15; -O3, SSE2, Zen 4), where fewer, whose loops gcc unrolls before that, take
      * 6.2 to 7.6, and more the same. */
     NUM_LANES = 24,
     /* As many uniforms one at a time take as long as a chunk of these. */
