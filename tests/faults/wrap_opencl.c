@@ -100,6 +100,9 @@ CREATE(clCreateBuffer, cl_mem, CL_MEM_OBJECT_ALLOCATION_FAILURE,
 RELEASE(clReleaseContext, cl_context)
 RELEASE(clReleaseCommandQueue, cl_command_queue)
 RELEASE(clReleaseMemObject, cl_mem)
+STATUS(clSetMemObjectDestructorCallback, CL_OUT_OF_HOST_MEMORY,
+       (cl_mem memory, void(CL_CALLBACK *hear)(cl_mem, void *), void *payload),
+       (memory, hear, payload))
 
 /* ---- programs and kernels ------------------------------------------------------------------ */
 

@@ -67,8 +67,8 @@ static void sets_have_the_bits_that_they_have_alone(void **state) {
         patterns[i] = test_make_sphere_pattern(&test_sphere_shapes[i % 2], NUM_POINTS, i);
     }
     for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
-        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, precision, patterns);
-        check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, precision, patterns);
+        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, (ps_precision)precision, patterns);
+        check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, (ps_precision)precision, patterns);
     }
     for (unsigned i = 0; i < NUM_SETS; i++) {
         test_free_sphere_pattern(&patterns[i]);
