@@ -298,10 +298,22 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
     return PSPEC_OK;
 }
 
+/* A job that was cancelled leaves commands behind, and PoCL 3.1 lets go of a part of a device while
+ * they run: its threads then read what is gone (4 of 800 jobs whose other device was lost). */
+static void finish_work(const ps_device *device) {
+    if (device->is_share && device->uploads != NULL) {
+        (void)clFinish(device->uploads);
+    }
+    if (device->is_share && device->queue != NULL) {
+        (void)clFinish(device->queue);
+    }
+}
+
 void ps_device_close(ps_device *device) {
     if (device == NULL) {
         return;
     }
+    finish_work(device);
     ps_programs_release(device);
     globfree(&device->kept);
     free(device->figures);

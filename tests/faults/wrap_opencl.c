@@ -183,7 +183,12 @@ ENQUEUE(clEnqueueBarrierWithWaitList, CL_OUT_OF_RESOURCES,
         (cl_command_queue queue, cl_uint num_waits, const cl_event *waits, cl_event *event),
         (queue, num_waits, waits, event))
 STATUS(clFlush, CL_OUT_OF_RESOURCES, (cl_command_queue queue), (queue))
-STATUS(clFinish, CL_DEVICE_NOT_AVAILABLE, (cl_command_queue queue), (queue))
+/* What was begun ends, whatever is said of it: nobody lets go of a device that works. */
+WRAPPER(clFinish, cl_int, (cl_command_queue queue)) {
+    const bool is_due = fault_is_due(FAULT_OPENCL, "clFinish");
+    const cl_int code = __real_clFinish(queue);
+    return is_due ? CL_DEVICE_NOT_AVAILABLE : code;
+}
 STATUS(clWaitForEvents, CL_OUT_OF_RESOURCES, (cl_uint num, const cl_event *events), (num, events))
 STATUS(clGetEventProfilingInfo, CL_PROFILING_INFO_NOT_AVAILABLE,
        (cl_event event, cl_profiling_info what, size_t bytes, void *value, size_t *size),
