@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 typedef enum part_state { PART_IDLE = 0, PART_BEGUN, PART_DONE } part_state;
 
@@ -238,17 +237,6 @@ static void speak(const ps_answer_hooks *hooks, ps_text *said) {
     ps_text_free(said);
 }
 
-/* With the mutex, which is free meanwhile. */
-static void wait_a_little(crew *self) {
-    enum { NANOSECONDS = 100000000, OF_SECOND = 1000000000 }; /* ten times a second: base/watch.h */
-    struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += NANOSECONDS;
-    until.tv_sec += until.tv_nsec / OF_SECOND;
-    until.tv_nsec %= OF_SECOND;
-    pthread_cond_timedwait(&self->has_changed, &self->mutex, &until);
-}
-
 /* Tells how far all are, until none works. Progress and warnings are of this thread. */
 static void watch(crew *self) {
     const ps_crew_task *const task = self->task;
@@ -270,7 +258,7 @@ static void watch(crew *self) {
         }
         self->is_cancelled = self->is_cancelled || stops;
         if (self->num_working > 0) {
-            wait_a_little(self);
+            ps_thread_wait_a_little(&self->has_changed, &self->mutex);
         }
     }
     pthread_mutex_unlock(&self->mutex);

@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 typedef struct device_team device_team;
 
@@ -55,17 +54,11 @@ static bool has_failed(device_team *self) {
 /* With the mutex, which is free meanwhile. The first of the members is the thread of who called,
  * whose watch is asked: it does not wait for ever. */
 static pspec_status wait_a_little(device_team *self, const member *own, ps_error *error) {
-    enum { NANOSECONDS = 100000000, OF_SECOND = 1000000000 }; /* ten times a second: base/watch.h */
-    struct timespec until;
     if (own->team.own > 0) {
         pthread_cond_wait(&self->has_changed, &self->mutex);
         return PSPEC_OK;
     }
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += NANOSECONDS;
-    until.tv_sec += until.tv_nsec / OF_SECOND;
-    until.tv_nsec %= OF_SECOND;
-    pthread_cond_timedwait(&self->has_changed, &self->mutex, &until);
+    ps_thread_wait_a_little(&self->has_changed, &self->mutex);
     pthread_mutex_unlock(&self->mutex);
     const pspec_status status =
         ps_watch_tell(&self->task->hooks->watch, self->phase, self->done, self->total, NULL, error);

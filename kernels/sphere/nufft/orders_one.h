@@ -130,32 +130,6 @@ add_degrees(chain_state *states, const statev *squares, const ring_values *value
     }
 }
 
-/* As try_chain of orders_states.h, of even l - m. */
-static inline bool try_evens(chain_state *states, const statev *squares,
-                             __local const state_real *steps, __local const state_real *rests,
-                             const uint num) {
-    for (uint i = 0; i < num; i += LANES) {
-#pragma unroll
-        for (uint k = 0; k < LANES; k++) {
-#pragma unroll
-            for (int j = 0; j < RING_VECTORS; j++) {
-                advance(&states[j], squares[j], steps[i + k], rests[i + k]);
-            }
-        }
-#pragma unroll
-        for (int j = 0; j < RING_VECTORS; j++) {
-            look(&states[j]);
-        }
-    }
-#pragma unroll
-    for (int j = 0; j < RING_VECTORS; j++) {
-        while (is_large(&states[j])) {
-            look(&states[j]);
-        }
-    }
-    return is_more_than_zeros(states);
-}
-
 /* Rings that begin as zeros are tried first, since most of them end so, too: then nothing is to be
  * added. Those of a unit that has more are not tried, since Lambda_lm does not vanish again. */
 static inline bool is_worth_adding(chain_state *states, const statev *squares,
@@ -169,7 +143,7 @@ static inline bool is_worth_adding(chain_state *states, const statev *squares,
     for (int j = 0; j < RING_VECTORS; j++) {
         trial[j] = states[j];
     }
-    const bool is_there = try_evens(trial, squares, steps, rests, num);
+    const bool is_there = try_chain(trial, squares, steps, rests, num, 1);
 #pragma unroll
     for (int j = 0; j < RING_VECTORS; j++) {
         states[j] = is_there ? states[j] : trial[j];

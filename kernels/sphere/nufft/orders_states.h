@@ -172,13 +172,13 @@ static inline void advance(chain_state *state, const statev square, const state_
 
 /* Without a table: whether there is more than zeros at the end; if not, the states go on. Between
  * two looks numbers may grow beyond 2^100 here (by 2^200 at m = 2^15, and less from look to look):
- * in the end all come down. */
+ * in the end all come down. The recurrence stands at every `stride`-th step, a constant. */
 static inline bool try_chain(chain_state *states, const statev *squares,
                              __local const state_real *steps, __local const state_real *rests,
-                             const uint num) {
-    for (uint i = 0; i < num; i += 2 * LANES) {
+                             const uint num, const uint stride) {
+    for (uint i = 0; i < num; i += stride * LANES) {
 #pragma unroll
-        for (uint k = 0; k < 2 * LANES; k += 2) {
+        for (uint k = 0; k < stride * LANES; k += stride) {
 #pragma unroll
             for (int j = 0; j < RING_VECTORS; j++) {
                 advance(&states[j], squares[j], steps[i + k], rests[i + k]);
@@ -215,7 +215,7 @@ begin_chain(chain_state *state, statev *squares, bool *is_scaled, const ring_sta
     }
     *is_scaled = is_scaled_down(state);
     if (*is_scaled) {
-        is_there = try_chain(trial, squares, steps, rests, num);
+        is_there = try_chain(trial, squares, steps, rests, num, 2);
     }
     if (!is_there) {
 #pragma unroll

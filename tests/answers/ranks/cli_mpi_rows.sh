@@ -30,26 +30,9 @@ if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     is_as_one 2 quadrature --lift hemisphere --columns xyw --brdf diffuse -l 8 "$sets"
 fi
 
-# Killed twice at any moment, and ended by others: what is there is the checkpoint of one process.
-is_ended() { # ARGS...
-    local last
-    local kept=("$@" --checkpoint kept.npz --checkpoint-interval 0)
-    "$program" "$@" >one.csv
-    for last in 3 1; do
-        kill_ranks 'kept*.npz' 4 "${kept[@]}"
-        kill_ranks 'kept*.npz' 2 "${kept[@]}"
-        if ((last > 1)); then
-            ranks 0 "$last" "${kept[@]}"
-            sentence ''
-        else
-            "$program" "${kept[@]}" >out
-        fi
-        [[ $(answer out) == "$(answer one.csv)" ]] || complain "killed twice, and ended by $last: $*"
-        [[ -z $(ls kept* 2>/dev/null) ]] || complain "checkpoints are left: $(ls kept*)"
-    done
-}
-is_ended variance --engine host_direct --integrand disk --sampler jittered -n 64 -m 2000 -k 3
-is_ended quadrature --engine host_direct --sampler white-hemisphere -n 64 -m 1500 --brdf diffuse -l 12
+# What is there is the checkpoint of one process.
+is_ended 'kept*.npz' variance --engine host_direct --integrand disk --sampler jittered -n 64 -m 2000 -k 3
+is_ended 'kept*.npz' quadrature --engine host_direct --sampler white-hemisphere -n 64 -m 1500 --brdf diffuse -l 12
 
 # Who is not alike.
 job=(interpolation --sampler white-sphere -n 100 -m 60 --integrand "$light")

@@ -43,6 +43,24 @@ kill_ranks() { # PATTERN N ARGS...: soon after a checkpoint of that pattern is t
         while [[ -e /proc/$pid ]]; do sleep 0.02; done
     done
 }
+is_ended() { # PATTERN ARGS...: killed twice at any moment, and ended by others; one.csv is that of one process
+    local last kept pattern=$1
+    shift
+    kept=("$@" --checkpoint kept.npz --checkpoint-interval 0)
+    "$program" "$@" >one.csv
+    for last in 3 1; do
+        kill_ranks "$pattern" 4 "${kept[@]}"
+        kill_ranks "$pattern" 2 "${kept[@]}"
+        if ((last > 1)); then
+            ranks 0 "$last" "${kept[@]}"
+            sentence ''
+        else
+            "$program" "${kept[@]}" >out
+        fi
+        [[ $(answer out) == "$(answer one.csv)" ]] || complain "killed twice, and ended by $last: $*: $(<out)"
+        [[ -z $(ls kept* 2>/dev/null) ]] || complain "checkpoints are left: $(ls kept*)"
+    done
+}
 answer() { sed 's/^# command: .*//' "$1"; } # but for the command
 is_as_one() { # N ARGS...: table, NPZ and arrays of one process and of N ranks
     local num=$1 file

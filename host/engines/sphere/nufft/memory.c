@@ -77,7 +77,7 @@ enum { GROUPS_PER_CORE = 4 };
  * of 1024 points: as many realizations as fill the card with a group for each, and for the sums of
  * orders, of which there are PS_SPHERE_GROUPS groups, as many shares, of no fewer sets than the
  * pairs of which a group's work-items have one each. Counted, not measured: 20000 sets of (1024,
- * 64) take 50 rounds of four launches instead of the 313 of 64 sets each. */
+ * 64) take 55 rounds of four launches instead of the 313 of 64 sets each. */
 enum { SETS_PER_UNIT = 4, GROUPS_PER_UNIT = 4, LEAST_SHARE = 64 };
 
 static size_t fitting(double budget, uint64_t bytes, size_t most) {
