@@ -29,6 +29,8 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .no_frequency_errors = options->no_frequency_errors,
         .weights = options->weights,
         .num_weighted = options->num_weighted,
+        .forms_bins = options->forms_bins,
+        .observer = {options->makes_rows ? ps_estimator_put_powers : NULL, self},
     };
     PS_TRY(ps_accumulator_create(&self->accumulator, &accumulator, self->device, error));
     return self->device != NULL ? ps_device_build(self->device, error) : PSPEC_OK;
@@ -116,16 +118,18 @@ uint64_t ps_estimator_num_realizations(const ps_estimator *estimator) {
     return estimator->totals.num_realizations;
 }
 
-pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets, ps_error *error) {
+static size_t count_beginning(const ps_device_sets *sets) {
     const uint64_t all = ps_device_sets_points(sets);
-    const size_t num = all < PS_SELF_CHECK_POINTS ? (size_t)all : PS_SELF_CHECK_POINTS;
+    return all < PS_SELF_CHECK_POINTS ? (size_t)all : PS_SELF_CHECK_POINTS;
+}
+
+pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets, ps_error *error) {
+    const size_t num = count_beginning(sets);
     estimator->sets = sets;
-    if (!estimator->options.self_check) {
-        return PSPEC_OK;
-    }
-    PS_TRY(PS_NEW(&estimator->beginning, num * ps_device_sets_dimension(sets), "points", error));
-    return ps_device_sets_beginning(sets, estimator->options.first, num, estimator->beginning,
-                                    error);
+    return estimator->options.self_check
+               ? PS_NEW(&estimator->beginning, num * ps_device_sets_dimension(sets), "points",
+                        error)
+               : PSPEC_OK;
 }
 
 /* ---- add --------------------------------------------------------------------------------- */
@@ -332,7 +336,11 @@ static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patter
         return PSPEC_OK;
     }
     pspec_pattern first = patterns[0];
-    first.points = are_made(self, patterns) ? self->beginning : first.points;
+    if (are_made(self, patterns)) {
+        PS_TRY(ps_device_sets_beginning(self->sets, ps_estimator_position(self),
+                                        count_beginning(self->sets), self->beginning, error));
+        first.points = self->beginning;
+    }
     PS_TRY(rows != NULL ? ps_rows_wait(rows, error) : PSPEC_OK);
     PS_TRY(rows == NULL ? ps_estimator_check_beginning(self, &first, error)
                         : compare_with_referee(self, rows, &first, error));

@@ -30,7 +30,11 @@ typedef struct ps_estimator_options {
     size_t batch;          /* realizations at a time; halved when memory is refused */
     bool want_frequencies; /* keep sums per frequency */
     bool mean_only; /* no sums of squares: every standard error is nan, means have the same bits */
-    bool no_frequency_errors;  /* those of single frequencies are nan, means have the same bits */
+    bool no_frequency_errors; /* those of single frequencies are nan, means have the same bits */
+    /* Averages are of bins and weighted sums alone, and realizations may be shared: not with
+     * want_frequencies, want_c2, is_range */
+    bool forms_bins;
+    bool makes_rows;           /* then: what is added becomes rows (ps_estimator_begin_rows) */
     bool want_c2;              /* C_l^2 of the realizations, on the sphere: ps_estimator_c2 */
     ps_pair_observer observer; /* with want_c2: told of every realization */
     /* [num_weighted][frequencies->num] of ps_accumulator_options, in the order of
@@ -85,6 +89,17 @@ pspec_status ps_estimator_use_sets(ps_estimator *estimator, ps_device_sets *sets
  * weight is checked. A self-check that fails is PSPEC_ERROR_CHECK. */
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
                               size_t num_patterns, ps_error *error) PS_MUST_CHECK;
+
+/* Realizations that several estimators share, with options.makes_rows: those that are added next,
+ * from number `first` on, do not change the averages; what each would have added becomes a row of
+ * bytes, in their order, from rows on. `end` waits for them. */
+void ps_estimator_begin_rows(ps_estimator *estimator, uint64_t first, void *rows);
+pspec_status ps_estimator_end_rows(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
+size_t ps_estimator_row_bytes(const ps_estimator *estimator); /* a multiple of sizeof(double) */
+/* Adds the next realization, a row of any estimator of the plan. Together they have the bits of one
+ * estimator; what is measured besides is of ps_estimator_take_measured. */
+pspec_status ps_estimator_take_row(ps_estimator *estimator, const void *row,
+                                   ps_error *error) PS_MUST_CHECK;
 
 /* Makes the engine that it would have after a pattern of so many points, which it does not get: of
  * another range. */
@@ -161,9 +176,11 @@ void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
 pspec_status ps_estimator_settle(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator);
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator);
-/* Takes what was measured of realizations that another estimator of the plan has added: the largest
- * of both. */
-void ps_estimator_join_accuracy(ps_estimator *estimator, const ps_accuracy *others);
+/* What was measured of the realizations: numbers of which all who share them have the largest. */
+enum { PS_NUM_MEASURED = 5 };
+pspec_status ps_estimator_measure(ps_estimator *estimator, double numbers[PS_NUM_MEASURED],
+                                  ps_error *error) PS_MUST_CHECK;
+void ps_estimator_take_measured(ps_estimator *estimator, const double numbers[PS_NUM_MEASURED]);
 void ps_estimator_describe(const ps_estimator *estimator, ps_text *text);
 
 #endif

@@ -55,6 +55,8 @@ struct ps_estimator {
     uint64_t num_elsewhere;   /* realizations before the next that another estimator has */
     ps_running_sums total_sums; /* PS_NUM_TOTALS, of the segment in a range */
     ps_accuracy accuracy;
+    /* With options.makes_rows, while they are made: where counts, and powers, of the next go */
+    char *next_counts, *next_powers;
     /* With options.is_range */
     uint64_t segment;   /* the realization that it begins with */
     ps_sum_nodes nodes; /* of those before */
@@ -105,6 +107,9 @@ void ps_estimator_measure_share(ps_estimator *self, const ps_pattern_sums *sums)
 /* Patterns of the batch, whose powers are added, are counted. */
 void ps_estimator_count_patterns(ps_estimator *self, const pspec_pattern *patterns,
                                  size_t num_patterns);
+/* ps_accumulator_observer.tell of an estimator that makes rows (estimator_rows.c). */
+void ps_estimator_put_powers(void *payload, const double *bins, const double *weighted);
+
 ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
                                  size_t num_patterns);
 

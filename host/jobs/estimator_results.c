@@ -163,15 +163,30 @@ ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
     return accuracy;
 }
 
-void ps_estimator_join_accuracy(ps_estimator *estimator, const ps_accuracy *others) {
+/* The error is that of engines which may be others (--mixed). */
+enum { LARGEST_POWER, LARGEST_SHARE, LARGEST_LENGTH_ERROR, LARGEST_POINTS, LARGEST_ERROR };
+
+pspec_status ps_estimator_measure(ps_estimator *estimator, double numbers[PS_NUM_MEASURED],
+                                  ps_error *error) {
+    PS_TRY(ps_estimator_settle(estimator, error));
+    const ps_accuracy accuracy = ps_estimator_accuracy(estimator);
+    numbers[LARGEST_POWER] = accuracy.largest_mean_power;
+    numbers[LARGEST_SHARE] = accuracy.largest_share;
+    numbers[LARGEST_LENGTH_ERROR] = accuracy.length_error;
+    numbers[LARGEST_POINTS] = (double)accuracy.largest_points;
+    numbers[LARGEST_ERROR] = accuracy.error;
+    return PSPEC_OK;
+}
+
+void ps_estimator_take_measured(ps_estimator *estimator, const double numbers[PS_NUM_MEASURED]) {
     ps_accuracy *const own = &estimator->accuracy;
     ps_pattern_totals *const totals = &estimator->totals;
-    own->largest_mean_power = ps_larger(own->largest_mean_power, others->largest_mean_power);
-    own->error = ps_larger(own->error, others->error);
-    own->largest_share = fmax(own->largest_share, others->largest_share);
-    own->length_error = fmax(own->length_error, others->length_error);
-    if (others->largest_points > totals->largest_points) {
-        totals->largest_points = (size_t)others->largest_points;
+    own->largest_mean_power = ps_larger(own->largest_mean_power, numbers[LARGEST_POWER]);
+    own->error = ps_larger(own->error, numbers[LARGEST_ERROR]);
+    own->largest_share = fmax(own->largest_share, numbers[LARGEST_SHARE]);
+    own->length_error = fmax(own->length_error, numbers[LARGEST_LENGTH_ERROR]);
+    if (numbers[LARGEST_POINTS] > (double)totals->largest_points) {
+        totals->largest_points = (size_t)numbers[LARGEST_POINTS];
     }
 }
 

@@ -47,6 +47,7 @@ static pspec_status make_question(ps_question_list *out, const ps_request *own,
     PS_TRY(ps_questions_make(out, own, saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER,
                              error));
     out->questions[0].per_ring_seed = saved->seed;
+    out->questions[0].bins_alone = true;
     out->questions[0].limits.constraints.offers = 0; /* the saved spectrum says which frequencies */
     return PSPEC_OK;
 }
@@ -207,6 +208,23 @@ static pspec_status judge(const ps_check *check, ps_error *error) {
 
 /* ---- the kind of answer ---------------------------------------------------------------------- */
 
+/* As many as were saved where nobody says how many. */
+static pspec_status look_at_shares(uint64_t *num, ps_error *why, const ps_request *request,
+                                   ps_error *error) {
+    bool are_both_saved = false;
+    ps_request own = *request;
+    if (!request->is_given[PS_OPTION_REALIZATIONS]) {
+        own.num_realizations = UINT64_MAX;
+    }
+    PS_TRY(ps_answer_look_at_rows(num, why, &own, error));
+    PS_TRY(find_both_saved(&are_both_saved, request, error));
+    if (request->homogeneous || are_both_saved) {
+        ps_fail(why, PSPEC_ERROR_INVALID_ARGUMENT, "%s",
+                request->homogeneous ? "phases of every set are kept" : "nothing is computed");
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status compute_homogeneity(void **out, const ps_request *request,
                                         const ps_answer_hooks *hooks, ps_error *error) {
     ps_check *check = NULL;
@@ -336,6 +354,7 @@ const ps_kind ps_kind_check = {
     .check_arguments = check_question,
     .check_question = check_question,
     .plan = plan,
+    .look_at_shares = look_at_shares,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

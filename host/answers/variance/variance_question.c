@@ -135,6 +135,7 @@ static ps_variance_question make_question(const ps_request *arguments) {
                      .frequencies = frequencies,
                      /* all of the box: its energy is what the rest is told from */
                      .wants_full_array = !over_shells,
+                     .bins_alone = true,
                      .normalization = PSPEC_NORMALIZATION_INTEGRAL,
                      .accuracy = arguments->accuracy,
                      .limits = arguments->limits},

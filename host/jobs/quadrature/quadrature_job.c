@@ -5,7 +5,6 @@
 #include "rules/distance_split.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,35 +49,13 @@ static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error
 }
 
 /* What decides on another plan is the largest of all rules, whoever has summed them. */
-enum {
-    LARGEST_POWER,
-    LARGEST_SHARE,
-    LARGEST_LENGTH_ERROR,
-    LARGEST_POINTS,
-    LARGEST_ERROR, /* of engines that may be others (--mixed) */
-    NUM_LARGEST
-};
-
 static pspec_status measure(void *payload, double *numbers, ps_error *error) {
-    const ps_quadrature_job *const job = payload;
-    PS_TRY(ps_estimator_settle(job->runner.estimator, error));
-    const ps_accuracy accuracy = ps_estimator_accuracy(job->runner.estimator);
-    numbers[LARGEST_POWER] = accuracy.largest_mean_power;
-    numbers[LARGEST_SHARE] = accuracy.largest_share;
-    numbers[LARGEST_LENGTH_ERROR] = accuracy.length_error;
-    numbers[LARGEST_POINTS] = (double)accuracy.largest_points;
-    numbers[LARGEST_ERROR] = accuracy.error;
-    return PSPEC_OK;
+    return ps_estimator_measure(((const ps_quadrature_job *)payload)->runner.estimator, numbers,
+                                error);
 }
 
 static void take_largest(void *payload, const double *numbers) {
-    const ps_quadrature_job *const job = payload;
-    const ps_accuracy others = {.largest_mean_power = numbers[LARGEST_POWER],
-                                .largest_share = numbers[LARGEST_SHARE],
-                                .length_error = numbers[LARGEST_LENGTH_ERROR],
-                                .largest_points = (uint64_t)numbers[LARGEST_POINTS],
-                                .error = numbers[LARGEST_ERROR]};
-    ps_estimator_join_accuracy(job->runner.estimator, &others);
+    ps_estimator_take_measured(((const ps_quadrature_job *)payload)->runner.estimator, numbers);
 }
 
 /* Sets of a batch are in memory all at once; and a checkpoint comes between two batches, of which
@@ -108,13 +85,12 @@ static pspec_status begin_rows(ps_quadrature_job *job, ps_error *error) {
                               .batch = job->rules.capacity,
                               .total = setup->num_realizations,
                               .team = is_alone ? NULL : job->question->limits.checkpoint.team,
-                              .device = setup->device};
-    snprintf(stream->plan, sizeof stream->plan, "engine %s in %s precision",
-             setup->plan.chosen->engine->name, ps_precision_name(setup->plan.chosen->precision));
+                              .device = setup->device,
+                              .chosen = setup->plan.chosen};
     if (setup->by_pairs) {
         stream->measure = measure;
         stream->take_largest = take_largest;
-        stream->num_largest = NUM_LARGEST;
+        stream->num_largest = PS_NUM_MEASURED;
     }
     return ps_row_stream_begin(stream, 0, error);
 }

@@ -108,8 +108,9 @@ static pspec_status describe(const ps_row_stream *self, alike *out, ps_error *er
         const ps_device_kind kind = ps_device_kind_of(ps_device_get_limits(self->device));
         ps_text_append(&text, "device %s\n", kind.text);
     }
-    if (!self->team->is_mixed && self->plan[0] != '\0') {
-        ps_text_append(&text, "%s\n", self->plan);
+    if (!self->team->is_mixed && self->chosen != NULL) {
+        ps_text_append(&text, "engine %s in %s precision\n", self->chosen->engine->name,
+                       ps_precision_name(self->chosen->precision));
     }
     ps_text_append(&text, "%" PRIu64 " realizations of a checkpoint\n", self->num_done);
     const pspec_status status = ps_text_check(&text, error);

@@ -10,6 +10,7 @@
 
 #include "base/process/team.h"
 #include "device/device.h"
+#include "plan/choose.h"
 
 #include <stdint.h>
 
@@ -33,7 +34,8 @@ typedef struct ps_row_stream {
     uint64_t total;      /* realizations; 0: nobody knows */
     const ps_team *team; /* NULL: nobody else */
     ps_device *device;   /* that bits depend on, so that all members have such a one; NULL: none */
-    char plan[128];      /* what else they depend on, a line; "": nothing */
+    /* whose engine and precision they depend on, too; NULL: on none */
+    const ps_candidate *chosen;
     /* rows of the last call */
     char *rows; /* [num][row_bytes] */
     /* while it runs */

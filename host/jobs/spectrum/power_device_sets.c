@@ -27,9 +27,7 @@ pspec_status ps_power_device_sets_begin(ps_power_job *job, ps_error *error) {
 
 pspec_status ps_power_device_sets_give(ps_power_job *job, uint64_t most, size_t *num,
                                        ps_error *error) {
-    const uint64_t left = ps_power_range_count(job) - job->runner.num_done;
     const size_t capacity = job->sets.capacity;
-    most = most < left ? most : left;
     *num = most < capacity ? (size_t)most : capacity;
     return ps_estimator_add(job->runner.estimator, job->sets.patterns, *num, error);
 }

@@ -95,6 +95,7 @@ pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *qu
 
 void ps_power_job_release(ps_power_job *job) {
     ps_runner_free(&job->runner);
+    ps_row_stream_free(&job->stream);
     ps_power_sets_release(&job->sets);
 }
 
@@ -110,7 +111,7 @@ void ps_power_job_destroy(ps_power_job *job) {
     if (job == NULL) {
         return;
     }
-    ps_runner_free(&job->runner);
+    ps_power_job_release(job);
     ps_device_sets_destroy(job->device_sets);
     free_results(job);
     free(job->coefficients);
@@ -132,8 +133,12 @@ void ps_power_job_destroy(ps_power_job *job) {
 static ps_estimator_options choose_options(void *payload) {
     const ps_power_job *const job = payload;
     const ps_power_question *const question = job->question;
+    const bool are_bins_enough = ps_power_rows_are_enough(job);
     return (ps_estimator_options){
-        .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
+        /* anisotropy needs them, too */
+        .want_frequencies = !question->on_sphere && !are_bins_enough,
+        .forms_bins = are_bins_enough,
+        .makes_rows = ps_power_rows_are_shared(job),
         .no_frequency_errors = job->needs.no_frequency_errors,
         .self_check = !question->accuracy.no_self_check,
         .is_range = question->range.end > 0,
@@ -168,31 +173,19 @@ static pspec_status begin(void *payload, ps_error *error) {
     job->num_kept = 0;
     PS_TRY(ps_power_range_begin(job, error));
     PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->runner.estimator), error));
-    return ps_power_device_sets_begin(job, error);
+    PS_TRY(ps_power_device_sets_begin(job, error));
+    return ps_power_rows_are_shared(job) ? ps_power_rows_begin(job, 0, error) : PSPEC_OK;
 }
 
 static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
     ps_power_job *const job = payload;
-    ps_power_sets *const sets = &job->sets;
-    ps_estimator *const estimator = job->runner.estimator;
-    const uint64_t asked =
-        job->question->range.end > 0 ? ps_power_range_count(job) : job->question->num_sets;
+    const uint64_t asked = ps_power_range_count(job);
     const uint64_t left = asked > 0 ? asked - job->runner.num_done : UINT64_MAX;
     most = most < left ? most : left;
-    *num = 0;
-    if (most == 0) {
-        return PSPEC_OK;
+    if (ps_power_rows_are_shared(job)) {
+        return ps_power_rows_give(job, most, num, error);
     }
-    if (ps_power_job_leaves_points(job)) {
-        return ps_power_device_sets_give(job, most, num, error);
-    }
-    PS_TRY(ps_power_sets_fill(sets, ps_estimator_can_stream(estimator), most, num, error));
-    if (*num == 0 && sets->has_next) {
-        *num = 1;
-        PS_TRY(ps_power_sets_stream(sets, estimator, job->question->normalization, error));
-    } else {
-        PS_TRY(ps_estimator_add(estimator, sets->patterns, *num, error));
-    }
+    PS_TRY(ps_power_job_add(job, most, num, error));
     return ps_power_coefficients_check(job, job->runner.num_done + *num, error);
 }
 
@@ -210,13 +203,13 @@ static pspec_status rewind_sets(void *payload, ps_error *error) {
     return ps_power_sets_rewind(&job->sets, error);
 }
 
-/* What the device makes depends on the number of a realization, which the estimator counts. */
 static pspec_status skip(void *payload, uint64_t num, ps_error *error) {
     ps_power_job *const job = payload;
-    ps_passed_sets passed = {.num = num};
-    if (!ps_power_job_leaves_points(job)) {
-        PS_TRY(ps_power_sets_skip(&job->sets, num, ps_power_job_tell, job, &passed, error));
+    ps_passed_sets passed;
+    if (ps_power_rows_are_shared(job)) {
+        return ps_power_rows_begin(job, num, error);
     }
+    PS_TRY(ps_power_job_pass(job, num, &passed, error));
     return ps_checkpoint_check_sets(passed.num, num, error);
 }
 

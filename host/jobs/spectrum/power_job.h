@@ -12,6 +12,7 @@
 
 #include "base/watch.h"
 #include "frequencies/frequencies_spec.h"
+#include "jobs/rows/row_stream.h"
 #include "jobs/runner.h"
 #include "jobs/spectrum/power_sets.h"
 #include "plan/needs.h"
@@ -52,6 +53,9 @@ typedef struct ps_power_question {
     bool wants_pair_sums; /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
     /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
     ps_harmonics harmonics;
+    /* Averages of bins, and weighted sums, are all that is wanted: members of a team share them.
+     * What --per-ring leaves out has an error that is of single frequencies */
+    bool bins_alone;
     bool fills_boxes; /* on the torus, coefficients of every set are handed on as boxes */
     bool keeps_sums;  /* somebody will ask the estimator for its sums, and keep them */
     bool keeps_sets;  /* on the sphere, too, those of every set are wanted */
@@ -94,6 +98,7 @@ typedef struct ps_power_job {
     /* Known after run: with the accuracy, and whether the first run missed the tolerance and the
      * plan was made again */
     ps_runner runner;
+    ps_row_stream stream; /* of realizations that a team shares */
     ps_spectrum spectrum;
     ps_text description; /* of the engine, "(torus_direct ...)" */
     /* c_lm of the only set as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL

@@ -31,6 +31,24 @@ pspec_status ps_power_range_end(ps_power_job *job, ps_error *error) PS_MUST_CHEC
 /* The averages of a range. */
 pspec_status ps_power_range_finish(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 
+/* ---- realizations that a team shares (power_rows.c) ---- */
+
+/* Is nothing wanted of realizations but bins and weighted sums? In one dimension, where every bin
+ * is a frequency, forming them for each realization takes longer than the transform (N = 1024, K =
+ * 4000: 0.2 ms more than 0.1), and every member computes all of them. */
+bool ps_power_rows_are_enough(const ps_power_job *job);
+/* Are they shared? Then ps_runner_kind.give; and they go on behind the first num. */
+bool ps_power_rows_are_shared(const ps_power_job *job);
+pspec_status ps_power_rows_give(ps_power_job *job, uint64_t most, size_t *num,
+                                ps_error *error) PS_MUST_CHECK;
+pspec_status ps_power_rows_begin(ps_power_job *job, uint64_t num, ps_error *error) PS_MUST_CHECK;
+/* Adds the next realizations, `most` at most: *num, 0 behind the last. */
+pspec_status ps_power_job_add(ps_power_job *job, uint64_t most, size_t *num,
+                              ps_error *error) PS_MUST_CHECK;
+/* Passes over the next. */
+pspec_status ps_power_job_pass(ps_power_job *job, uint64_t num, ps_passed_sets *passed,
+                               ps_error *error) PS_MUST_CHECK;
+
 /* Does the device make the sampler's points, as the plan is? */
 bool ps_power_job_leaves_points(const ps_power_job *job);
 /* Then tells the estimator, before the first realization; and ps_runner_kind.give. */

@@ -101,3 +101,32 @@ pspec_status ps_power_source_begin(ps_power_job *job, ps_error *error) {
     job->most_points = job->num_points;
     return count_sets(job, error);
 }
+
+/* ---- the next of them ------------------------------------------------------------------------ */
+
+pspec_status ps_power_job_add(ps_power_job *job, uint64_t most, size_t *num, ps_error *error) {
+    ps_power_sets *const sets = &job->sets;
+    ps_estimator *const estimator = job->runner.estimator;
+    *num = 0;
+    if (most == 0) {
+        return PSPEC_OK;
+    }
+    if (ps_power_job_leaves_points(job)) {
+        return ps_power_device_sets_give(job, most, num, error);
+    }
+    PS_TRY(ps_power_sets_fill(sets, ps_estimator_can_stream(estimator), most, num, error));
+    if (*num == 0 && sets->has_next) {
+        *num = 1;
+        return ps_power_sets_stream(sets, estimator, job->question->normalization, error);
+    }
+    return ps_estimator_add(estimator, sets->patterns, *num, error);
+}
+
+/* What the device makes depends on the number of a realization, which the estimator counts. */
+pspec_status ps_power_job_pass(ps_power_job *job, uint64_t num, ps_passed_sets *passed,
+                               ps_error *error) {
+    *passed = (ps_passed_sets){.num = num};
+    return ps_power_job_leaves_points(job)
+               ? PSPEC_OK
+               : ps_power_sets_skip(&job->sets, num, ps_power_job_tell, job, passed, error);
+}

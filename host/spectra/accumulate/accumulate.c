@@ -84,7 +84,7 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
     PS_TRY(PS_NEW(&self, 1, "an accumulator", error));
     self->options = *options;
     self->formed = options->bins;
-    if (options->is_on_device && has_single_members(options->bins)) {
+    if (options->is_on_device && !options->forms_bins && has_single_members(options->bins)) {
         form_one_bin(self);
     }
     pspec_status status = allocate(self, error);
@@ -162,25 +162,29 @@ static double mean_power(const ps_bins *bins, const double *bin_powers) {
     return num_modes > 0 ? sum / num_modes : 0;
 }
 
-static void add_bins(ps_accumulator *self, size_t num_rows, const double *units) {
-    const ps_bins *bins = self->formed;
-    for (size_t r = 0; r < num_rows; r++) {
-        const double *bin_powers = self->bin_powers + r * bins->num;
-        const double power = mean_power(bins, bin_powers) / units[r];
-        if (power > self->largest || isnan(power)) {
-            self->largest = power; /* and nan stays: nothing is above it */
-        }
-        ps_running_sums_add(&self->bin_sums, bin_powers, NULL);
+static void add_one(ps_accumulator *self, const double *bins, const double *weighted, double unit) {
+    const double power = mean_power(self->formed, bins) / unit;
+    if (power > self->largest || isnan(power)) {
+        self->largest = power; /* and nan stays: nothing is above it */
     }
+    ps_running_sums_add(&self->bin_sums, bins, NULL);
+    for (size_t w = 0; w < self->options.num_weighted; w++) {
+        ps_block_sums_add(&self->weighted_blocks[w], weighted[w]);
+    }
+    ps_running_sums_add(&self->weighted_sums, weighted, NULL);
 }
 
-static void add_weighted(ps_accumulator *self, size_t num_rows) {
-    const size_t num = self->options.num_weighted;
-    for (size_t i = 0; i < num_rows * num; i++) {
-        ps_block_sums_add(&self->weighted_blocks[i % num], self->weighted_powers[i]);
-    }
+/* What realizations of a batch come to, of which powers are there. */
+static void add_all(ps_accumulator *self, size_t num_rows) {
+    const ps_accumulator_observer *const observer = &self->options.observer;
     for (size_t r = 0; r < num_rows; r++) {
-        ps_running_sums_add(&self->weighted_sums, self->weighted_powers + r * num, NULL);
+        const double *const bins = self->bin_powers + r * self->formed->num;
+        const double *const weighted = self->weighted_powers + r * self->options.num_weighted;
+        if (observer->tell != NULL) {
+            observer->tell(observer->payload, bins, weighted);
+        } else {
+            add_one(self, bins, weighted, self->units[r]);
+        }
     }
 }
 
@@ -214,8 +218,7 @@ static pspec_status take_pending(ps_accumulator *self, size_t num_rows, ps_error
     if (self->weighted != NULL) {
         PS_TRY(ps_device_weighted_take(self->weighted, num_rows, self->weighted_powers, error));
     }
-    add_bins(self, num_rows, self->units);
-    add_weighted(self, num_rows);
+    add_all(self, num_rows);
     return PSPEC_OK;
 }
 
@@ -259,10 +262,18 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
     } else {
         set_units(accumulator, units, rows->num_rows);
         add_host_rows(accumulator, rows);
-        add_bins(accumulator, rows->num_rows, accumulator->units);
-        add_weighted(accumulator, rows->num_rows);
+        add_all(accumulator, rows->num_rows);
     }
-    accumulator->num_realizations += rows->num_rows;
+    accumulator->num_realizations +=
+        accumulator->options.observer.tell == NULL ? rows->num_rows : 0;
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_add_one(ps_accumulator *accumulator, const double *bins,
+                                    const double *weighted, double unit, ps_error *error) {
+    PS_TRY(ps_accumulator_reserve(accumulator, accumulator->num_realizations + 1, error));
+    add_one(accumulator, bins, weighted, unit);
+    accumulator->num_realizations++;
     return PSPEC_OK;
 }
 

@@ -11,7 +11,7 @@
  * (docs/mathematics/statistics.md#weighted-sums).
  *
  * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a
- * device only these are formed.
+ * device only these are formed, unless realizations are to be handed on.
  */
 #ifndef PS_SPECTRA_ACCUMULATE_ACCUMULATE_H
 #define PS_SPECTRA_ACCUMULATE_ACCUMULATE_H
@@ -28,6 +28,12 @@ typedef struct ps_mean {
     double mean, standard_error;
 } ps_mean;
 
+/* Is handed each realization, in order, instead of it being added (ps_accumulator_add_one). */
+typedef struct ps_accumulator_observer {
+    void (*tell)(void *payload, const double *bins, const double *weighted); /* NULL: none */
+    void *payload;
+} ps_accumulator_observer;
+
 typedef struct ps_accumulator_options {
     const ps_bins *bins; /* kept: must outlive the accumulator */
     size_t num_frequencies;
@@ -40,6 +46,10 @@ typedef struct ps_accumulator_options {
     bool want_frequencies;    /* keep sums per frequency */
     bool mean_only;           /* no sums of squares: standard errors are nan */
     bool no_frequency_errors; /* no sums of squares of single frequencies: theirs are nan */
+    /* Powers of all bins are formed for each realization, also of single members. Sums, and what is
+     * handed on, are of them and of weighted sums alone: not with want_frequencies */
+    bool forms_bins;
+    ps_accumulator_observer observer;
     /* [num_weighted][num_frequencies], kept: must outlive the accumulator; NULL where there are
      * none. The largest of a vector is 0 or between 1e-140 and 1e140 in size, so that squares of
      * sums are numbers. A frequency of weight 0 is left out, whatever its power is. On the device
@@ -62,6 +72,11 @@ pspec_status ps_accumulator_reserve(ps_accumulator *accumulator, uint64_t count,
  * and fewer rows may be tried. */
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double *units, ps_error *error) PS_MUST_CHECK;
+/* Adds one realization that this accumulator, or another of the same options, has handed on:
+ * bins[bins->num], weighted[num_weighted]. The sums have the bits of ps_accumulator_add. */
+pspec_status ps_accumulator_add_one(ps_accumulator *accumulator, const double *bins,
+                                    const double *weighted, double unit,
+                                    ps_error *error) PS_MUST_CHECK;
 /* Waits until all that was added is in the sums; what follows but ps_accumulator_reset needs that,
  * and does it where it has a status. */
 pspec_status ps_accumulator_settle(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;

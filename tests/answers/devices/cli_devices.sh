@@ -78,7 +78,9 @@ alone 'the first of 2 devices works alone: realizations are shared in blocks of 
 alone 'works alone: all realizations of a sampler have the same powers' power --sampler sobol -n 4 -k 1 -m 300
 alone 'works alone: one realization is not shared' quadrature --brdf diffuse -n 16 --sampler white-hemisphere
 "$program" "${job[@]}" -m 200 -o saved.npz
-alone 'works alone: check has no realizations that are shared' check --against saved.npz --sampler white -n 16 -m 200
+is_same check --against "$PWD/saved.npz" --sampler white -n 16
+is_same variance --integrand disk --sampler jittered -n 16 -m 200 -k 8
+alone 'works alone: phases of every set are kept' check --homogeneous --sampler white -n 16 -m 40 -k 2
 checked=$((checked + 1))
 for range in 0:256 256:600; do
     "$program" "${job[@]}" -m 600 --range $range --device cpu:split=2 -o "${range%:*}.npz"

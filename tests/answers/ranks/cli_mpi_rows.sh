@@ -17,6 +17,11 @@ light=coefficients:file=$PWD/light.txt
 is_as_one 2 variance --engine host_direct --integrand disk --integrand gaussian --sampler jittered --sampler white -n 4,9 -m 40 -k 3
 is_as_one 3 variance --engine host_direct --integrand disk --columns xyw -k 3 "$sets"
 is_as_one 2 variance --engine host_direct --integrand disk --sampler sobol -n 16 -m 20 -k 3
+is_as_one 2 variance --engine host_direct --integrand disk --sampler white -d 1 -n 9 -m 20 -k 8
+"$program" power --engine host_direct --sampler jittered -n 9 -m 20 -k 5 -o saved.npz
+"$program" angular --engine host_direct --lift hemisphere --columns xyw -l 5 "$sets" -o sphere.npz
+is_as_one 3 check --engine host_direct --against "$PWD/saved.npz" --sampler jittered
+is_as_one 2 check --engine host_direct --against "$PWD/sphere.npz" --lift hemisphere --columns xyw "$sets"
 is_as_one 5 quadrature --engine host_direct --sampler white-hemisphere -n 9,16 -m 41 --brdf diffuse -l 5
 is_as_one 3 quadrature --engine host_direct --sampler white-hemisphere -n 16 -m 9 --brdf glossy:n=5 -l 5 --weights optimal
 is_as_one 3 quadrature --engine host_direct --columns xyw --lift hemisphere --brdf diffuse -l 5 "$sets"
@@ -28,6 +33,9 @@ is_as_one 3 occlusion --mesh "$PWD/corner.obj" --image 8x8 --reference 64 --samp
 if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     is_as_one 3 quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 -l 20
     is_as_one 2 quadrature --lift hemisphere --columns xyw --brdf diffuse -l 8 "$sets"
+    is_as_one 3 variance --integrand disk --integrand gaussian --sampler jittered -n 64 -m 200 -k 16
+    is_as_one 2 variance --integrand cap --sampler white-sphere -n 30 -m 100 -l 12
+    is_as_one 2 check --against "$PWD/saved.npz" --sampler jittered
 fi
 
 # What is there is the checkpoint of one process.
@@ -53,6 +61,12 @@ fi
 # What is not shared, and errors: one sentence, and the exit status of one process.
 ranks 0 2 "${job[@]}" -m 1
 sentence 'rank 0 works alone, and the others of 2 ranks wait: one realization is not shared'
+ranks 0 2 check saved.npz --against saved.npz
+sentence 'rank 0 works alone, and the others of 2 ranks wait: nothing is computed'
+ranks 0 2 check --homogeneous --engine host_direct --sampler white -n 9 -m 40 -k 2
+sentence 'rank 0 works alone, and the others of 2 ranks wait: phases of every set are kept'
+ranks 3 2 check --engine host_direct --against saved.npz --sampler white -n 9 -m 40
+sentence 'pointspec check: not the spectrum of "saved.npz"'
 ranks 0 3 "${job[@]}" -m 2
 sentence '1 of 3 ranks have nothing to do: there is work for 2'
 ranks 1 2 "${job[@]}" -o nowhere/answer.csv
