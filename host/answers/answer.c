@@ -1,5 +1,4 @@
-#include "answers/kind.h"
-
+#include "answers/kept_rows.h"
 #include "base/text.h"
 #include "request/point_source.h"
 
@@ -100,16 +99,24 @@ pspec_status ps_answer_make(ps_answer *out, const ps_kind *kind, const ps_reques
                             const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;
     ps_request own = *request;
+    ps_row_tape tape;
     *out = (ps_answer){0};
     own.limits.checkpoint.team = hooks->team;
-    pspec_status status = kind->compute(&computed, &own, hooks, error);
+    pspec_status status = ps_kept_rows_begin(&tape, &own, kind, error);
+    if (status == PSPEC_OK) {
+        status = kind->compute(&computed, &own, hooks, error);
+    }
     if (status == PSPEC_OK) {
         status = ps_team_meet(hooks->team, status, error);
     }
     if (status == PSPEC_OK && ps_team_is_led_here(hooks->team)) {
         status = kind->tabulate(out, computed, &own, error);
     }
+    if (status == PSPEC_OK && ps_team_is_led_here(hooks->team)) {
+        status = ps_kept_rows_add(out->table, &own, error);
+    }
     kind->discard(computed);
+    ps_row_tape_free(&tape);
     return status;
 }
 

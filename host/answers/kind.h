@@ -116,6 +116,9 @@ typedef struct ps_parts {
     const char *const *names;      /* [num], in sentences: a file in quotes, or "answer 2" */
     size_t num;                    /* at least 1 */
     const char *command_line;      /* of who merges, for the header */
+    const char *device;            /* a selector of theirs; NULL: the default */
+    const ps_answer_hooks *hooks;  /* who hears of work that merging is; NULL: nobody */
+    const ps_kind *kind;           /* set by ps_answer_merge */
     /* NULL, or what ranges of a job are answers to together: the answer is that of the job then, as
      * one process would have it, and does not tell of the parts */
     const ps_request *request;

@@ -1,6 +1,7 @@
-/* What commands take, what one that prints a kind of answer does, and a public function that
- * answers one: refuse early, compute, write. */
+/* What a command that prints a kind of answer does, and a public function that answers one: refuse
+ * early, compute, write. */
 #include "answers/checkpoints.h"
+#include "answers/kept_rows.h"
 #include "answers/output_check.h"
 #include "answers/picture.h"
 #include "base/text.h"
@@ -10,30 +11,6 @@
 
 #include <stddef.h>
 #include <string.h>
-
-const char *ps_command_words(const ps_command *command, ps_option_id id) {
-    const char *const own = id == PS_OPTION_FORMAT    ? command->formats
-                            : id == PS_OPTION_WEIGHTS ? command->weights
-                                                      : NULL;
-    if (id == PS_OPTION_FORMAT && own == NULL) {
-        return ps_table_formats(command->has_words, command->has_late_rows);
-    }
-    return own != NULL ? own : ps_options[id].metavar;
-}
-
-const ps_command *ps_command_nearest(const ps_command *const *table, const char *name,
-                                     size_t *distance) {
-    const ps_command *nearest = NULL;
-    *distance = SIZE_MAX;
-    for (size_t i = 0; table[i] != NULL; i++) {
-        const size_t own = ps_name_distance(name, table[i]->name);
-        if (own < *distance) {
-            *distance = own;
-            nearest = table[i];
-        }
-    }
-    return nearest;
-}
 
 /* ---- before ------------------------------------------------------------------------------ */
 
@@ -130,13 +107,17 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
     ps_table_format format = PS_FORMAT_CSV;
     ps_request own = *request;
     ps_text key = {0};
+    ps_row_tape tape;
     const bool is_led_here = ps_team_is_led_here(hooks->team);
     *out = (ps_answer){0};
     PS_TRY(is_led_here ? ps_answer_check_outputs(&format, kind, request, hooks, error) : PSPEC_OK);
     own.limits.checkpoint.team = hooks->team;
     own.wants_state =
         request->wants_state || format == PS_FORMAT_NPZ || request->is_given[PS_OPTION_RANGE];
-    pspec_status status = ps_answer_begin_checkpoints(&own, kind, &key, hooks, error);
+    pspec_status status = ps_kept_rows_begin(&tape, &own, kind, error);
+    if (status == PSPEC_OK) {
+        status = ps_answer_begin_checkpoints(&own, kind, &key, hooks, error);
+    }
     if (status == PSPEC_OK) {
         status = kind->compute(kept, &own, hooks, error);
     }
@@ -148,12 +129,16 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_kind *kind, const ps_req
         status = kind->tabulate(out, *kept, &own, error);
     }
     if (status == PSPEC_OK && is_led_here) {
+        status = ps_kept_rows_add(out->table, &own, error);
+    }
+    if (status == PSPEC_OK && is_led_here) {
         status = ps_answer_write(out, kind, &own, format, hooks, error);
     }
     if (status == PSPEC_OK && is_led_here) {
         ps_answer_end_checkpoints(&own);
     }
     ps_text_free(&key);
+    ps_row_tape_free(&tape);
     if (status != PSPEC_OK || kept == &mine) {
         kind->discard(*kept);
         *kept = NULL;
@@ -169,8 +154,7 @@ pspec_status ps_answer_merge(ps_answer *out, const ps_parts *parts, ps_error *er
         i++;
     }
     if (ps_kinds[i] == NULL || ps_kinds[i]->merge == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s is an answer of %s, and those of power, angular and pairs are merged",
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is an answer of %s, and these are not merged",
                        parts->names[0], name);
     }
     for (size_t p = 1; p < parts->num; p++) {
@@ -180,6 +164,8 @@ pspec_status ps_answer_merge(ps_answer *out, const ps_parts *parts, ps_error *er
                            parts->names[p], other, name);
         }
     }
-    PS_TRY(ps_kinds[i]->merge(out, parts, error));
+    ps_parts own = *parts;
+    own.kind = ps_kinds[i];
+    PS_TRY(ps_kinds[i]->merge(out, &own, error));
     return ps_kind_visit_fields(ps_kinds[i], mark_repeated, out->table, error);
 }

@@ -203,7 +203,11 @@ static pspec_status merge(ps_answer *out, pspec_context *context, const pspec_an
         shown[i] = ps_text_string(&names[i]);
         PS_TRY(ps_text_check(&names[i], &context->error));
     }
-    const ps_parts all = {tables, shown, num, "pspec_answer_merge", NULL};
+    const ps_parts all = {.tables = tables,
+                          .names = shown,
+                          .num = num,
+                          .command_line = "pspec_answer_merge",
+                          .device = context->selector};
     return ps_answer_merge(out, &all, &context->error);
 }
 

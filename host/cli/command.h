@@ -2,6 +2,7 @@
 #ifndef PS_CLI_COMMAND_H
 #define PS_CLI_COMMAND_H
 
+#include "answers/arguments.h"
 #include "answers/kind.h"
 #include "base/watch.h"
 #include "ranks/ranks.h"
@@ -25,18 +26,6 @@ extern const ps_command *const ps_commands[];
 
 /* The command of that name; NULL with a sentence that names the nearest one. */
 const ps_command *ps_command_find(const char *name, ps_error *error);
-
-/* What stands after the option in usage and help: these values, or NAME when they are too many for
- * a line; NULL for a flag. */
-const char *ps_command_metavar(const ps_command *command, ps_option_id id);
-
-/* Parses the words after the command's name. Options and files may be mixed; "--" ends the options,
- * "-" is a file. --name value, --name=value, -n value, -nvalue; an option given again replaces what
- * it said before, but --sampler adds. Errors name the nearest option that the command takes. --help
- * ends the parsing: see is_given[PS_OPTION_HELP]. Call ps_arguments_free also after an error. */
-pspec_status ps_arguments_parse(ps_request *arguments, const ps_command *command, int num_words,
-                                char **words, ps_error *error) PS_MUST_CHECK;
-void ps_arguments_free(ps_request *arguments);
 
 /* Exit code that goes with a status. */
 int ps_exit_code(pspec_status status);

@@ -38,12 +38,6 @@ static void append_names(char text[TEXT_BYTES], const char *words, const char *m
     }
 }
 
-const char *ps_command_metavar(const ps_command *command, ps_option_id id) {
-    enum { MOST_LETTERS = 40 };
-    const char *const words = ps_command_words(command, id);
-    return words != NULL && strlen(words) > MOST_LETTERS ? "NAME" : words;
-}
-
 /* A command of the torus refuses columns of the sphere, by a sentence of its own. */
 static const char *find_words(const ps_command *command, ps_option_id id) {
     return id == PS_OPTION_COLUMNS && command->samples == PS_DOMAIN_TORUS

@@ -32,10 +32,15 @@ static pspec_status load(parts *self, const ps_request *request, ps_error *error
     return PSPEC_OK;
 }
 
-static pspec_status merge(ps_answer *out, parts *self, const ps_request *request, ps_error *error) {
+static pspec_status merge(ps_answer *out, parts *self, const ps_request *request,
+                          const ps_answer_hooks *hooks, ps_error *error) {
     PS_TRY(load(self, request, error));
-    const ps_parts all = {(const ps_table *const *)self->tables, self->names, self->num,
-                          request->command_line, NULL};
+    const ps_parts all = {.tables = (const ps_table *const *)self->tables,
+                          .names = self->names,
+                          .num = self->num,
+                          .command_line = request->command_line,
+                          .device = request->limits.device,
+                          .hooks = hooks};
     return ps_answer_merge(out, &all, error);
 }
 
@@ -61,7 +66,7 @@ static pspec_status run(ps_answer *out, const ps_request *request, const ps_answ
     }
     PS_TRY(ps_outputs_check(request, true, error));
     PS_TRY(ps_table_choose_format(&format, request->format, request->output, error));
-    pspec_status status = merge(out, &self, request, error);
+    pspec_status status = merge(out, &self, request, hooks, error);
     discard(&self);
     if (status == PSPEC_OK) {
         warn_of_range(out, hooks);
@@ -79,7 +84,9 @@ const ps_command ps_command_merge = {
     .usage = "merge [options] FILE...",
     .description =
         "Reads answers of power, angular or pairs to one question, which -o FILE.npz saved with "
-        "their sums over realizations, and prints the answer of all their realizations, of the "
+        "their sums over realizations, or ranges of one job of these and of quadrature, variance, "
+        "shade, interpolation and occlusion, and prints the answer of all their realizations, of "
+        "the "
         "first file first: what one job would have printed, but for last digits of the sums. "
         "Dimension, frequencies, rings, normalization, and samplers where there are several, must "
         "be the same; numbers of points, engines and tolerances may differ. Realizations of one "

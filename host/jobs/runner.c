@@ -1,5 +1,7 @@
 #include "jobs/runner.h"
 
+#include "spectra/row_tape.h"
+
 #include <math.h>
 
 void ps_runner_free(ps_runner *runner) {
@@ -100,8 +102,11 @@ static pspec_status plan_again(ps_runner *runner, ps_error *error) {
     return status;
 }
 
+/* The largest set may be one of others, whose engine had room for it. */
 static pspec_status measure(ps_runner *runner, ps_error *error) {
     PS_TRY(ps_estimator_settle(runner->estimator, error));
+    PS_TRY(ps_estimator_expect(runner->estimator,
+                               ps_estimator_accuracy(runner->estimator).largest_points, error));
     runner->accuracy = ps_estimator_accuracy(runner->estimator);
     return runner->has_no_accuracy || isfinite(runner->accuracy.error)
                ? PSPEC_OK
@@ -113,9 +118,13 @@ static bool is_settled(const ps_runner *runner) {
 }
 
 static pspec_status settle(ps_runner *runner, ps_error *error) {
+    const ps_row_tape *const tape = runner->spec != NULL ? runner->spec->tape : NULL;
     PS_TRY(measure(runner, error));
-    if (runner->is_part) {
+    if (runner->is_part || (tape != NULL && tape->is_part)) {
         return PSPEC_OK;
+    }
+    if (tape != NULL && !is_settled(runner)) { /* its rows are those of the first plan */
+        return ps_range_refuse_powers(runner->accuracy.error, runner->problem->tolerance, error);
     }
     while (runner->num_replans < PS_MOST_REPLANS && !is_settled(runner)) {
         PS_TRY(plan_again(runner, error));

@@ -52,7 +52,8 @@ typedef struct ps_runner {
     double standard_error; /* at which realizations stop; 0: nobody asked */
     bool is_sequential;    /* they do stop there */
     /* These are some of the realizations of a job, whose powers decide together whether another
-     * plan is needed: whoever merges them looks at the errors, and says which plan this is */
+     * plan is needed: whoever merges them looks at the errors, and says which plan this is. So it
+     * is of rows that a tape keeps (spectra/row_tape.h); those that it plays have no second plan */
     bool is_part;
     ps_replan replan;
     /* Amplitudes alone are asked of the estimator, whose errors no power changes */

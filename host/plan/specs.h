@@ -6,6 +6,7 @@
 #define PS_PLAN_SPECS_H
 
 #include "plan/choose.h"
+#include "plan/range.h"
 #include "sets/sets.h"
 #include "store/checkpoint.h"
 
@@ -19,11 +20,6 @@ typedef struct ps_accuracy_spec {
     bool no_skip;       /* what the question does not need is done all the same; symmetries stay */
     bool no_self_check; /* the referee recomputes nothing */
 } ps_accuracy_spec;
-
-/* Some of the realizations of a job, counted from 0: a part to be merged with others. */
-typedef struct ps_realization_range {
-    uint64_t first, end; /* one past the last; 0: all of them */
-} ps_realization_range;
 
 /* Where the work is done, and in what memory. */
 typedef struct ps_limits_spec {

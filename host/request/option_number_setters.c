@@ -3,7 +3,6 @@
 
 #include "base/text.h"
 #include "math/sobolev.h"
-#include "spectra/sum_nodes.h"
 
 #include <float.h>
 #include <math.h>
@@ -102,7 +101,7 @@ pspec_status ps_set_box(const ps_said *said, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* "256:512". Whether the end may be no multiple depends on how many there are. */
+/* "256:512" */
 pspec_status ps_set_realization_range(const ps_said *said, ps_error *error) {
     enum { NUMBER_BYTES = 32 };
     char first[NUMBER_BYTES];
@@ -117,15 +116,10 @@ pspec_status ps_set_realization_range(const ps_said *said, ps_error *error) {
     PS_TRY(ps_parse_count(first, said->shown, 0, MOST_REALIZATIONS, &range->first, error));
     PS_TRY(ps_parse_count(said->text + length + 1, said->shown, 1, MOST_REALIZATIONS, &range->end,
                           error));
-    if (range->first >= range->end) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: %s has no realization: A must be below B", said->shown, said->text);
-    }
-    return range->first % PS_SUM_BLOCK == 0
+    return range->first < range->end
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s must begin with a multiple of %d: sums are added in such blocks",
-                         said->shown, said->text, PS_SUM_BLOCK);
+                         "%s: %s has no realization: A must be below B", said->shown, said->text);
 }
 
 /* "3" or "3,-4": whole numbers, as many as dimensions, not all 0. */

@@ -48,6 +48,7 @@ static const option_pair pairs[] = {
     {PS_OPTION_RANGE, PS_OPTION_SCATTER, "coefficients of single sets are not merged", 0},
     {PS_OPTION_RANGE, PS_OPTION_SET, "every set of files has a number of realizations of its own",
      0},
+    {PS_OPTION_RANGE, PS_OPTION_WEIGHTS_OUT, "a part has rows, and nothing of single sets", 0},
     {PS_OPTION_RANGE, COEFFICIENTS, "coefficients of single sets are not merged", 0},
 
     {PS_OPTION_FREQUENCIES, ARRAYS, "they do not fill an array", 0},

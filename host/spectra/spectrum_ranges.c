@@ -3,6 +3,7 @@
 
 #include "engines/error_units.h"
 #include "math/larger.h"
+#include "plan/range.h"
 
 #include <string.h>
 
@@ -62,22 +63,8 @@ static pspec_status compare_jobs(const ps_spectrum_sums *a, const ps_spectrum_su
     return PSPEC_OK;
 }
 
-static pspec_status check_order(const ps_spectrum_sums *sums, const ps_spectrum_sums *next,
-                                const char *const names[2], ps_error *error) {
-    const unsigned long long end = ps_spectrum_sums_end(sums);
-    const unsigned long long next_first = ps_spectrum_sums_first(next);
-    const unsigned long long next_end = ps_spectrum_sums_end(next);
-    if (next_first < end) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s has the realizations %llu:%llu, but those up to %llu are of %s already: "
-                       "they overlap",
-                       names[1], next_first, next_end, end, names[0]);
-    }
-    return next_first == end
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "the realizations %llu:%llu are missing, between those of %s and of %s",
-                         end, next_first, names[0], names[1]);
+static ps_realization_range range_of(const ps_spectrum_sums *sums) {
+    return (ps_realization_range){ps_spectrum_sums_first(sums), ps_spectrum_sums_end(sums)};
 }
 
 void ps_spectrum_sums_join_errors(ps_spectrum_sums *sums, const ps_spectrum_sums *next) {
@@ -97,8 +84,10 @@ void ps_spectrum_sums_join_errors(ps_spectrum_sums *sums, const ps_spectrum_sums
 pspec_status ps_spectrum_sums_join(ps_spectrum_sums *sums, const ps_spectrum_sums *next,
                                    const char *const names[2], ps_error *error) {
     ps_pattern_totals *const totals = &sums->totals;
+    const ps_realization_range range = range_of(sums);
+    const ps_realization_range behind = range_of(next);
     PS_TRY(compare_jobs(sums, next, names[1], error));
-    PS_TRY(check_order(sums, next, names, error));
+    PS_TRY(ps_range_check_next(&range, &behind, names, error));
     for (size_t i = 0; i < next->nodes.num; i++) {
         PS_TRY(ps_sum_nodes_append(&sums->nodes, &next->nodes.nodes[i], error));
     }

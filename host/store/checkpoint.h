@@ -53,6 +53,7 @@ typedef struct ps_checkpoint_spec {
     /* Who does the job together: each reads what is there, and the first writes. NULL: nobody else
      */
     const ps_team *team;
+    struct ps_row_tape *tape; /* what keeps or gives rows (spectra/row_tape.h); NULL: nothing */
 } ps_checkpoint_spec;
 
 typedef struct ps_checkpoint ps_checkpoint;

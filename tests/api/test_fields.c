@@ -47,6 +47,8 @@ static const char *const questions[] = {
     "standard-error=0.9",
     "quadrature sampler=fibonacci-hemisphere points=8 brdf=diffuse weights=optimal "
     "weights-out=w.npy",
+    "quadrature sampler=white-hemisphere points=4 max-degree=2 brdf=diffuse realizations=9 "
+    "range=0:2 output=rows.npz",
     "quadrature files=near.txt brdf=diffuse weights=optimal drop-below-horizon max-degree=2",
     "truncation brdf=glossy:n=4 max-degree=2 integrand=map:file=light.pfm",
     "shade sampler=white-hemisphere sampler=fibonacci-hemisphere points=4,8 brdf=diffuse "

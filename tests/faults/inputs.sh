@@ -73,6 +73,8 @@ make_inputs() {
     # An older program (scripts/same_bits.sh) may not know ranges; then the line that merges them has no input.
     "$program" power --engine host_direct --sampler white -n 4 -m 130 -k 1 --range 0:128 -o early.npz || :
     "$program" power --engine host_direct --sampler white -n 4 -m 130 -k 1 --range 128:130 -o late.npz || :
+    "$program" quadrature --engine host_direct --sampler white-hemisphere -n 4 --brdf diffuse -l 2 -m 4 --range 0:1 -o front.npz || :
+    "$program" quadrature --engine host_direct --sampler white-hemisphere -n 4 --brdf diffuse -l 2 -m 4 --range 1:4 -o back.npz || :
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
     printf '0 0 1 0\n1 2 .5 .25\n-1 -2 .5 -.25\n' >own.txt
     printf '2 1 1 .5\n0 0 1 0\n' >lm.txt

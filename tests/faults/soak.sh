@@ -117,7 +117,7 @@ reference() { # NAME WORD...: its file, made once
 try_ranges() { # REALIZATIONS WORD...
     local realizations=$1 parts=() first=0 end
     shift
-    reference "ranges" "$@" -m "$realizations"
+    reference "ranges-$1" "$@" -m "$realizations"
     while ((first < realizations)); do
         end=$((first + 128 * (1 + RANDOM % 60)))
         end=$((end < realizations ? end : realizations))
@@ -127,7 +127,7 @@ try_ranges() { # REALIZATIONS WORD...
     done
     "$program" merge "${parts[@]}" -o out.csv
     rm -f part*.npz
-    diff <(grep -v '^# ' ranges.csv) <(grep -v '^# ' out.csv) >&2 || { echo "soak: other bits of ranges: $*" >&2; exit 1; }
+    diff <(grep -v '^# ' "ranges-$1.csv") <(grep -v '^# ' out.csv) >&2 || { echo "soak: other bits of ranges: $*" >&2; exit 1; }
     jobs=$((jobs + 1))
 }
 
@@ -145,7 +145,11 @@ while ((SECONDS < seconds)); do
         run_to_the_end "${words[@]}" -o out.csv
         compare "$number.csv" "${words[*]}"
     elif ((number == ${#saved[@]} + ${#begun_anew[@]})); then
-        try_ranges 20000 power --sampler jittered -n 1024 -k 32
+        if ((RANDOM % 2)); then
+            try_ranges 20000 power --sampler jittered -n 1024 -k 32
+        else
+            try_ranges 20000 variance --sampler jittered -n 256 --integrand disk --shifts 40
+        fi
     else
         [[ -d whole ]] || "$program" run scene.yaml -o whole --quiet --cache 0 >/dev/null
         run_to_the_end run scene.yaml -o killed --cache 0 --checkpoint job.npz --checkpoint-interval 0

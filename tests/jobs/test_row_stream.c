@@ -1,5 +1,6 @@
 /* Rows of a team are those that one process has, in order, whatever the members, the end of the
- * realizations, and how many are taken at a time; members that are not alike are refused by all. */
+ * realizations, and how many are taken at a time; members that are not alike are refused by all. So
+ * are rows of ranges that a tape keeps, and plays. */
 #include "harness.h"
 
 #include "jobs/rows/row_stream.h"
@@ -45,7 +46,7 @@ typedef struct job {
     uint64_t at;       /* of its source */
     uint64_t num_made; /* by this member */
     uint64_t most;     /* rows that are taken at a time */
-    uint64_t begin;    /* that the job has */
+    uint64_t begin;    /* the number of its first row */
     double largest;
     bool has_nan;
     uint64_t num_taken;
@@ -94,7 +95,8 @@ static void take_largest(void *payload, const double *numbers) {
 static void *run(void *payload) {
     job *const self = payload;
     size_t num = 1;
-    self->status = ps_row_stream_begin(&self->stream, self->begin, &self->error);
+    self->status = ps_row_stream_begin(
+        &self->stream, self->begin - ps_row_tape_first(self->stream.tape), &self->error);
     while (self->status == PSPEC_OK && num > 0) {
         self->status = ps_row_stream_next(&self->stream, self->most, &num, &self->error);
         for (size_t i = 0; self->status == PSPEC_OK && i < num; i++) {
@@ -234,6 +236,94 @@ static void fewer_sets_than_a_checkpoint_has_are_refused(void **state) {
                         "there are fewer sets than the 404 that the checkpoint has");
 }
 
+/* ---- tapes ---------------------------------------------------------------------------------- */
+
+/* The rows of a range, of `num` members, on the tape of the first. */
+static void keep(ps_row_tape *tape, size_t num, uint64_t first, uint64_t end, uint64_t total) {
+    job jobs[MOST_MEMBERS];
+    ps_row_tape others[MOST_MEMBERS];
+    for (size_t i = 0; i < num; i++) {
+        ps_row_tape *const own = i == 0 ? tape : &others[i];
+        *own = (ps_row_tape){.range = {first, end}, .is_part = true};
+        begin(&jobs[i], i, num, total, 7);
+        jobs[i].begin = first;
+        jobs[i].stream.tape = own;
+    }
+    run_all(jobs, num);
+    for (size_t i = 0; i < num; i++) {
+        assert_int_equal(jobs[i].status, PSPEC_OK);
+        assert_true(jobs[i].is_in_order);
+        assert_int_equal(jobs[i].num_taken, end - first);
+        assert_true(i == 0 || others[i].num == 0); /* who does not lead keeps nothing */
+    }
+    assert_int_equal(tape->num, 1);
+    assert_int_equal(tape->tracks[0].num, end - first);
+    assert_int_equal(tape->tracks[0].all, ROWS);
+}
+
+static void ranges_that_are_kept_are_the_job(void **state) {
+    static const uint64_t ends[] = {1, 100, 101, 400, ROWS};
+    (void)state;
+    for (size_t num = 1; num <= MOST_MEMBERS; num += 2) {
+        ps_row_tape whole = {.range = {0, ROWS}, .is_played = true};
+        ps_row_track *track = NULL;
+        job one;
+        assert_int_equal(ps_row_tape_track(&track, &whole, 0, NULL), PSPEC_OK);
+        track->row_bytes = sizeof(row);
+        for (size_t r = 0; r < sizeof ends / sizeof *ends; r++) {
+            ps_row_tape part;
+            keep(&part, num, r > 0 ? ends[r - 1] : 0, ends[r], r % 2 == 0 ? ROWS : 0);
+            assert_int_equal(ps_row_track_add(track, part.tracks[0].rows, part.tracks[0].num, NULL),
+                             PSPEC_OK);
+            track->largest[1] = fmax(track->largest[1], part.tracks[0].largest[1]);
+            ps_row_tape_free(&part);
+        }
+        begin(&one, 0, 1, ROWS, UINT64_MAX);
+        one.stream.tape = &whole;
+        run_all(&one, 1);
+        assert_int_equal(one.status, PSPEC_OK);
+        assert_true(one.is_in_order);
+        assert_int_equal(one.num_taken, ROWS);
+        assert_int_equal(one.num_made, 0);
+        assert_true(one.largest == ROWS);
+        ps_row_tape_free(&whole);
+    }
+}
+
+/* Also where files say no sooner than at their end how many there are. */
+static void ranges_beyond_all_realizations_are_refused(void **state) {
+    static const ps_realization_range ranges[] = {{0, ROWS + 1}, {ROWS, ROWS + 1}, {900, 901}};
+    (void)state;
+    for (size_t i = 0; i < 2 * sizeof ranges / sizeof *ranges; i++) {
+        ps_row_tape tape = {.range = ranges[i / 2], .is_part = true};
+        job one;
+        begin(&one, 0, 1, i % 2 == 0 ? ROWS : 0, UINT64_MAX);
+        one.begin = tape.range.first;
+        one.stream.tape = &tape;
+        run_all(&one, 1);
+        assert_int_equal(one.status, PSPEC_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(one.error.message, "goes beyond the realizations, of which there "
+                                                  "are 403"));
+        ps_row_tape_free(&tape);
+    }
+}
+
+static void rows_of_another_program_are_not_played(void **state) {
+    ps_row_tape tape = {.range = {0, ROWS}, .is_played = true};
+    ps_row_track *track = NULL;
+    job one;
+    (void)state;
+    for (size_t bytes = 0; bytes < sizeof(row); bytes += 8) {
+        begin(&one, 0, 1, ROWS, UINT64_MAX);
+        one.stream.tape = &tape;
+        run_all(&one, 1);
+        assert_int_equal(one.status, PSPEC_ERROR_INPUT);
+        assert_int_equal(ps_row_tape_track(&track, &tape, 0, NULL), PSPEC_OK);
+        track->row_bytes = bytes;
+    }
+    ps_row_tape_free(&tape);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_are_those_of_one),
@@ -242,6 +332,9 @@ int main(void) {
         cmocka_unit_test(nan_is_the_largest),
         cmocka_unit_test(members_that_differ_are_refused_by_all),
         cmocka_unit_test(fewer_sets_than_a_checkpoint_has_are_refused),
+        cmocka_unit_test(ranges_that_are_kept_are_the_job),
+        cmocka_unit_test(ranges_beyond_all_realizations_are_refused),
+        cmocka_unit_test(rows_of_another_program_are_not_played),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,6 @@
 /* Kernel interpolation of functions of the sphere: errors against numbers of points, and images. */
+#include "answers/kept_rows.h"
+#include "answers/ranges/row_ranges.h"
 #include "answers/interpolation/interpolation.h"
 
 #include "answers/spectra/spectra.h"
@@ -251,8 +253,8 @@ static const ps_field_row own_fields[] = {
      "the functions at the same pixels: integrands x height x width"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, own_fields,
-                                             ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked,     ps_fields_points,   own_fields,
+                                             ps_fields_kept_rows, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {{"rmse", "rmse_error", false, ps_compared_rule_bound},
                                              {.value = NULL}};
@@ -283,6 +285,7 @@ const ps_kind ps_kind_interpolation = {
     .check_question = check_question,
     .plan = plan,
     .look_at_shares = ps_answer_look_at_rows,
+    .merge = ps_row_ranges_merge,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

@@ -1,4 +1,6 @@
 /* Ambient occlusion of a mesh by point sets: how far it is from a reference. */
+#include "answers/kept_rows.h"
+#include "answers/ranges/row_ranges.h"
 #include "answers/occlusion/occlusion.h"
 
 #include "base/memory.h"
@@ -278,8 +280,9 @@ static const ps_picture_kind pictures[] = {
      .is_log_y = true},
     {.make = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, ps_fields_occlusion,
-                                             ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked,     ps_fields_points,
+                                             ps_fields_occlusion, ps_fields_kept_rows,
+                                             ps_fields_computed,  NULL};
 
 static const ps_compared_field compared[] = {{"mse", "mse_error", false, ps_compared_rule_bound},
                                              {.value = NULL}};
@@ -313,6 +316,7 @@ const ps_kind ps_kind_occlusion = {
     .plan = plan,
     .count_jobs = count_jobs,
     .look_at_shares = ps_answer_look_at_rows,
+    .merge = ps_row_ranges_merge,
     .compute = compute,
     .tabulate = ps_occlusion_tabulate,
     .discard = discard,

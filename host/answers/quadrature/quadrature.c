@@ -1,4 +1,6 @@
 /* Quadrature spectrum and worst-case error of rules for a BRDF. */
+#include "answers/kept_rows.h"
+#include "answers/ranges/row_ranges.h"
 #include "answers/quadrature/quadrature_table.h"
 #include "answers/quadrature/rule_list.h"
 #include "base/memory.h"
@@ -129,8 +131,13 @@ static const ps_field_row own_fields[] = {
      "weights of the only rule, float64 [N]; points that were dropped have 0"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points,   ps_fields_rules,
-                                             own_fields,      ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked,
+                                             ps_fields_points,
+                                             ps_fields_rules,
+                                             own_fields,
+                                             ps_fields_kept_rows,
+                                             ps_fields_computed,
+                                             NULL};
 
 static const ps_compared_field compared[] = {
     {"worst_case_error", "worst_case_error_standard_error", true, ps_compared_rule_bound},
@@ -162,6 +169,7 @@ const ps_kind ps_kind_quadrature = {
     .check_question = check_question,
     .plan = plan,
     .look_at_shares = ps_answer_look_at_rows,
+    .merge = ps_row_ranges_merge,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

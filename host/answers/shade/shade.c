@@ -1,4 +1,6 @@
 /* Errors of shading integrals over random orientations of the normal, measured and predicted. */
+#include "answers/kept_rows.h"
+#include "answers/ranges/row_ranges.h"
 #include "answers/kind.h"
 #include "answers/lead.h"
 #include "answers/quadrature/light_header.h"
@@ -208,13 +210,9 @@ static const ps_field_row own_fields[] = {
      "what measurement and prediction are apart; missing where rmse_beyond is most of predicted"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked,
-                                             ps_fields_points,
-                                             ps_fields_rules,
-                                             ps_fields_light,
-                                             own_fields,
-                                             ps_fields_computed,
-                                             NULL};
+static const ps_field_row *const fields[] = {
+    ps_fields_asked, ps_fields_points,    ps_fields_rules,    ps_fields_light,
+    own_fields,      ps_fields_kept_rows, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {{"rmse", "rmse_error", false, ps_compared_rule_bound},
                                              {.value = NULL}};
@@ -243,6 +241,7 @@ const ps_kind ps_kind_shade = {
     .check_question = check_question,
     .plan = plan,
     .look_at_shares = ps_answer_look_at_rows,
+    .merge = ps_row_ranges_merge,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

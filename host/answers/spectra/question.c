@@ -52,8 +52,19 @@ static int count_arrays(const ps_request *arguments) {
            (arguments->frequencies.num_shown > 0);
 }
 
+_Static_assert(PS_SUM_BLOCK == 128, "the sentence says so");
+#define WHOLE_BLOCKS "must begin with a multiple of 128: sums are added in such blocks"
+
+/* Whether the end may be no multiple depends on how many there are. */
+static pspec_status check_range(const ps_request *arguments, ps_error *error) {
+    return arguments->range.first % PS_SUM_BLOCK == 0
+               ? PSPEC_OK
+               : ps_range_refuse(&arguments->range, WHOLE_BLOCKS, error);
+}
+
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_option_pairs_check(arguments, PS_COMMAND_power, error));
+    PS_TRY(check_range(arguments, error));
     PS_TRY(check_fit(arguments, error));
     if (count_arrays(arguments) > 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -11,6 +11,16 @@
 pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *parts,
                             ps_error *error) PS_MUST_CHECK;
 
+/* The entries `merged` of an answer that is merged of these: their command lines, or those of what
+ * they were merged of. */
+pspec_status ps_ranges_tell(ps_table *table, const ps_parts *parts, ps_error *error) PS_MUST_CHECK;
+/* The command line of a part; of an answer that was merged that of its first part. */
+const char *ps_ranges_command(const ps_table *table);
+/* Are both of one job, by their headers? Else PSPEC_ERROR_INPUT, which calls b `name`. request: of
+ * the job, where it is known. */
+pspec_status ps_ranges_compare(const ps_table *a, const ps_table *b, const char *name,
+                               const ps_request *request, ps_error *error) PS_MUST_CHECK;
+
 /* ps_spectrum_sums_close; PSPEC_ERROR_TOLERANCE where that is all of a job, for whose powers, which
  * are known no sooner, it would have been planned once more. */
 pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) PS_MUST_CHECK;

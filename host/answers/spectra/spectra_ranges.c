@@ -1,5 +1,6 @@
 #include "answers/spectra/ranges.h"
 
+#include "answers/arguments.h"
 #include "answers/spectra/measured.h"
 
 #include <string.h>
@@ -40,20 +41,6 @@ static const char *const common[] = {"pointspec_version", "seed",         "homog
                                      "input_columns",     "lift",         "morph",      "device",
                                      "precision",         "tolerance",    "engine",     NULL};
 
-/* The next word of a command line, as the shell takes it, and where it ends; false: none. */
-static bool next_word(const char **at, const char **word, size_t *length) {
-    bool is_quoted = false;
-    const char *end = *at + strspn(*at, " ");
-    *word = end;
-    for (; *end != '\0' && (is_quoted || *end != ' '); end++) {
-        is_quoted = is_quoted != (*end == '\'');
-        end += *end == '\\' && !is_quoted && end[1] != '\0';
-    }
-    *length = (size_t)(end - *word);
-    *at = end;
-    return *length > 0;
-}
-
 /* The option that the word names, and whether its value is in the word, too. */
 static const ps_option *find_option(const char *word, size_t length, bool *has_value) {
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
@@ -75,14 +62,14 @@ static const ps_option *find_option(const char *word, size_t length, bool *has_v
 
 /* The next word that is of the question, and not of the range, or of what becomes of the answer. */
 static bool next_of_question(const char **at, const char **word, size_t *length) {
-    while (next_word(at, word, length)) {
+    while (ps_command_next_word(at, word, length)) {
         bool has_value = false;
         const ps_option *const option = find_option(*word, *length, &has_value);
         if (option == NULL || option->questions != 0) {
             return true;
         }
         if (option->metavar != NULL && !has_value) {
-            next_word(at, word, length);
+            ps_command_next_word(at, word, length);
         }
     }
     return false;
@@ -103,8 +90,7 @@ static bool are_same_commands(const char *a, const char *b) {
     }
 }
 
-/* Of an answer that was merged that of its first part. */
-static const char *find_command(const ps_table *table) {
+const char *ps_ranges_command(const ps_table *table) {
     const ps_cell merged = ps_entry_find(table, "merged", 0);
     const ps_cell command = ps_entry_find(table, "command", 0);
     return merged.kind == PS_CELL_TEXT    ? merged.text
@@ -156,8 +142,8 @@ static bool are_same_engines(const char *a, const char *b) {
     size_t lengths[2];
     bool is_same = true;
     while (is_same) {
-        const bool has_a = next_word(&a, &words[0], &lengths[0]);
-        const bool has_b = next_word(&b, &words[1], &lengths[1]);
+        const bool has_a = ps_command_next_word(&a, &words[0], &lengths[0]);
+        const bool has_b = ps_command_next_word(&b, &words[1], &lengths[1]);
         if (!has_a || !has_b) {
             return has_a == has_b;
         }
@@ -179,8 +165,8 @@ static bool may_differ(const char *key, const ps_request *request) {
            (strcmp(key, "precision") == 0 || strcmp(key, "engine") == 0);
 }
 
-static pspec_status compare(const ps_table *a, const ps_table *b, const char *name,
-                            const ps_request *request, ps_error *error) {
+pspec_status ps_ranges_compare(const ps_table *a, const ps_table *b, const char *name,
+                               const ps_request *request, ps_error *error) {
     for (const char *const *key = common; *key != NULL; key++) {
         const size_t num_a = ps_entry_count(a, *key);
         const size_t num_b = ps_entry_count(b, *key);
@@ -191,10 +177,26 @@ static pspec_status compare(const ps_table *a, const ps_table *b, const char *na
             }
         }
     }
-    const ps_cell commands[] = {PS_TEXT(find_command(a)), PS_TEXT(find_command(b))};
+    const ps_cell commands[] = {PS_TEXT(ps_ranges_command(a)), PS_TEXT(ps_ranges_command(b))};
     return are_same_commands(commands[0].text, commands[1].text)
                ? PSPEC_OK
                : refuse(name, "command", &commands[1], &commands[0], error);
+}
+
+/* How every part came about; of those that were merged before, how theirs did. */
+pspec_status ps_ranges_tell(ps_table *table, const ps_parts *parts, ps_error *error) {
+    static const char key[] = "merged";
+    for (size_t p = 0; p < parts->num; p++) {
+        const ps_table *const part = parts->tables[p];
+        const size_t num = ps_entry_count(part, key);
+        for (size_t i = 0; i < num; i++) {
+            PS_TRY(ps_table_add_meta(table, key, ps_entry_find(part, key, i), error));
+        }
+        if (num == 0) {
+            PS_TRY(ps_table_add_meta(table, key, ps_entry_find(part, "command", 0), error));
+        }
+    }
+    return PSPEC_OK;
 }
 
 /* ---- order ----------------------------------------------------------------------------------- */
@@ -211,7 +213,9 @@ pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *part
     const char **names = NULL;
     PS_TRY(PS_POOL_NEW(memory, &tables, parts->num, "answers", error));
     PS_TRY(PS_POOL_NEW(memory, &names, parts->num, "answers", error));
-    *out = (ps_parts){tables, names, parts->num, parts->command_line, parts->request};
+    *out = *parts;
+    out->tables = tables;
+    out->names = names;
     memcpy(tables, parts->tables, parts->num * sizeof *tables);
     memcpy(names, parts->names, parts->num * sizeof *names);
     for (size_t p = 0; p < parts->num; p++) {
@@ -220,7 +224,8 @@ pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *part
         }
     }
     for (size_t p = 1; p < parts->num; p++) {
-        PS_TRY(compare(parts->tables[0], parts->tables[p], parts->names[p], parts->request, error));
+        PS_TRY(ps_ranges_compare(parts->tables[0], parts->tables[p], parts->names[p],
+                                 parts->request, error));
         for (size_t i = p; i > 0 && find_first(tables[i]) < find_first(tables[i - 1]); i--) {
             const ps_table *const table = tables[i];
             const char *const name = names[i];
@@ -239,9 +244,5 @@ pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) {
     ps_spectrum_sums_close(sums);
     return sums->num_all > 0 || sums->error <= sums->tolerance
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                         "the powers of these realizations need a more exact plan: the error is "
-                         "%.2g, above the tolerance %g; run the ranges again with a smaller --tol, "
-                         "or with --precision double",
-                         sums->error, sums->tolerance);
+               : ps_range_refuse_powers(sums->error, sums->tolerance, error);
 }

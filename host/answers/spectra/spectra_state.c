@@ -144,22 +144,6 @@ static pspec_status tell_key(ps_table *told, const ps_parts *parts, const char *
     return PSPEC_OK;
 }
 
-/* How every part came about; of those that were merged before, how theirs did. */
-static pspec_status tell_parts(ps_table *told, const ps_parts *parts, ps_error *error) {
-    static const char key[] = "merged";
-    for (size_t p = 0; p < parts->num; p++) {
-        const ps_table *const part = parts->tables[p];
-        const size_t num = ps_entry_count(part, key);
-        for (size_t i = 0; i < num; i++) {
-            PS_TRY(ps_table_add_meta(told, key, ps_entry_find(part, key, i), error));
-        }
-        if (num == 0) {
-            PS_TRY(ps_table_add_meta(told, key, ps_entry_find(part, "command", 0), error));
-        }
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status tell(ps_table **out, const ps_parts *parts, size_t question, ps_error *error) {
     PS_TRY(ps_table_create(out, "", NULL, 0, error));
     ps_parts told_of = *parts;
@@ -169,7 +153,7 @@ static pspec_status tell(ps_table **out, const ps_parts *parts, size_t question,
             PS_TRY(tell_key(*out, &told_of, *key, question, error));
         }
     }
-    return question == 0 && parts->request == NULL ? tell_parts(*out, parts, error) : PSPEC_OK;
+    return question == 0 && parts->request == NULL ? ps_ranges_tell(*out, parts, error) : PSPEC_OK;
 }
 
 /* ---- merging --------------------------------------------------------------------------------- */

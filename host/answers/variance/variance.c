@@ -1,4 +1,6 @@
 /* The variance of Monte Carlo integration, predicted from spectra and measured beside it. */
+#include "answers/kept_rows.h"
+#include "answers/ranges/row_ranges.h"
 #include "answers/spectra/spectra.h"
 #include "answers/variance/tail_verdict.h"
 #include "answers/variance/variance_table.h"
@@ -219,8 +221,8 @@ static const ps_field_row sentence_fields[] = {
     {.name = NULL}};
 
 static const ps_field_row *const fields[] = {
-    ps_fields_asked, ps_fields_points,   own_fields, ps_fields_profiles,
-    sentence_fields, ps_fields_computed, NULL};
+    ps_fields_asked, ps_fields_points,    own_fields,         ps_fields_profiles,
+    sentence_fields, ps_fields_kept_rows, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {
     {"predicted", "predicted_error", false, ps_compared_variance_bound},
@@ -254,6 +256,7 @@ const ps_kind ps_kind_variance = {
     .plan = plan,
     .count_jobs = count_jobs,
     .look_at_shares = ps_answer_look_at_rows,
+    .merge = ps_row_ranges_merge,
     .compute = compute,
     .tabulate = tabulate,
     .discard = discard,

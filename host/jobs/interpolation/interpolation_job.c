@@ -1,6 +1,7 @@
 #include "jobs/interpolation/interpolation_job.h"
 
 #include "base/memory.h"
+#include "spectra/row_tape.h"
 #include "math/neumaier.h"
 #include "math/sobolev.h"
 
@@ -227,7 +228,8 @@ static void compare_lines(const interpolant *self, size_t first, size_t num, ps_
         for (size_t line = 0; line < num; line++) {
             ps_neumaier_add(&squares[i], compare_line(self, i, first + line, found + line * width));
         }
-        if (job->images != NULL && job->number == 0) {
+        if (job->images != NULL &&
+            job->number == ps_row_tape_first(job->question->limits.checkpoint.tape)) {
             const size_t image = self->index * num_functions(self) + i;
             memcpy(job->images + (image * panorama->height + first) * width, found,
                    num * width * sizeof *found);

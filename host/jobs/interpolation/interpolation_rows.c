@@ -103,11 +103,17 @@ pspec_status ps_interpolation_job_run(ps_interpolation_job *job, ps_error *error
                    .pass = pass,
                    .row_bytes = sizeof(set_row) + num_rows(question) * sizeof *job->errors,
                    .batch = 1,
-                   .total = ps_interpolation_num_sets(question),
+                   .total = question->sampler != NULL ? ps_interpolation_num_sets(question) : 0,
+                   .are_sampled = question->sampler != NULL,
+                   .keeps_first = job->question->keeps_images,
                    .device = job->device},
         .take = take,
         .walk = walk,
         .spec = &question->limits.checkpoint};
+    const ps_row_tape *const tape = question->limits.checkpoint.tape;
+    if (tape != NULL && loop.stream.total == 1) {
+        return ps_range_refuse_one(&tape->range, question->num_realizations > 1, error);
+    }
     PS_TRY(PS_NEW(&job->rows, num_rows(question), "errors", error));
     if (num_images(question) > 0) {
         PS_TRY(ps_allocate_for(&job->images, num_images(question),

@@ -129,7 +129,7 @@ static void compare(work *self, uint64_t number, set_row *row) {
         const double off = seen - reference->seen[i];
         ps_sums_add(&row->pixels, off * off);
         ps_neumaier_add(&sum, seen);
-        if (number == 0) {
+        if (number == ps_row_tape_first(self->question->checkpoint.tape)) {
             self->result->seen[i] = seen;
         }
     }
@@ -214,6 +214,8 @@ static pspec_status add_all(work *self, ps_error *error) {
                    .row_bytes = sizeof(set_row),
                    .batch = 1,
                    .total = question->sampler != NULL ? question->num_realizations : 0,
+                   .are_sampled = question->sampler != NULL,
+                   .keeps_first = true,
                    .device = question->device},
         .take = take,
         .walk = walk,

@@ -75,7 +75,6 @@ static size_t choose_batch(const ps_quadrature_job *job) {
 /* Members of a team have rows of all rules; a rule alone is done by each. */
 static pspec_status begin_rows(ps_quadrature_job *job, ps_error *error) {
     const ps_quadrature_setup *const setup = &job->setup;
-    const bool is_alone = setup->num_realizations == 1;
     ps_row_stream *const stream = &job->stream;
     ps_row_stream_free(stream);
     *stream = (ps_row_stream){.job = job,
@@ -84,7 +83,7 @@ static pspec_status begin_rows(ps_quadrature_job *job, ps_error *error) {
                               .row_bytes = ps_quadrature_row_bytes(job),
                               .batch = job->rules.capacity,
                               .total = setup->num_realizations,
-                              .team = is_alone ? NULL : job->question->limits.checkpoint.team,
+                              .are_sampled = job->question->sampler != NULL,
                               .device = setup->device,
                               .chosen = setup->plan.chosen};
     if (setup->by_pairs) {
@@ -92,6 +91,8 @@ static pspec_status begin_rows(ps_quadrature_job *job, ps_error *error) {
         stream->take_largest = take_largest;
         stream->num_largest = PS_NUM_MEASURED;
     }
+    ps_row_stream_join(stream,
+                       setup->num_realizations == 1 ? NULL : &job->question->limits.checkpoint);
     return ps_row_stream_begin(stream, 0, error);
 }
 
@@ -166,6 +167,7 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
                                sizeof job->of_rules / sizeof(double), error));
     PS_TRY(ps_snapshot_doubles(snapshot, "degree_sums", (double *)job->sums,
                                NUMBERS * PS_RULE_SUMS * (job->setup.max_degree + 1), error));
+    PS_TRY(ps_row_stream_walk(&job->stream, snapshot, error));
     PS_TRY(job->question->observer.walk != NULL
                ? job->question->observer.walk(job->question->observer.payload, snapshot, error)
                : PSPEC_OK);
@@ -211,7 +213,11 @@ static pspec_status prepare(ps_quadrature_job *job, ps_error *error) {
     const ps_quadrature_question *const question = job->question;
     PS_TRY(ps_quadrature_setup_begin(&job->setup, question, error));
     PS_TRY(ps_rules_open(&job->rules, &job->shape, error));
-    return ps_quadrature_setup_make(&job->setup, question, &job->shape, error);
+    PS_TRY(ps_quadrature_setup_make(&job->setup, question, &job->shape, error));
+    const ps_row_tape *const tape = question->limits.checkpoint.tape;
+    return tape == NULL || job->setup.num_realizations != 1
+               ? PSPEC_OK
+               : ps_range_refuse_one(&tape->range, job->setup.needs.one_realization, error);
 }
 
 pspec_status ps_quadrature_job_create(ps_quadrature_job **out,

@@ -1,10 +1,9 @@
-#include "jobs/rows/row_stream.h"
+#include "jobs/rows/row_stream_private.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "device/kind.h"
 #include "math/larger.h"
-#include "store/checkpoint.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -26,59 +25,25 @@ typedef struct slot {
     double seconds; /* that they took */
 } slot;
 
-/* ---- memory ---------------------------------------------------------------------------------- */
+void ps_row_stream_join(ps_row_stream *stream, const ps_checkpoint_spec *spec) {
+    stream->team = spec != NULL ? spec->team : NULL;
+    stream->tape = spec != NULL ? spec->tape : NULL;
+    stream->part = spec != NULL ? spec->part : 0;
+}
 
-static pspec_status reserve(void *memory, size_t *room, size_t num, size_t bytes, const char *what,
-                            ps_error *error) {
-    char **const block = memory;
-    if (num <= *room) {
+/* The realizations of the range; there may be fewer of a job that is clipped. */
+static pspec_status begin_range(ps_row_stream *self, ps_error *error) {
+    const uint64_t all = self->total > 0 ? self->total : UINT64_MAX;
+    self->first = 0;
+    self->end = all;
+    self->keeps = self->tape != NULL && !self->tape->is_played && ps_team_is_led_here(self->team);
+    if (!ps_rows_are_ranged(self)) {
         return PSPEC_OK;
     }
-    free(*block);
-    *block = NULL;
-    *room = 0;
-    PS_TRY(ps_allocate_for(block, num, bytes, what, error));
-    *room = num;
-    return PSPEC_OK;
-}
-
-static pspec_status make_room(ps_row_stream *self, size_t num, ps_error *error) {
-    return reserve(&self->rows, &self->room, num, self->row_bytes, "rows of realizations", error);
-}
-
-void ps_row_stream_free(ps_row_stream *stream) {
-    free(stream->rows);
-    free(stream->slots);
-    stream->rows = stream->slots = NULL;
-    stream->room = stream->slots_room = 0;
-}
-
-/* ---- own rows -------------------------------------------------------------------------------- */
-
-static pspec_status pass_to(ps_row_stream *self, uint64_t position, ps_error *error) {
-    const uint64_t num = position - self->position;
-    uint64_t passed = num;
-    if (num == 0 || self->has_ended) {
-        return PSPEC_OK;
-    }
-    PS_TRY(self->pass != NULL ? self->pass(self->job, num, &passed, error) : PSPEC_OK);
-    self->position += passed;
-    self->has_ended = passed < num;
-    return PSPEC_OK;
-}
-
-/* As many as are wanted, unless there are fewer. */
-static pspec_status make(ps_row_stream *self, size_t wanted, char *rows, size_t *num,
-                         ps_error *error) {
-    for (*num = 0; *num < wanted && !self->has_ended;) {
-        size_t some = 0;
-        const size_t left = wanted - *num;
-        PS_TRY(self->make(self->job, self->position, left < self->batch ? left : self->batch,
-                          rows + *num * self->row_bytes, &some, error));
-        self->position += some;
-        self->has_ended = some == 0;
-        *num += some;
-    }
+    const ps_realization_range *const range = &self->tape->range;
+    PS_TRY(self->is_clipped ? PSPEC_OK : ps_range_check_end(range, all, self->are_sampled, error));
+    self->first = range->first < all ? range->first : all;
+    self->end = range->end < all ? range->end : all;
     return PSPEC_OK;
 }
 
@@ -91,8 +56,15 @@ pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done, ps_er
     stream->position = 0;
     stream->has_met = stream->has_ended = false;
     stream->each = FIRST_EACH;
-    PS_TRY(pass_to(stream, num_done, error));
-    return ps_checkpoint_check_sets(stream->position, num_done, error);
+    PS_TRY(begin_range(stream, error));
+    if (ps_rows_are_played(stream)) {
+        return ps_rows_begin_playing(stream, error);
+    }
+    if (num_done == 0) {
+        return PSPEC_OK; /* it may begin behind others, of a checkpoint, before there is a row */
+    }
+    PS_TRY(ps_rows_pass_to(stream, stream->first + num_done, error));
+    return ps_checkpoint_check_sets(stream->position, stream->first + num_done, error);
 }
 
 /* ---- those of all ---------------------------------------------------------------------------- */
@@ -164,9 +136,7 @@ static size_t numbers_bytes(const ps_row_stream *self) {
 
 /* Realizations of this round, of which every member has as many or one fewer. */
 static uint64_t count_round(const ps_row_stream *self, uint64_t most) {
-    const uint64_t left = self->total > 0 ? self->total - self->num_done : UINT64_MAX;
     const uint64_t wanted = (uint64_t)self->team->num * self->each;
-    most = most < left ? most : left;
     return most < wanted ? most : wanted;
 }
 
@@ -174,12 +144,12 @@ static pspec_status fill_slot(ps_row_stream *self, char *own, uint64_t round, ps
     const ps_team *const team = self->team;
     const uint64_t share = round / team->num;
     const uint64_t more = round % team->num; /* members that have one more */
-    const uint64_t before = team->own * share + (team->own < more ? team->own : more);
+    const uint64_t before = self->first + team->own * share + (team->own < more ? team->own : more);
     char *const rows = own + sizeof(slot) + numbers_bytes(self);
     const double begun = ps_clock_seconds();
     size_t num = 0;
-    PS_TRY(pass_to(self, self->num_done + before, error));
-    PS_TRY(make(self, (size_t)(share + (team->own < more)), rows, &num, error));
+    PS_TRY(ps_rows_pass_to(self, self->num_done + before, error));
+    PS_TRY(ps_rows_make(self, (size_t)(share + (team->own < more)), rows, &num, error));
     const slot head = {num, ps_clock_seconds() - begun};
     memcpy(own, &head, sizeof head);
     return self->measure != NULL
@@ -237,9 +207,8 @@ static pspec_status next_of_team(ps_row_stream *self, uint64_t most, size_t *num
         return PSPEC_OK;
     }
     PS_TRY(self->has_met ? PSPEC_OK : meet_first(self, error));
-    PS_TRY(reserve(&self->slots, &self->slots_room, team->num * slot_bytes, 1, "rows of members",
-                   error));
-    PS_TRY(make_room(self, (size_t)round, error));
+    PS_TRY(ps_rows_make_slots(self, team->num * slot_bytes, error));
+    PS_TRY(ps_rows_make_room(self, (size_t)round, error));
     PS_TRY(fill_slot(self, self->slots + team->own * slot_bytes, round, error));
     PS_TRY(team->exchange(team, PSPEC_OK, self->slots, slot_bytes, error));
     *num = take_rows(self, slot_bytes, &seconds);
@@ -250,15 +219,23 @@ static pspec_status next_of_team(ps_row_stream *self, uint64_t most, size_t *num
 
 pspec_status ps_row_stream_next(ps_row_stream *stream, uint64_t most, size_t *num,
                                 ps_error *error) {
-    const size_t batch = most < stream->batch ? (size_t)most : stream->batch;
+    const uint64_t left = stream->end - stream->first - stream->num_done;
+    const uint64_t wanted = most < left ? most : left;
+    const size_t batch = wanted < stream->batch ? (size_t)wanted : stream->batch;
     *num = 0;
-    if (stream->team != NULL) {
-        PS_TRY(next_of_team(stream, most, num, error));
-    } else {
-        PS_TRY(make_room(stream, batch, error));
+    if (ps_rows_are_played(stream)) {
+        PS_TRY(ps_rows_play(stream, batch, num, error));
+    } else if (stream->team != NULL) {
+        PS_TRY(next_of_team(stream, wanted, num, error));
+    } else if (batch > 0) {
+        PS_TRY(ps_rows_pass_to(stream, stream->first + stream->num_done, error));
+        PS_TRY(ps_rows_make_room(stream, batch, error));
         PS_TRY(stream->make(stream->job, stream->position, batch, stream->rows, num, error));
         stream->position += *num;
+        stream->has_ended = *num == 0;
     }
+    PS_TRY(ps_rows_keep(stream, *num, error));
+    PS_TRY(stream->keeps && *num == 0 ? ps_rows_end_keeping(stream, error) : PSPEC_OK);
     stream->num_done += *num;
     return PSPEC_OK;
 }

@@ -8,9 +8,10 @@
 #ifndef PS_JOBS_ROWS_ROW_STREAM_H
 #define PS_JOBS_ROWS_ROW_STREAM_H
 
-#include "base/process/team.h"
 #include "device/device.h"
+#include "spectra/row_tape.h"
 #include "plan/choose.h"
+#include "store/checkpoint.h"
 
 #include <stdint.h>
 
@@ -30,17 +31,26 @@ typedef struct ps_row_stream {
     void (*take_largest)(void *job, const double *numbers);
     size_t num_largest;
     size_t row_bytes;
-    size_t batch;        /* most rows of a call of make */
-    uint64_t total;      /* realizations; 0: nobody knows */
+    size_t batch;     /* most rows of a call of make */
+    uint64_t total;   /* realizations; 0: nobody knows */
+    bool is_whole;    /* its rows are of no realizations, whatever range is asked for */
+    bool is_clipped;  /* a range that ends beyond them is another job's, which refuses it */
+    bool are_sampled; /* realizations, by a sampler */
+    bool keeps_first; /* making the first leaves more than a row */
+    /* set by ps_row_stream_join, or none */
     const ps_team *team; /* NULL: nobody else */
+    ps_row_tape *tape;   /* NULL: rows are not kept */
+    unsigned part;       /* that the job is of the command */
     ps_device *device;   /* that bits depend on, so that all members have such a one; NULL: none */
     /* whose engine and precision they depend on, too; NULL: on none */
     const ps_candidate *chosen;
     /* rows of the last call */
     char *rows; /* [num][row_bytes] */
     /* while it runs */
-    uint64_t num_done; /* rows that the job has */
-    uint64_t position; /* of this member among the realizations */
+    uint64_t first, end; /* of the realizations, those of a range */
+    uint64_t num_done;   /* rows that the job has, from the first on */
+    uint64_t position;   /* of this member among the realizations */
+    bool keeps;          /* rows on the tape, as the member that leads does */
     bool has_met;
     bool has_ended; /* there are no more realizations */
     size_t each;    /* realizations of a member until they meet next */
@@ -49,6 +59,11 @@ typedef struct ps_row_stream {
     size_t slots_room; /* bytes */
 } ps_row_stream;
 
+/* Takes who does a job together, and what keeps its rows, of the spec; NULL: nobody, nothing. */
+void ps_row_stream_join(ps_row_stream *stream, const ps_checkpoint_spec *spec);
+/* Rows that are kept, to a checkpoint or from one, before the stream begins behind them. */
+pspec_status ps_row_stream_walk(ps_row_stream *stream, ps_snapshot *snapshot,
+                                ps_error *error) PS_MUST_CHECK;
 /* From the first realization on, or from behind num_done that the job has. */
 pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done,
                                  ps_error *error) PS_MUST_CHECK;

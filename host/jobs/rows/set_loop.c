@@ -8,6 +8,7 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
     PS_TRY(ps_snapshot_counts(snapshot, "loop", counts, 2, error));
     self->num_done = counts[0];
     self->is_complete = counts[1] != 0;
+    PS_TRY(ps_row_stream_walk(&self->stream, snapshot, error));
     return self->walk(self->stream.job, snapshot, error);
 }
 
@@ -26,7 +27,7 @@ static pspec_status open_checkpoint(ps_set_loop *self, ps_error *error) {
 static pspec_status begin(ps_set_loop *self, ps_error *error) {
     self->num_done = 0;
     self->is_complete = false;
-    self->stream.team = self->spec != NULL ? self->spec->team : NULL;
+    ps_row_stream_join(&self->stream, self->spec);
     if (self->spec != NULL && self->spec->path != NULL) {
         PS_TRY(open_checkpoint(self, error));
     }

@@ -53,6 +53,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         PS_TRY(ps_power_source_sampler(job, error));
     }
+    PS_TRY(ps_power_rows_check(job, error));
     const bool has_only_block_set = /* nothing tells beforehand that it is */
         question->on_sphere && !question->keeps_sets && question->harmonics != PS_NO_HARMONICS &&
         question->sampler == NULL && !job->sets.part.is_whole;
@@ -220,6 +221,12 @@ static bool count(void *payload, uint64_t *num) {
     return true;
 }
 
+static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {
+    ps_power_job *const job = payload;
+    return ps_power_rows_are_shared(job) ? ps_row_stream_walk(&job->stream, snapshot, error)
+                                         : PSPEC_OK;
+}
+
 static const ps_runner_kind kind = {.plan = plan,
                                     .options = choose_options,
                                     .begin = begin,
@@ -228,6 +235,7 @@ static const ps_runner_kind kind = {.plan = plan,
                                     .look = look_at_errors,
                                     .rewind = rewind_sets,
                                     .skip = skip,
+                                    .walk = walk,
                                     .count = count};
 
 static pspec_status find_c2(ps_power_job *job, ps_error *error) {

@@ -39,6 +39,8 @@ pspec_status ps_power_range_finish(ps_power_job *job, ps_error *error) PS_MUST_C
 bool ps_power_rows_are_enough(const ps_power_job *job);
 /* Are they shared? Then ps_runner_kind.give; and they go on behind the first num. */
 bool ps_power_rows_are_shared(const ps_power_job *job);
+/* Refuses a range of them where they are no rows. */
+pspec_status ps_power_rows_check(const ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_power_rows_give(ps_power_job *job, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
 pspec_status ps_power_rows_begin(ps_power_job *job, uint64_t num, ps_error *error) PS_MUST_CHECK;

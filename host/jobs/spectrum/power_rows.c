@@ -8,8 +8,21 @@ bool ps_power_rows_are_enough(const ps_power_job *job) {
 }
 
 bool ps_power_rows_are_shared(const ps_power_job *job) {
-    return ps_power_rows_are_enough(job) && job->question->limits.checkpoint.team != NULL &&
+    const ps_checkpoint_spec *const spec = &job->question->limits.checkpoint;
+    return ps_power_rows_are_enough(job) && (spec->team != NULL || spec->tape != NULL) &&
            job->num_realizations != 1;
+}
+
+pspec_status ps_power_rows_check(const ps_power_job *job, ps_error *error) {
+    const ps_row_tape *const tape = job->question->limits.checkpoint.tape;
+    if (tape == NULL || ps_power_rows_are_shared(job)) {
+        return PSPEC_OK;
+    }
+    return job->num_realizations == 1
+               ? ps_range_refuse_one(&tape->range, job->needs.one_realization, error)
+               : ps_range_refuse(&tape->range,
+                                 "is of sums over bins, and in one dimension there are none",
+                                 error);
 }
 
 /* ---- what the stream asks -------------------------------------------------------------------- */
@@ -55,9 +68,11 @@ pspec_status ps_power_rows_begin(ps_power_job *job, uint64_t num, ps_error *erro
                               .row_bytes = ps_estimator_row_bytes(job->runner.estimator),
                               .batch = job->sets.capacity,
                               .total = job->num_realizations,
-                              .team = job->question->limits.checkpoint.team,
+                              .are_sampled = job->question->sampler != NULL,
+                              .keeps_first = !job->question->accuracy.no_self_check,
                               .device = job->device,
                               .chosen = job->plan.chosen};
+    ps_row_stream_join(stream, &job->question->limits.checkpoint);
     return ps_row_stream_begin(stream, num, error);
 }
 

@@ -311,6 +311,7 @@ pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *varian
                                    .pass = pass,
                                    .row_bytes = plan->num_integrands * sizeof(double),
                                    .total = plan->num_sets,
+                                   .is_clipped = true,
                                    .device = plan->device},
                         .take = take,
                         .walk = walk,

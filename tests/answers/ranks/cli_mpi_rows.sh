@@ -25,10 +25,12 @@ is_as_one 2 check --engine host_direct --against "$PWD/sphere.npz" --lift hemisp
 is_as_one 5 quadrature --engine host_direct --sampler white-hemisphere -n 9,16 -m 41 --brdf diffuse -l 5
 is_as_one 3 quadrature --engine host_direct --sampler white-hemisphere -n 16 -m 9 --brdf glossy:n=5 -l 5 --weights optimal
 is_as_one 3 quadrature --engine host_direct --columns xyw --lift hemisphere --brdf diffuse -l 5 "$sets"
+is_as_one 3 quadrature --engine host_direct --sampler white-hemisphere -n 9 -m 20 --range 3:19 --brdf diffuse -l 5
 is_as_one 2 quadrature --engine host_direct --sampler fibonacci-hemisphere -n 16 -m 9 --brdf diffuse -l 5
 is_as_one 2 quadrature --engine host_direct --sampler white-hemisphere -n 9 -m 4000 --brdf diffuse -l 5 --standard-error 0.2
 is_as_one 3 shade --engine host_direct --sampler white-hemisphere -n 9 -m 20 --brdf diffuse --integrand "$light"
 is_as_one 2 interpolation --sampler white-sphere -n 16 -m 7 --integrand "$light" --smoothness 1.1,1.5
+is_as_one 2 interpolation --lift sphere --columns xyw --integrand "$light" "$sets"
 is_as_one 3 occlusion --mesh "$PWD/corner.obj" --image 8x8 --reference 64 --sampler white-sphere -n 4,9 -m 7
 if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     is_as_one 3 quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 -l 20

@@ -63,7 +63,7 @@ job=("${job[@]:1}")
 refuses 'goes beyond the realizations, of which there are 300 (--realizations)' "${job[@]}" --range 256:384
 refuses 'goes beyond the realizations, of which there are 300 (--realizations)' "${job[@]}" --range 384:512
 refuses 'must end at a multiple of 128 or with the last realization, 300' "${job[@]}" --range 0:200
-refuses '--range: 5:128 must begin with a multiple of 128' "${job[@]}" --range 5:128
+refuses '--range 5:128 must begin with a multiple of 128' "${job[@]}" --range 5:128
 refuses '--range: 128:128 has no realization' "${job[@]}" --range 128:128
 refuses '"128" is not A:B' "${job[@]}" --range 128
 refuses '"x" is not a whole number' "${job[@]}" --range x:128
@@ -76,8 +76,8 @@ files=(--engine host_direct --columns xyw -k 1 sets.txt)
 refuses 'goes beyond the realizations, of which there are 300' "${files[@]}" --range 256:384
 refuses 'goes beyond the realizations, of which there are 300' "${files[@]}" --range 384:512
 refuses 'must end at a multiple of 128 or with the last realization, 300' "${files[@]}" --range 256:299
-command=quadrature
-refuses '--range is not an option of this command' --sampler white-hemisphere -n 4 --brdf diffuse --range 0:128
+command=check
+refuses '--range is not an option of this command' --against whole.npz --sampler white -n 4 --range 0:128
 
 # Errors count in the whole job, also in what comes after a range that is passed over.
 awk '/^#/ { s++ } s == 200 && !/^#/ { $3 = 0 } { print }' sets.txt >zero.txt

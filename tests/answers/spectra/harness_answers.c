@@ -124,7 +124,7 @@ ps_answer answers_ask(const test_folder *folder, int first, int last, const char
 pspec_status answers_try_merge(ps_answer *out, size_t num, const ps_table *const *tables,
                                ps_error *error) {
     static const char *const names[] = {"the first", "the second", "the third"};
-    const ps_parts parts = {tables, names, num, "merge", NULL};
+    const ps_parts parts = {.tables = tables, .names = names, .num = num, .command_line = "merge"};
     return ps_answer_merge(out, &parts, error);
 }
 

@@ -1,7 +1,7 @@
 /* Words of the command line -> ps_request, by the table of options. */
-#include "base/memory.h"
+#include "answers/arguments.h"
+
 #include "base/text.h"
-#include "cli/command.h"
 #include "request/options.h"
 
 #include <ctype.h>
@@ -22,6 +22,38 @@ typedef struct shown_option {
     const char *text;
     int length;
 } shown_option;
+
+/* ---- what commands take ---------------------------------------------------------------------- */
+
+const char *ps_command_words(const ps_command *command, ps_option_id id) {
+    const char *const own = id == PS_OPTION_FORMAT    ? command->formats
+                            : id == PS_OPTION_WEIGHTS ? command->weights
+                                                      : NULL;
+    if (id == PS_OPTION_FORMAT && own == NULL) {
+        return ps_table_formats(command->has_words, command->has_late_rows);
+    }
+    return own != NULL ? own : ps_options[id].metavar;
+}
+
+const ps_command *ps_command_nearest(const ps_command *const *table, const char *name,
+                                     size_t *distance) {
+    const ps_command *nearest = NULL;
+    *distance = SIZE_MAX;
+    for (size_t i = 0; table[i] != NULL; i++) {
+        const size_t own = ps_name_distance(name, table[i]->name);
+        if (own < *distance) {
+            *distance = own;
+            nearest = table[i];
+        }
+    }
+    return nearest;
+}
+
+const char *ps_command_metavar(const ps_command *command, ps_option_id id) {
+    enum { MOST_LETTERS = 40 };
+    const char *const words = ps_command_words(command, id);
+    return words != NULL && strlen(words) > MOST_LETTERS ? "NAME" : words;
+}
 
 /* ---- what is wrong ------------------------------------------------------------------------- */
 
@@ -208,4 +240,50 @@ void ps_arguments_free(ps_request *arguments) {
     free(arguments->files);
     arguments->files = NULL;
     arguments->num_files = 0;
+}
+
+/* ---- a line that was kept -------------------------------------------------------------------- */
+
+bool ps_command_next_word(const char **at, const char **word, size_t *length) {
+    bool is_quoted = false;
+    const char *end = *at + strspn(*at, " ");
+    *word = end;
+    for (; *end != '\0' && (is_quoted || *end != ' '); end++) {
+        is_quoted = is_quoted != (*end == '\'');
+        end += *end == '\\' && !is_quoted && end[1] != '\0';
+    }
+    *length = (size_t)(end - *word);
+    *at = end;
+    return *length > 0;
+}
+
+/* What the quotes of a word mean; returns its end in `out`. */
+static char *unquote(char *out, const char *word, size_t length) {
+    bool is_quoted = false;
+    for (size_t i = 0; i < length; i++) {
+        if (word[i] == '\'') {
+            is_quoted = !is_quoted;
+        } else {
+            i += word[i] == '\\' && !is_quoted && i + 1 < length;
+            *out++ = word[i];
+        }
+    }
+    *out++ = '\0';
+    return out;
+}
+
+pspec_status ps_command_split(char ***out, int *num, ps_pool *memory, const char *line,
+                              ps_error *error) {
+    const size_t most = strlen(line) / 2 + 1; /* words have a blank between them */
+    const char *word = NULL;
+    char *next = NULL;
+    size_t length = 0;
+    *num = 0;
+    PS_TRY(PS_POOL_NEW(memory, out, most, "words", error));
+    PS_TRY(PS_POOL_NEW(memory, &next, strlen(line) + 1, "words", error));
+    while (ps_command_next_word(&line, &word, &length)) {
+        (*out)[(*num)++] = next;
+        next = unquote(next, word, length);
+    }
+    return PSPEC_OK;
 }
