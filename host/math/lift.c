@@ -1,7 +1,7 @@
 #include "math/lift.h"
 
 #include "base/wide.h"
-#include "math/sphere_point.h"
+#include "shared/sphere_point.h"
 
 #include <math.h>
 

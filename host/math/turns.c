@@ -1,6 +1,6 @@
 #include "math/turns.h"
 
-#include "math/sphere_point.h"
+#include "shared/sphere_point.h"
 
 #include <math.h>
 

@@ -277,7 +277,8 @@ pspec_status ps_sampler_fill_places(const ps_sampler_request *request, ps_sample
     const ps_sampler_by_index *const by_index = &request->sampler->by_index;
     *out =
         (ps_sampler_places){.numbers = {.seed = request->seed, .num_points = request->num_points}};
-    return by_index->fill != NULL ? by_index->fill(request, out, error) : PSPEC_OK;
+    const ps_sampler_request own = own_request(request);
+    return by_index->fill != NULL ? by_index->fill(&own, out, error) : PSPEC_OK;
 }
 
 void ps_sampler_identify(const ps_sampler_request *request, ps_text *out) {

@@ -106,6 +106,9 @@ typedef struct ps_sampler_by_index {
     /* The same function, for the host. */
     void (*places)(const sampler_numbers *, const uint32_t *table, uint32_t dimension,
                    uint64_t realization, uint64_t j, uint64_t *places);
+    /* The same in the plane, NAME_coordinates, from which points of the sphere are lifted; NULL:
+     * the host makes them. */
+    void (*coordinates)(const sampler_numbers *, uint64_t realization, uint64_t j, double *x);
 } ps_sampler_by_index;
 
 struct ps_sampler {

@@ -1,6 +1,7 @@
 #include "sets/device_sets.h"
 
 #include "base/memory.h"
+#include "shared/sphere_point.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,25 +12,41 @@ struct ps_device_sets {
     ps_device *device;
     ps_kernel *kernel;
     ps_buffer table;
+    bool is_on_sphere;
 };
 
-bool ps_device_sets_serve(const ps_sampler_request *request, const ps_device_limits *limits) {
+static bool is_known(const ps_sampler_request *request, bool has_doubles) {
     const ps_sampler_by_index *const by_index = &request->sampler->by_index;
-    const bool has_numbers = limits != NULL && (limits->has_fp64 || !by_index->needs_doubles);
+    if (ps_sampler_is_on_sphere(request)) {
+        return by_index->coordinates != NULL && request->morph.kind == PS_MORPH_NONE && has_doubles;
+    }
+    return by_index->places != NULL && (has_doubles || !by_index->needs_doubles);
+}
+
+bool ps_device_sets_serve(const ps_sampler_request *request, const ps_device_limits *limits) {
     /* products of an index and a step have 64 bits */
-    return by_index->name != NULL && has_numbers && limits->has_dedicated_local_memory &&
-           !ps_sampler_is_on_sphere(request) && !request->homogenize &&
+    return limits != NULL && limits->has_dedicated_local_memory &&
+           is_known(request, limits->has_fp64) && !request->homogenize &&
            request->num_points <= UINT32_MAX;
 }
 
 static pspec_status create(ps_device_sets *self, ps_error *error) {
     ps_defines defines = {""};
-    const ps_sampler_by_index *const by_index = &self->request.sampler->by_index;
-    PS_TRY(ps_sampler_fill_places(&self->request, &self->places, error));
-    ps_defines_add(&defines, "-DPOINTS=%s -DDIMENSION=%u -DDOUBLES=%d", by_index->name,
-                   self->request.dimension, by_index->needs_doubles);
-    PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/points.cl", "sampler_points",
-                         defines.text, error));
+    const ps_sampler_request *const request = &self->request;
+    const ps_sampler_by_index *const by_index = &request->sampler->by_index;
+    self->is_on_sphere = ps_sampler_is_on_sphere(request);
+    PS_TRY(ps_sampler_fill_places(request, &self->places, error));
+    if (self->is_on_sphere) {
+        ps_defines_add(&defines, "-DPOINTS=%s -DON_HEMISPHERE=%d", by_index->name,
+                       ps_sampler_is_on_hemisphere(request));
+        PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/sphere_points.cl",
+                             "sampler_sphere_points", defines.text, error));
+    } else {
+        ps_defines_add(&defines, "-DPOINTS=%s -DDIMENSION=%u -DDOUBLES=%d", by_index->name,
+                       request->dimension, by_index->needs_doubles);
+        PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/points.cl", "sampler_points",
+                             defines.text, error));
+    }
     return ps_buffer_upload(self->device, &self->table, self->places.table,
                             sizeof self->places.table, "a table of a sampler", error);
 }
@@ -75,19 +92,31 @@ pspec_status ps_device_sets_write(ps_device_sets *sets, const sampler_range *ran
                      PS_STRUCT(*range), PS_BUFFER(sets->table), PS_BUFFER(*out));
 }
 
+/* On the sphere, whose engines take doubles, exactly. */
+static void make_point(const ps_device_sets *self, uint64_t realization, size_t j, double *point) {
+    const ps_sampler_by_index *const by_index = &self->request.sampler->by_index;
+    const sampler_numbers *const numbers = &self->places.numbers;
+    uint64_t places[PS_MAX_DIMENSION];
+    double x[SAMPLER_PLANE];
+    if (self->is_on_sphere) {
+        by_index->coordinates(numbers, realization, j, x);
+        ps_sphere_point_of_area(ps_sampler_is_on_hemisphere(&self->request), x[0], x[1], point);
+        return;
+    }
+    by_index->places(numbers, self->places.table[0], self->request.dimension, realization, j,
+                     places);
+    for (unsigned i = 0; i < self->request.dimension; i++) {
+        point[i] = ldexp((double)places[i], -64);
+    }
+}
+
 pspec_status ps_device_sets_beginning(const ps_device_sets *sets, uint64_t realization, size_t num,
                                       double *points, ps_error *error) {
-    const unsigned dimension = sets->request.dimension;
     if (num == sets->request.num_points) {
         return ps_sampler_generate(&sets->request, realization, points, NULL, NULL, error);
     }
     for (size_t j = 0; j < num; j++) {
-        uint64_t places[PS_MAX_DIMENSION];
-        sets->request.sampler->by_index.places(&sets->places.numbers, sets->places.table[0],
-                                               dimension, realization, j, places);
-        for (unsigned i = 0; i < dimension; i++) {
-            points[j * dimension + i] = ldexp((double)places[i], -64);
-        }
+        make_point(sets, realization, j, points + j * sets->request.dimension);
     }
     return PSPEC_OK;
 }

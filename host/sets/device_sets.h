@@ -1,5 +1,6 @@
 /* Realizations of a sampler whose points are known by their index, made by a kernel where engines
- * read them (kernels/samplers/points.cl), with the bits that the host makes and converts.
+ * read them (kernels/samplers/points.cl, sphere_points.cl), with the bits that the host makes and,
+ * on the torus, converts.
  */
 #ifndef PS_SETS_DEVICE_SETS_H
 #define PS_SETS_DEVICE_SETS_H
@@ -23,8 +24,9 @@ void ps_device_sets_destroy(ps_device_sets *sets); /* NULL is allowed */
 uint64_t ps_device_sets_points(const ps_device_sets *sets);
 unsigned ps_device_sets_dimension(const ps_device_sets *sets);
 
-/* Writes coordinates as multiples of 2^-64, [realization][range.count][dimension], to the beginning
- * of the buffer: launched, not waited for. range.step <= the number of points. */
+/* Writes coordinates, on the torus as multiples of 2^-64, on the sphere as doubles,
+ * [realization][range.count][dimension], to the beginning of the buffer: launched, not waited for.
+ * range.step <= the number of points. */
 pspec_status ps_device_sets_write(ps_device_sets *sets, const sampler_range *range,
                                   const ps_buffer *out, ps_error *error) PS_MUST_CHECK;
 

@@ -1,6 +1,7 @@
 /* What makes the points of samplers whose points are known by their index alone, for host and
  * device: NAME_places of samplers/NAME.h writes the coordinates of point j of a realization as
- * multiples of 2^-64, the bits of ps_fixed_point of what the sampler makes on the host.
+ * multiples of 2^-64, the bits of ps_fixed_point of what the sampler makes on the host. For points
+ * of the sphere NAME_coordinates has those of the plane as doubles, on devices that have such.
  */
 #ifndef PS_SAMPLERS_NUMBERS_H
 #define PS_SAMPLERS_NUMBERS_H
@@ -9,6 +10,7 @@
 #include "shared/philox.h"
 
 #define SAMPLER_AXES 6    /* PS_MAX_DIMENSION */
+#define SAMPLER_PLANE 2   /* axes of the plane, from which the sphere's points are lifted */
 #define SAMPLER_DIGITS 32 /* of a digital net: numbers of its table for each axis */
 #define SAMPLER_DROP 11   /* 64 bits of a place - 53 of a double */
 

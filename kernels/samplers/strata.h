@@ -42,6 +42,14 @@ SAMPLER_INLINE void stratum_cell(const sampler_numbers *of, const ps_u32 dimensi
     }
 }
 
+/* Of axis i, where words are those of the axis before. */
+SAMPLER_INLINE double jittered_coordinate(const sampler_numbers *of, const philox_stream stream,
+                                          const ps_u32 dimension, const ps_u64 j, const ps_u32 i,
+                                          const ps_u64 cell, ps_u32 *words) {
+    const ps_u64 digits = philox_next(stream, j * dimension + i, i == 0, words);
+    return stratum_point((double)cell, (double)digits * 0x1p-53, (double)of->counts[i]);
+}
+
 SAMPLER_INLINE void jittered_places(const sampler_numbers *of, SAMPLER_TABLE table,
                                     const ps_u32 dimension, const ps_u64 realization,
                                     const ps_u64 j, ps_u64 *places) {
@@ -51,9 +59,18 @@ SAMPLER_INLINE void jittered_places(const sampler_numbers *of, SAMPLER_TABLE tab
     (void)table;
     stratum_cell(of, dimension, j, cell);
     SAMPLER_FOR(ps_u32 i = 0; i < dimension; i++) {
-        const ps_u64 digits = philox_next(stream, j * dimension + i, i == 0, words);
-        places[i] = fixed_point(
-            stratum_point((double)cell[i], (double)digits * 0x1p-53, (double)of->counts[i]));
+        places[i] = fixed_point(jittered_coordinate(of, stream, dimension, j, i, cell[i], words));
+    }
+}
+
+SAMPLER_INLINE void jittered_coordinates(const sampler_numbers *of, const ps_u64 realization,
+                                         const ps_u64 j, double *x) {
+    const philox_stream stream = {of->seed, realization, PHILOX_COORDINATES};
+    ps_u32 words[PHILOX_WORDS];
+    ps_u64 cell[SAMPLER_AXES];
+    stratum_cell(of, SAMPLER_PLANE, j, cell);
+    SAMPLER_FOR(ps_u32 i = 0; i < SAMPLER_PLANE; i++) {
+        x[i] = jittered_coordinate(of, stream, SAMPLER_PLANE, j, i, cell[i], words);
     }
 }
 

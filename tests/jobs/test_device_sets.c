@@ -12,8 +12,8 @@ static ps_device *device;
 typedef struct job_case {
     const char *sampler, *engine;
     size_t num_points;
-    unsigned dimension;
-    int32_t max_frequency;
+    unsigned dimension;    /* 3: where the sampler is on the sphere, unit vectors */
+    int32_t max_frequency; /* or degree */
     uint64_t num_realizations;
     double tolerance;
 } job_case;
@@ -23,6 +23,13 @@ static const job_case cases[] = {
     {"jittered", "torus_nufft", 108, 2, 12, 9, 1e-5},
     {"sobol:scramble=owen", "torus_direct", 33, 3, 3, 3, 1e-12},
     {"white", "torus_nufft", PS_SELF_CHECK_POINTS + 1001, 2, 8, 1, 1e-3}, /* comes in parts */
+    {"white-sphere", "sphere_nufft", 61, 3, 9, 300, 1e-5},
+    {"white-hemisphere", "sphere_grid", 64, 3, 8, 9, 1e-5},
+    {"zphi", "sphere_nufft", 48, 3, 12, 9, 1e-9},
+    {"zphi", "sphere_grid", 3072, 3, 12, 2, 1e-9},
+    {"jittered:lift=hemisphere", "sphere_nufft", 36, 3, 12, 5, 1e-5},
+    {"white:lift=sphere", "sphere_nufft", PS_SELF_CHECK_POINTS + 1001, 3, 70, 1, 1e-3},
+    {"zphi", "sphere_nufft", 200000, 3, 40, 1, 1e-5},
 };
 
 /* Launches of the kernel that makes points, so far. */
@@ -31,7 +38,9 @@ static uint64_t count_launches(void) {
     uint64_t launches = 0;
     const ps_profile_row *const rows = ps_device_profile(device, &num);
     for (size_t i = 0; i < num; i++) {
-        launches += strcmp(rows[i].kernel, "sampler_points") == 0 ? rows[i].launches : 0;
+        const bool makes_points = strcmp(rows[i].kernel, "sampler_points") == 0 ||
+                                  strcmp(rows[i].kernel, "sampler_sphere_points") == 0;
+        launches += makes_points ? rows[i].launches : 0;
     }
     return launches;
 }
@@ -43,8 +52,12 @@ static ps_power_job *run(const job_case *one, bool with_picture) {
         .num_points = one->num_points, .dimension = one->dimension, .seed = UINT64_C(7) << 33};
     assert_ok(ps_sampler_parse(&request, one->sampler, error));
     assert_ok(ps_sampler_resolve(&request, error));
+    const bool on_sphere = ps_sampler_is_on_sphere(&request);
     const ps_power_question question = {
         .sampler = &request,
+        .on_sphere = on_sphere,
+        .on_hemisphere = ps_sampler_is_on_hemisphere(&request),
+        .max_degree = on_sphere ? one->max_frequency : 0,
         .num_realizations = one->num_realizations,
         .frequencies = {.max_frequency = one->max_frequency},
         .accuracy = {.tolerance = one->tolerance},

@@ -7,6 +7,7 @@ bool ps_power_job_leaves_points(const ps_power_job *job) {
     const ps_candidate *const chosen = job->plan.chosen;
     return question->sampler != NULL && chosen != NULL && chosen->engine->takes_sets &&
            !question->keeps_first && question->harmonics == PS_NO_HARMONICS &&
+           !question->keeps_sets && !question->wants_pair_sums && !question->is_turned &&
            job->sets.weights == NULL &&
            ps_device_sets_serve(&job->request, ps_device_get_limits(job->device));
 }

@@ -6,6 +6,7 @@
 
 #include "math/pi.h"
 #include "samplers/pace.h"
+#include "samplers/strata.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -95,6 +96,11 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return ps_sampler_lift(request, false, points, error);
 }
 
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    return resolve_strata(request, out->numbers.counts, error);
+}
+
 const ps_sampler ps_sampler_zphi = {
     .name = "zphi",
     .summary = "one uniform point in each cell of equal height by equal azimuth",
@@ -107,4 +113,5 @@ const ps_sampler ps_sampler_zphi = {
     .most_power = ps_sampler_white_power,
     .check = check,
     .generate = generate,
+    .by_index = {.name = "jittered", .fill = fill, .coordinates = jittered_coordinates},
 };

@@ -43,5 +43,6 @@ const ps_sampler ps_sampler_jittered = {
     .by_index = {.name = "jittered",
                  .needs_doubles = true,
                  .fill = fill,
-                 .places = jittered_places},
+                 .places = jittered_places,
+                 .coordinates = jittered_coordinates},
 };

@@ -21,5 +21,5 @@ const ps_sampler ps_sampler_white = {
     .is_deterministic = ps_sampler_never,
     .most_power = ps_sampler_white_power,
     .generate = generate,
-    .by_index = {.name = "white", .places = white_places},
+    .by_index = {.name = "white", .places = white_places, .coordinates = white_coordinates},
 };

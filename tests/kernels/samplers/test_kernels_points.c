@@ -26,11 +26,16 @@ static const char *const others[] = {
     "halton:start=123456789012",
 };
 
-/* By the sampler's own words, then as engines convert them. */
+/* By the sampler's own words, then as engines of the torus convert them; on the sphere as they are.
+ */
 static void make_on_host(const ps_sampler_request *request, uint64_t number, uint64_t *places) {
+    const bool on_sphere = ps_sampler_is_on_sphere(request);
     double *const points = generate_points(request, number);
     for (size_t i = 0; i < request->num_points * request->dimension; i++) {
-        places[i] = ps_fixed_point(points[i]);
+        places[i] = on_sphere ? 0 : ps_fixed_point(points[i]);
+    }
+    if (on_sphere) {
+        memcpy(places, points, request->num_points * request->dimension * sizeof *points);
     }
     free(points);
 }
@@ -109,13 +114,28 @@ static void points_have_the_bits_of_the_host(void **state) {
     check_text("sobol:scramble=owen", PS_MAX_DIMENSION);
 }
 
+static void points_of_the_sphere_have_them_too(void **state) {
+    static const char *const texts[] = {"white-sphere",
+                                        "white-hemisphere",
+                                        "zphi",
+                                        "white:lift=sphere",
+                                        "white:lift=hemisphere",
+                                        "jittered:lift=sphere",
+                                        "jittered:lift=hemisphere"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        check_text(texts[i], PS_VECTOR_DIMENSION);
+    }
+}
+
 /* Of a part of a set the host makes the points by index, too. */
 static void beginnings_are_those_of_the_host(void **state) {
     (void)state;
     enum { D = 3, FEW = 20 };
-    static const char *const texts[] = {"white", "jittered", "halton", "hammersley", "sobol"};
+    static const char *const texts[] = {"white", "jittered",     "halton", "hammersley",
+                                        "sobol", "white-sphere", "zphi"};
     for (size_t s = 0; s < sizeof texts / sizeof texts[0]; s++) {
-        ps_sampler_request request = make_request(texts[s], 64, D);
+        ps_sampler_request request = make_request(texts[s], s < 5 ? 64 : 48, D);
         request.seed = seed;
         double *const points = generate_points(&request, realization);
         double some[D * FEW];
@@ -124,7 +144,9 @@ static void beginnings_are_those_of_the_host(void **state) {
             assert_ok(ps_device_sets_create(&sets, &request, device, error));
             assert_ok(ps_device_sets_beginning(sets, realization, FEW, some, error));
             for (size_t i = 0; i < D * FEW; i++) {
-                assert_true(ps_fixed_point(some[i]) == ps_fixed_point(points[i]));
+                assert_true(ps_sampler_is_on_sphere(&request)
+                                ? some[i] == points[i]
+                                : ps_fixed_point(some[i]) == ps_fixed_point(points[i]));
             }
             ps_device_sets_destroy(sets);
         }
@@ -141,6 +163,8 @@ static void others_are_made_by_the_host(void **state) {
     const ps_sampler_request jittered = make_request("jittered", 9, 2);
     const ps_sampler_request latin = make_request("latin-hypercube", 9, 2);
     const ps_sampler_request lifted = make_request("white:lift=sphere", 9, 3);
+    const ps_sampler_request net = make_request("sobol:lift=sphere", 9, 3);
+    const ps_sampler_request morphed = make_request("white-hemisphere:morph=diffuse", 9, 3);
     assert_true(ps_device_sets_serve(&white, &gpu));
     assert_true(ps_device_sets_serve(&white, &without_doubles));
     assert_true(ps_device_sets_serve(&jittered, &gpu));
@@ -148,7 +172,10 @@ static void others_are_made_by_the_host(void **state) {
     assert_false(ps_device_sets_serve(&white, &cpu));
     assert_false(ps_device_sets_serve(&white, NULL));
     assert_false(ps_device_sets_serve(&latin, &gpu));
-    assert_false(ps_device_sets_serve(&lifted, &gpu));
+    assert_true(ps_device_sets_serve(&lifted, &gpu));
+    assert_false(ps_device_sets_serve(&lifted, &without_doubles));
+    assert_false(ps_device_sets_serve(&net, &gpu));
+    assert_false(ps_device_sets_serve(&morphed, &gpu));
     white.num_points = (size_t)UINT32_MAX + 1;
     assert_false(ps_device_sets_serve(&white, &gpu));
     white.num_points = 9;
@@ -159,6 +186,7 @@ static void others_are_made_by_the_host(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_have_the_bits_of_the_host),
+        cmocka_unit_test(points_of_the_sphere_have_them_too),
         cmocka_unit_test(beginnings_are_those_of_the_host),
         cmocka_unit_test(others_are_made_by_the_host),
     };

@@ -124,7 +124,8 @@ pspec_status ps_sphere_places_lend(ps_sphere_places *points, const pspec_pattern
                                    ps_error *error) {
     const size_t bytes = pattern->num_points * PS_SPHERE_DIMENSION * sizeof(double);
     const ps_device_limits *limits = ps_device_get_limits(points->device);
-    if (!limits->has_unified_memory || bytes > limits->max_allocation_bytes) {
+    const bool are_made = pattern->points == NULL;
+    if (are_made || !limits->has_unified_memory || bytes > limits->max_allocation_bytes) {
         return PSPEC_OK;
     }
     points->lent_points = pattern->points;
@@ -157,31 +158,52 @@ static pspec_status look_at_lent(ps_sphere_places *self, const pspec_pattern *so
                                  num_offsets_of_one * sizeof(uint64_t), error);
 }
 
-static void copy_points(ps_sphere_places *self, double *vectors, const ps_batch *batch) {
-    size_t at = 0;
+static void set_offsets(ps_sphere_places *self, const ps_batch *batch) {
+    uint64_t at = 0;
     for (size_t r = 0; r < batch->num_patterns; r++) {
-        const pspec_pattern *pattern = &batch->patterns[r];
         self->host_offsets[r] = at;
-        memcpy(vectors + at * PS_SPHERE_DIMENSION, pattern->points,
-               pattern->num_points * PS_SPHERE_DIMENSION * sizeof(double));
-        at += pattern->num_points;
+        at += batch->patterns[r].num_points;
     }
     self->host_offsets[batch->num_patterns] = at;
+}
+
+static void copy_points(const ps_sphere_places *self, double *vectors, const ps_batch *batch) {
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const pspec_pattern *pattern = &batch->patterns[r];
+        memcpy(vectors + self->host_offsets[r] * PS_SPHERE_DIMENSION, pattern->points,
+               pattern->num_points * PS_SPHERE_DIMENSION * sizeof(double));
+    }
+}
+
+/* The device makes the points itself; patterns are whole sets, or one is a part of a set. */
+static pspec_status make_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
+    const sampler_range range = {.realization = batch->realization,
+                                 .num_realizations = batch->num_patterns,
+                                 .begin = batch->first_point,
+                                 .step = 1,
+                                 .count = batch->patterns[0].num_points};
+    ps_feed_leave(&self->vectors);
+    return ps_device_sets_write(batch->sets, &range, &self->vectors.filled, error);
+}
+
+static pspec_status copy_all(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
+    void *vectors = NULL;
+    PS_TRY(ps_feed_begin(&self->vectors, &vectors, error));
+    copy_points(self, vectors, batch);
+    return ps_feed_end(
+        &self->vectors,
+        self->host_offsets[batch->num_patterns] * PS_SPHERE_DIMENSION * sizeof(double), error);
 }
 
 /* All patterns in one go: a write of its own for each woke a thread of the driver for each, which
  * took as long as the transforms of 256 points. */
 static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
-    void *vectors = NULL;
     if (self->lent.memory != NULL) {
         return look_at_lent(self, batch->patterns, error);
     }
     self->first_point = 0;
-    PS_TRY(ps_feed_begin(&self->vectors, &vectors, error));
-    copy_points(self, vectors, batch);
-    PS_TRY(ps_feed_end(
-        &self->vectors,
-        self->host_offsets[batch->num_patterns] * PS_SPHERE_DIMENSION * sizeof(double), error));
+    set_offsets(self, batch);
+    PS_TRY(batch->sets != NULL ? make_points(self, batch, error) : copy_all(self, batch, error));
     return ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);
 }

@@ -180,11 +180,12 @@ static pspec_status add_chunks(ps_sphere_state *self, const ps_batch *one, ps_er
     for (size_t at = 0; at < pattern->num_points; at += most) {
         const size_t left = pattern->num_points - at;
         pspec_pattern chunk = *pattern;
-        chunk.points += at * PS_SPHERE_DIMENSION;
+        chunk.points = one->sets != NULL ? NULL : pattern->points + at * PS_SPHERE_DIMENSION;
         chunk.weights = pattern->weights != NULL ? pattern->weights + at : NULL;
         chunk.num_points = left < most ? left : most;
         ps_batch some = *one;
         some.patterns = &chunk;
+        some.first_point = one->first_point + at;
         PS_TRY(ps_batch_go_on(one, error));
         PS_TRY(ps_sphere_places_make(&self->points, &some, error));
         PS_TRY(left <= most ? ps_sphere_places_return(&self->points, error) : PSPEC_OK);

@@ -1,11 +1,13 @@
 /* A point of the sphere from its height and azimuth, by + - * and sqrt alone: the same bits on any
- * machine.
+ * machine, and on devices with doubles.
  */
-#ifndef PS_MATH_SPHERE_POINT_H
-#define PS_MATH_SPHERE_POINT_H
+#ifndef PS_SHARED_SPHERE_POINT_H
+#define PS_SHARED_SPHERE_POINT_H
 
+#ifndef __OPENCL_C_VERSION__
 #include <math.h>
 #include <stdbool.h>
+#endif
 
 /* Taylor's series of sin(2 pi x) / x - 2 pi and of cos(2 pi x) in x^2, up to |x| = 1/8 of a turn:
  * what is left out is below 9e-20 and 3e-18. 2 pi itself has a low part, so that one rounding of
