@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { MOST_MEMBERS = 5, ROWS = 403, BATCH = 3 };
 
@@ -49,6 +50,7 @@ typedef struct job {
     uint64_t begin;    /* the number of its first row */
     double largest;
     bool has_nan;
+    bool is_slow; /* so that others make more */
     uint64_t num_taken;
     bool is_in_order;
     pspec_status status;
@@ -60,7 +62,11 @@ static pspec_status make(void *payload, uint64_t first, size_t most, void *rows,
     job *const self = payload;
     row *const out = rows;
     (void)error;
+    const struct timespec a_while = {.tv_nsec = 40000000};
     self->is_in_order = self->is_in_order && first == self->at && most <= BATCH;
+    if (self->is_slow) {
+        nanosleep(&a_while, NULL);
+    }
     for (*num = 0; *num < most && self->at < ROWS; (*num)++) {
         const double number = (double)self->at;
         out[*num] = (row){self->at++, number * number};
@@ -172,6 +178,26 @@ static void members_share_the_work(void **state) {
         assert_in_range(jobs[i].num_made, ROWS / MOST_MEMBERS - 8, ROWS / MOST_MEMBERS + 8);
         assert_true(jobs[i].largest == ROWS); /* of whoever made the last one */
     }
+}
+
+/* Who makes how many is nobody's business. */
+static void a_slow_member_changes_nothing(void **state) {
+    enum { MEMBERS = 3 };
+    job jobs[MEMBERS];
+    uint64_t made = 0;
+    (void)state;
+    for (size_t i = 0; i < MEMBERS; i++) {
+        begin(&jobs[i], i, MEMBERS, 0, UINT64_MAX);
+        jobs[i].is_slow = i == 1;
+    }
+    run_all(jobs, MEMBERS);
+    for (size_t i = 0; i < MEMBERS; i++) {
+        assert_int_equal(jobs[i].status, PSPEC_OK);
+        assert_true(jobs[i].is_in_order);
+        assert_int_equal(jobs[i].num_taken, ROWS);
+        made += jobs[i].num_made;
+    }
+    assert_int_equal(made, ROWS);
 }
 
 static void jobs_go_on_behind_what_they_have(void **state) {
@@ -328,6 +354,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_are_those_of_one),
         cmocka_unit_test(members_share_the_work),
+        cmocka_unit_test(a_slow_member_changes_nothing),
         cmocka_unit_test(jobs_go_on_behind_what_they_have),
         cmocka_unit_test(nan_is_the_largest),
         cmocka_unit_test(members_that_differ_are_refused_by_all),

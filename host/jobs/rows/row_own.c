@@ -32,7 +32,9 @@ pspec_status ps_rows_make_slots(ps_row_stream *self, size_t bytes, ps_error *err
 void ps_row_stream_free(ps_row_stream *stream) {
     free(stream->rows);
     free(stream->slots);
+    free(stream->shares);
     stream->rows = stream->slots = NULL;
+    stream->shares = NULL;
     stream->room = stream->slots_room = 0;
 }
 

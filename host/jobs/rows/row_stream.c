@@ -13,7 +13,7 @@
 /* Members meet after about so long, which is long beside a message and short beside a job; the
  * first times sooner, as nobody knows how long a realization takes. */
 static const double ROUND_SECONDS = 1;
-enum { FIRST_EACH = 1, MOST_GROWTH = 8, MOST_BYTES = 64 << 20 };
+enum { FIRST_SHARE = 1, MOST_GROWTH = 8, MOST_BYTES = 64 << 20 };
 
 /* Where a row of each member takes more, as pictures of many pixels do under hundreds of ranks,
  * each member makes all rows itself. */
@@ -47,6 +47,17 @@ static pspec_status begin_range(ps_row_stream *self, ps_error *error) {
     return PSPEC_OK;
 }
 
+static pspec_status begin_shares(ps_row_stream *self, ps_error *error) {
+    const size_t num = self->team->num;
+    if (self->shares == NULL) {
+        PS_TRY(PS_NEW(&self->shares, 2 * num, "members of a team", error));
+    }
+    for (size_t i = 0; i < num; i++) {
+        self->shares[i] = FIRST_SHARE;
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done, ps_error *error) {
     const ps_team *const team = stream->team;
     if (team != NULL && (double)team->num * (double)stream->row_bytes > MOST_SLOT_BYTES) {
@@ -55,7 +66,7 @@ pspec_status ps_row_stream_begin(ps_row_stream *stream, uint64_t num_done, ps_er
     stream->num_done = num_done;
     stream->position = 0;
     stream->has_met = stream->has_ended = false;
-    stream->each = FIRST_EACH;
+    PS_TRY(stream->team != NULL ? begin_shares(stream, error) : PSPEC_OK);
     PS_TRY(begin_range(stream, error));
     if (ps_rows_are_played(stream)) {
         return ps_rows_begin_playing(stream, error);
@@ -134,22 +145,47 @@ static size_t numbers_bytes(const ps_row_stream *self) {
     return self->num_largest * sizeof(double);
 }
 
-/* Realizations of this round, of which every member has as many or one fewer. */
-static uint64_t count_round(const ps_row_stream *self, uint64_t most) {
-    const uint64_t wanted = (uint64_t)self->team->num * self->each;
-    return most < wanted ? most : wanted;
+/* Deals the realizations of this round, in the order of the members: as many as they may have, or
+ * in these proportions where there are fewer. Returns how many they are. */
+static uint64_t deal_round(const ps_row_stream *self, uint64_t most) {
+    const size_t num = self->team->num;
+    const uint64_t *const wanted = self->shares;
+    uint64_t *const given = self->shares + num;
+    uint64_t all = 0;
+    uint64_t dealt = 0;
+    for (size_t i = 0; i < num; i++) {
+        all += wanted[i];
+    }
+    const double part = most < all ? (double)most / (double)all : 1;
+    uint64_t sum = 0;
+    for (size_t i = 0; i < num; i++) { /* up to a place: nothing is left over by rounding */
+        sum += wanted[i];
+        const uint64_t end = i + 1 < num ? (uint64_t)(part * (double)sum) : most < all ? most : all;
+        given[i] = end - dealt;
+        dealt = end;
+    }
+    return dealt;
 }
 
-static pspec_status fill_slot(ps_row_stream *self, char *own, uint64_t round, ps_error *error) {
+/* Of those members before this one, with it. */
+static uint64_t count_before(const ps_row_stream *self, size_t end) {
+    const uint64_t *const given = self->shares + self->team->num;
+    uint64_t num = 0;
+    for (size_t i = 0; i < end; i++) {
+        num += given[i];
+    }
+    return num;
+}
+
+static pspec_status fill_slot(ps_row_stream *self, char *own, ps_error *error) {
     const ps_team *const team = self->team;
-    const uint64_t share = round / team->num;
-    const uint64_t more = round % team->num; /* members that have one more */
-    const uint64_t before = self->first + team->own * share + (team->own < more ? team->own : more);
+    const uint64_t before = self->first + count_before(self, team->own);
+    const uint64_t share = self->shares[team->num + team->own];
     char *const rows = own + sizeof(slot) + numbers_bytes(self);
     const double begun = ps_clock_seconds();
     size_t num = 0;
     PS_TRY(ps_rows_pass_to(self, self->num_done + before, error));
-    PS_TRY(ps_rows_make(self, (size_t)(share + (team->own < more)), rows, &num, error));
+    PS_TRY(ps_rows_make(self, (size_t)share, rows, &num, error));
     const slot head = {num, ps_clock_seconds() - begun};
     memcpy(own, &head, sizeof head);
     return self->measure != NULL
@@ -157,16 +193,31 @@ static pspec_status fill_slot(ps_row_stream *self, char *own, uint64_t round, ps
                : PSPEC_OK;
 }
 
-/* Rows of all members, in their order, and how long the slowest took. */
-static size_t take_rows(ps_row_stream *self, size_t slot_bytes, double *seconds) {
+/* How many realizations the member may have until all meet again. No result depends on it. */
+static void choose_share(ps_row_stream *self, size_t member, double seconds) {
+    const size_t num = self->team->num;
+    uint64_t *const wanted = &self->shares[member];
+    const uint64_t given = self->shares[num + member];
+    const double fit = (double)MOST_BYTES / (double)(num * self->row_bytes);
+    const double growth = ROUND_SECONDS / (seconds > 0 ? seconds : ROUND_SECONDS / MOST_GROWTH);
+    const double share = (double)given * (growth < MOST_GROWTH ? growth : MOST_GROWTH);
+    if (given < *wanted) {
+        return; /* there were no more */
+    }
+    *wanted = (uint64_t)(share < fit ? share : fit);
+    *wanted = *wanted > 0 ? *wanted : 1;
+}
+
+/* Rows of all members, in their order. */
+static size_t take_rows(ps_row_stream *self, size_t slot_bytes) {
     size_t num = 0;
     for (size_t i = 0; i < self->team->num; i++) {
         const char *const at = self->slots + i * slot_bytes;
         slot head;
         memcpy(&head, at, sizeof head);
-        *seconds = head.seconds > *seconds ? head.seconds : *seconds;
         memcpy(self->rows + num * self->row_bytes, at + sizeof head + numbers_bytes(self),
                head.num * self->row_bytes);
+        choose_share(self, i, head.seconds);
         num += head.num;
     }
     return num;
@@ -186,22 +237,21 @@ static void take_largest(ps_row_stream *self, size_t slot_bytes) {
     }
 }
 
-/* How many each has until they meet again. No result depends on it. */
-static void choose_each(ps_row_stream *self, double seconds) {
-    const double fit = (double)MOST_BYTES / (double)(self->team->num * self->row_bytes);
-    const double growth = ROUND_SECONDS / (seconds > 0 ? seconds : ROUND_SECONDS / MOST_GROWTH);
-    double each = (double)self->each * (growth < MOST_GROWTH ? growth : MOST_GROWTH);
-    each = each < fit ? each : fit;
-    self->each = each > 1 ? (size_t)each : 1;
+static uint64_t find_largest_share(const ps_row_stream *self) {
+    const uint64_t *const given = self->shares + self->team->num;
+    uint64_t largest = 0;
+    for (size_t i = 0; i < self->team->num; i++) {
+        largest = given[i] > largest ? given[i] : largest;
+    }
+    return largest;
 }
 
 static pspec_status next_of_team(ps_row_stream *self, uint64_t most, size_t *num, ps_error *error) {
     const ps_team *const team = self->team;
-    const uint64_t round = count_round(self, most);
-    const size_t share = (size_t)(round / team->num + (round % team->num > 0));
+    const uint64_t round = deal_round(self, most);
+    const size_t share = (size_t)find_largest_share(self);
     const size_t bytes = sizeof(slot) + numbers_bytes(self) + share * self->row_bytes;
     const size_t slot_bytes = (bytes + sizeof(double) - 1) / sizeof(double) * sizeof(double);
-    double seconds = 0;
     *num = 0;
     if (round == 0) {
         return PSPEC_OK;
@@ -209,11 +259,10 @@ static pspec_status next_of_team(ps_row_stream *self, uint64_t most, size_t *num
     PS_TRY(self->has_met ? PSPEC_OK : meet_first(self, error));
     PS_TRY(ps_rows_make_slots(self, team->num * slot_bytes, error));
     PS_TRY(ps_rows_make_room(self, (size_t)round, error));
-    PS_TRY(fill_slot(self, self->slots + team->own * slot_bytes, round, error));
+    PS_TRY(fill_slot(self, self->slots + team->own * slot_bytes, error));
     PS_TRY(team->exchange(team, PSPEC_OK, self->slots, slot_bytes, error));
-    *num = take_rows(self, slot_bytes, &seconds);
+    *num = take_rows(self, slot_bytes);
     take_largest(self, slot_bytes);
-    choose_each(self, seconds);
     return PSPEC_OK;
 }
 

@@ -3,7 +3,7 @@
  *
  * A row depends on its realization alone, whoever made it, and the job adds up rows one after the
  * other: so its results have the same bits whatever the team. Members make as many in a row as take
- * about a second, then they meet.
+ * each about a second, a slow one fewer, then they meet.
  */
 #ifndef PS_JOBS_ROWS_ROW_STREAM_H
 #define PS_JOBS_ROWS_ROW_STREAM_H
@@ -53,8 +53,10 @@ typedef struct ps_row_stream {
     bool keeps;          /* rows on the tape, as the member that leads does */
     bool has_met;
     bool has_ended; /* there are no more realizations */
-    size_t each;    /* realizations of a member until they meet next */
-    size_t room;    /* rows */
+    /* of each member, [2][team->num]: realizations that it may have until all meet next, and those
+     * that it has in this round */
+    uint64_t *shares;
+    size_t room; /* rows */
     char *slots;
     size_t slots_room; /* bytes */
 } ps_row_stream;
