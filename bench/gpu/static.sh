@@ -40,6 +40,7 @@ list_lines() { # CAPABILITY WORD...; that of cards without matrix units is 0
     cat <<'END'
 9 sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0
 9 bench --quick --case list --engine torus_direct --precision single
+9 occlusion --mesh quad.obj --image 16x16 --reference 64 --sampler white-sphere -n 64
 9 power --sampler white -n 256 -m 20 -k 32 --engine torus_direct --precision single
 0 power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision single
 0 power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision double
@@ -54,6 +55,7 @@ record_all() {
 "${CC:-cc}" -std=gnu11 -Wall -Wextra -Werror -shared -fPIC -DCL_TARGET_OPENCL_VERSION=120 "$here/launches.c" -o launches.so
 export POINTSPEC_LAUNCHES=$folder/launched.txt POINTSPEC_CACHE_DIR=$folder/no-cache
 rm -f ./*.txt
+printf '%s\n' 'v -1 -1 -2' 'v 1 -1 -2' 'v 1 1 -2' 'v -1 1 -2' 'f 1 2 3 4' >runs/quad.obj
 (cd runs && record_all)
 # Of launches of one kernel with the same options the largest: SOURCE KERNEL GROUP LOCAL OPTIONS
 sort -u launched.txt | awk '{ key = $1 " " $2; options = ""
