@@ -98,7 +98,8 @@ static spent measure(const asked *what, uint64_t num_sets, uint64_t num_shifts) 
                                       .is_moved = true,
                                       .device = what->device,
                                       .watch = &watch};
-    BENCH_TRY(ps_measurement_run(&plan, &found, &blocks, error));
+    uint64_t num_measured = 0;
+    BENCH_TRY(ps_measurement_run(&plan, &num_measured, &found, &blocks, error));
     const spent out = {found.mean, found.standard_error, bench_seconds() - begin, num_sets};
     ps_source_destroy(source);
     ps_integrand_destroy(integrand);

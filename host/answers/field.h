@@ -38,8 +38,8 @@ typedef struct ps_field_row {
 #define PS_STATE PS_FIELD_STATE, true
 
 /* Of several kinds: the request's record, points, frequencies, device and engine. */
-extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_computed[],
-    ps_fields_device[];
+extern const ps_field_row ps_fields_asked[], ps_fields_points[], ps_fields_ranges[],
+    ps_fields_computed[], ps_fields_device[];
 
 /* Creates a table of a command whose columns are those of the rows, which NULL ends. */
 pspec_status ps_fields_create_table(ps_table **out, const char *command, const ps_field_row *rows,

@@ -96,6 +96,13 @@ const ps_field_row ps_fields_points[] = {
      "N as it was asked for; of variance, where it is always there, the mean where sets differ"},
     {.name = NULL}};
 
+/* Of kinds that ranges of realizations are put together of. */
+const ps_field_row ps_fields_ranges[] = {
+    {"merged", "", PS_ENTRIES, 0, "pointspec merge", "the command line of a part"},
+    {"range", "", PS_ENTRIES, 0, "--range",
+     "A:B of M: the realizations A to B - 1 of a job of M, a part for merge"},
+    {.name = NULL}};
+
 const ps_field_row ps_fields_computed[] = {
     {"device", "", PS_ENTRIES, 0, "", "what computed it; host or none without OpenCL"},
     {"engine", "", PS_ENTRIES, 0, "", "the engine, and how it was set up"},

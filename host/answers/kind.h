@@ -117,6 +117,7 @@ typedef struct ps_parts {
     size_t num;                    /* at least 1 */
     const char *command_line;      /* of who merges, for the header */
     const char *device;            /* a selector of theirs; NULL: the default */
+    const char *cache_folder;      /* of sets that are kept; NULL: none */
     const ps_answer_hooks *hooks;  /* who hears of work that merging is; NULL: nobody */
     const ps_kind *kind;           /* set by ps_answer_merge */
     /* NULL, or what ranges of a job are answers to together: the answer is that of the job then, as

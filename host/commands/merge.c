@@ -40,6 +40,7 @@ static pspec_status merge(ps_answer *out, parts *self, const ps_request *request
                           .num = self->num,
                           .command_line = request->command_line,
                           .device = request->limits.device,
+                          .cache_folder = request->limits.cache_folder,
                           .hooks = hooks};
     return ps_answer_merge(out, &all, error);
 }

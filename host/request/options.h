@@ -127,6 +127,11 @@ typedef pspec_status ps_request_visit_input(void *payload, const ps_request_file
 pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
                                      void *payload, ps_error *error) PS_MUST_CHECK;
 
+/* Those of options alone. */
+pspec_status ps_request_visit_option_inputs(const ps_request *request,
+                                            ps_request_visit_input *visit, void *payload,
+                                            ps_error *error) PS_MUST_CHECK;
+
 /* Is it a stream, as standard input and pipes are, which nobody reads twice? */
 bool ps_request_file_comes_once(const ps_request_file *input);
 

@@ -97,13 +97,20 @@ static pspec_status visit_points(const ps_request *request, ps_request_visit_inp
     return visit_list(&alone, &request->reading.given, "the input", visit, payload, error);
 }
 
-pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
-                                     void *payload, ps_error *error) {
+pspec_status ps_request_visit_option_inputs(const ps_request *request,
+                                            ps_request_visit_input *visit, void *payload,
+                                            ps_error *error) {
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (ps_options[id].input != NULL) {
             PS_TRY(visit_option(request, (ps_option_id)id, visit, payload, error));
         }
     }
+    return PSPEC_OK;
+}
+
+pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
+                                     void *payload, ps_error *error) {
+    PS_TRY(ps_request_visit_option_inputs(request, visit, payload, error));
     return visit_points(request, visit, payload, error);
 }
 

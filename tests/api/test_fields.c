@@ -49,6 +49,8 @@ static const char *const questions[] = {
     "weights-out=w.npy",
     "quadrature sampler=white-hemisphere points=4 max-degree=2 brdf=diffuse realizations=9 "
     "range=0:2 output=rows.npz",
+    "interpolation sampler=white-sphere points=4 realizations=3 range=0:2 "
+    "integrand=coefficients:file=light.txt output=inputs.npz engine=default",
     "quadrature files=near.txt brdf=diffuse weights=optimal drop-below-horizon max-degree=2",
     "truncation brdf=glossy:n=4 max-degree=2 integrand=map:file=light.pfm",
     "shade sampler=white-hemisphere sampler=fibonacci-hemisphere points=4,8 brdf=diffuse "

@@ -253,8 +253,9 @@ static const ps_field_row own_fields[] = {
      "the functions at the same pixels: integrands x height x width"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked,     ps_fields_points,   own_fields,
-                                             ps_fields_kept_rows, ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {
+    ps_fields_asked,     ps_fields_points,   own_fields, ps_fields_ranges,
+    ps_fields_kept_rows, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {{"rmse", "rmse_error", false, ps_compared_rule_bound},
                                              {.value = NULL}};

@@ -280,9 +280,13 @@ static const ps_picture_kind pictures[] = {
      .is_log_y = true},
     {.make = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked,     ps_fields_points,
-                                             ps_fields_occlusion, ps_fields_kept_rows,
-                                             ps_fields_computed,  NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked,
+                                             ps_fields_points,
+                                             ps_fields_occlusion,
+                                             ps_fields_ranges,
+                                             ps_fields_kept_rows,
+                                             ps_fields_computed,
+                                             NULL};
 
 static const ps_compared_field compared[] = {{"mse", "mse_error", false, ps_compared_rule_bound},
                                              {.value = NULL}};

@@ -131,13 +131,9 @@ static const ps_field_row own_fields[] = {
      "weights of the only rule, float64 [N]; points that were dropped have 0"},
     {.name = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked,
-                                             ps_fields_points,
-                                             ps_fields_rules,
-                                             own_fields,
-                                             ps_fields_kept_rows,
-                                             ps_fields_computed,
-                                             NULL};
+static const ps_field_row *const fields[] = {
+    ps_fields_asked,  ps_fields_points,    ps_fields_rules,    own_fields,
+    ps_fields_ranges, ps_fields_kept_rows, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {
     {"worst_case_error", "worst_case_error_standard_error", true, ps_compared_rule_bound},

@@ -26,6 +26,7 @@ static void widen(ps_request *request, const ps_parts *parts) {
     request->limits.checkpoint.path = NULL;
     request->command_line = parts->command_line;
     request->wants_state = has_array(parts->tables[0]);
+    request->limits.cache_folder = parts->cache_folder;
     if (!request->is_given[PS_OPTION_DEVICE]) {
         request->limits.device = parts->device;
     }
@@ -54,19 +55,31 @@ static pspec_status finish(ps_table *table, const ps_parts *parts, ps_error *err
     return ps_ranges_compare(table, parts->tables[0], parts->names[0], NULL, error);
 }
 
+static pspec_status read_all(ps_row_tape *tape, const ps_parts *parts, const ps_request *request,
+                             ps_error *error) {
+    uint64_t all = 0;
+    for (size_t p = 0; p < parts->num; p++) {
+        const char *const names[] = {parts->names[p > 0 ? p - 1 : 0], parts->names[p]};
+        PS_TRY(ps_kept_rows_read(tape, &all, parts->tables[p], names, error));
+        PS_TRY(ps_kept_rows_check_inputs(request, parts->tables[p], names[1], error));
+    }
+    tape->is_part = tape->range.first > 0 || tape->range.end < all;
+    return PSPEC_OK;
+}
+
+/* parts: in the order of their realizations */
 static pspec_status answer(ps_answer *out, const ps_parts *parts, ps_row_tape *tape,
                            ps_pool *memory, ps_error *error) {
     static const ps_answer_hooks none;
     ps_request request = ps_request_default;
-    pspec_status status = ask(&request, parts, memory, error);
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, ask(&request, parts, memory, error));
+    PS_TRY_OUT(status, read_all(tape, parts, &request, error));
     request.limits.checkpoint.tape = tape;
-    if (status == PSPEC_OK) {
-        status = ps_answer_make(out, parts->kind, &request,
-                                parts->hooks != NULL ? parts->hooks : &none, error);
-    }
-    if (status == PSPEC_OK) {
-        status = finish(out->table, parts, error);
-    }
+    PS_TRY_OUT(status, ps_answer_make(out, parts->kind, &request,
+                                      parts->hooks != NULL ? parts->hooks : &none, error));
+    status = finish(out->table, parts, error);
+out:
     ps_arguments_free(&request);
     return status;
 }
@@ -74,13 +87,7 @@ static pspec_status answer(ps_answer *out, const ps_parts *parts, ps_row_tape *t
 static pspec_status merge(ps_answer *out, const ps_parts *parts, ps_row_tape *tape, ps_pool *memory,
                           ps_error *error) {
     ps_parts sorted;
-    uint64_t all = 0;
     PS_TRY(ps_ranges_sort(&sorted, memory, parts, error));
-    for (size_t p = 0; p < parts->num; p++) {
-        const char *const names[] = {sorted.names[p > 0 ? p - 1 : 0], sorted.names[p]};
-        PS_TRY(ps_kept_rows_read(tape, &all, sorted.tables[p], names, error));
-    }
-    tape->is_part = tape->range.first > 0 || tape->range.end < all;
     return answer(out, &sorted, tape, memory, error);
 }
 

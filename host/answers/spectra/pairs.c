@@ -94,8 +94,8 @@ static const ps_picture_kind pictures[] = {
                           "{/*1.35 C_l^2}"),
     {.make = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked, ps_fields_points, ps_fields_powers,
-                                             ps_fields_computed, NULL};
+static const ps_field_row *const fields[] = {ps_fields_asked,  ps_fields_points,   ps_fields_powers,
+                                             ps_fields_ranges, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {
     {"legendre_sum", "legendre_sum_error", false, ps_compared_predicted_bound}, {.value = NULL}};

@@ -264,13 +264,9 @@ static const ps_picture_kind pictures[] = {
      .needs = PS_NEEDS_SCATTER},
     {.make = NULL}};
 
-static const ps_field_row *const fields[] = {ps_fields_asked,
-                                             ps_fields_points,
-                                             ps_fields_powers,
-                                             ps_fields_shape,
-                                             ps_fields_profiles,
-                                             ps_fields_computed,
-                                             NULL};
+static const ps_field_row *const fields[] = {
+    ps_fields_asked,    ps_fields_points, ps_fields_powers,   ps_fields_shape,
+    ps_fields_profiles, ps_fields_ranges, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {
     {"power", "standard_error", false, ps_compared_power_bound}, {.value = NULL}};

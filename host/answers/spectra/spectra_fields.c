@@ -8,9 +8,6 @@ static const char *const kept = "-o FILE.npz";
 static const char *const ranged = "-o FILE.npz with --range";
 
 const ps_field_row ps_fields_powers[] = {
-    {"merged", "", PS_ENTRIES, OF_ALL, "pointspec merge", "the command line of a part"},
-    {"range", "", PS_ENTRIES, OF_ALL, "--range",
-     "A:B of M: the realizations A to B - 1 of a job of M, a part for merge"},
     {"scatter_frequency", "", PS_ENTRIES, OF(power), "--scatter", "k"},
     {"scatter_real", "", PS_ENTRIES, OF(power), "--scatter", "mean of S(k), real part"},
     {"scatter_imaginary", "", PS_ENTRIES, OF(power), "--scatter", "mean of S(k), imaginary part"},

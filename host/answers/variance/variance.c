@@ -221,8 +221,9 @@ static const ps_field_row sentence_fields[] = {
     {.name = NULL}};
 
 static const ps_field_row *const fields[] = {
-    ps_fields_asked, ps_fields_points,    own_fields,         ps_fields_profiles,
-    sentence_fields, ps_fields_kept_rows, ps_fields_computed, NULL};
+    ps_fields_asked,     ps_fields_points,   own_fields,
+    ps_fields_profiles,  sentence_fields,    ps_fields_ranges,
+    ps_fields_kept_rows, ps_fields_computed, NULL};
 
 static const ps_compared_field compared[] = {
     {"predicted", "predicted_error", false, ps_compared_variance_bound},

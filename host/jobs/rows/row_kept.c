@@ -57,10 +57,13 @@ pspec_status ps_row_stream_walk(ps_row_stream *stream, ps_snapshot *snapshot, ps
         return PSPEC_OK;
     }
     PS_TRY(find_track(stream, &track, error));
-    uint64_t num = track->num;
-    PS_TRY(ps_snapshot_counts(snapshot, "kept", &num, 1, error));
+    uint64_t counts[] = {track->num, track->all};
+    PS_TRY(ps_snapshot_counts(snapshot, "kept", counts, 2, error));
+    PS_TRY(ps_snapshot_doubles(snapshot, "kept_largest", track->largest, PS_MOST_LARGEST, error));
+    const uint64_t num = counts[0];
     if (ps_snapshot_is_read(snapshot)) {
         track->num = 0;
+        track->all = counts[1];
         PS_TRY(ps_row_track_add(track, NULL, num, error));
     }
     return ps_snapshot_bytes(snapshot, "kept_rows", track->rows, (size_t)(num * track->row_bytes),

@@ -303,8 +303,8 @@ static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) 
     return PSPEC_OK;
 }
 
-pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
-                                ps_block_sums *blocks, ps_error *error) {
+pspec_status ps_measurement_run(const ps_measurement_plan *plan, uint64_t *num_sets,
+                                ps_mean *variances, ps_block_sums *blocks, ps_error *error) {
     measurement self = {.plan = plan, .blocks = blocks};
     ps_set_loop loop = {.stream = {.job = &self,
                                    .make = make,
@@ -322,8 +322,9 @@ pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *varian
     loop.stream.batch = self.batch;
     PS_TRY_OUT(status, allocate(&self, error));
     PS_TRY_OUT(status, ps_set_loop_run(&loop, error));
-    for (size_t i = 0; i < plan->num_integrands; i++) {
-        ps_sums_finish(&self.sums[i], plan->num_sets, &variances[i].mean,
+    *num_sets = loop.num_done;
+    for (size_t i = 0; i < plan->num_integrands && loop.num_done > 0; i++) {
+        ps_sums_finish(&self.sums[i], loop.num_done, &variances[i].mean,
                        &variances[i].standard_error);
     }
 out:

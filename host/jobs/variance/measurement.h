@@ -29,10 +29,12 @@ typedef struct ps_measurement_plan {
 pspec_status ps_measurement_bytes(const ps_measurement_plan *plan, double *bytes,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* variances[num_integrands]: mean over sets, and its standard error over them (nan of one set), of
- * the mean over the shifts of a set of (I - int F)^2. blocks [num_integrands], {0} before, have the
- * same by blocks of sets. */
-pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
-                                ps_block_sums *blocks, ps_error *error) PS_MUST_CHECK;
+/* *num_sets: those of the plan, or of a range of them, which may have none, and then leaves
+ * variances as they are. variances[num_integrands]: mean over sets, and its standard error over
+ * them (nan of one set), of the mean over the shifts of a set of (I - int F)^2. blocks
+ * [num_integrands], {0} before, have the same by blocks of sets. */
+pspec_status ps_measurement_run(const ps_measurement_plan *plan, uint64_t *num_sets,
+                                ps_mean *variances, ps_block_sums *blocks,
+                                ps_error *error) PS_MUST_CHECK;
 
 #endif

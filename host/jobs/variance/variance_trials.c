@@ -5,6 +5,7 @@
 #include "jobs/variance/measurement.h"
 #include "jobs/variance/variance_job.h"
 #include "math/random/random.h"
+#include "spectra/row_tape.h"
 
 #include <math.h>
 
@@ -111,6 +112,7 @@ pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) {
     ps_measurement_plan plan = plan_measurement(job);
     ps_checkpoint_spec checkpoint = job->question->spectrum.limits.checkpoint;
     ps_source *owned = NULL;
+    uint64_t num_sets = 0;
     for (size_t i = 0; i < plan.num_integrands; i++) {
         job->measured[i] = (ps_mean){NAN, NAN};
     }
@@ -121,8 +123,11 @@ pspec_status ps_variance_trials_measure(ps_variance_job *job, ps_error *error) {
     checkpoint.part = job->question->trials_part;
     plan.checkpoint = &checkpoint;
     PS_TRY_OUT(status, choose_seed(job, &plan.seed, error));
-    PS_TRY_OUT(status, open_source(job, &plan, &owned, error));
-    status = ps_measurement_run(&plan, job->measured, job->measured_blocks, error);
+    if (checkpoint.tape == NULL || !checkpoint.tape->is_played) { /* which has the rows of all */
+        PS_TRY_OUT(status, open_source(job, &plan, &owned, error));
+    }
+    status = ps_measurement_run(&plan, &num_sets, job->measured, job->measured_blocks, error);
+    job->trials.num_sets = job->trials.is_one_set ? job->trials.num_sets : num_sets;
 out:
     ps_source_destroy(owned);
     return status;

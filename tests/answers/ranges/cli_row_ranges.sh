@@ -86,6 +86,29 @@ runs 0 a.npz b.npz
 "$program" "${job[@]}" >whole.csv
 cmp <(lines out) <(lines whole.csv) || complain "a range that was killed: $(diff <(lines out) <(lines whole.csv))"
 
+# One that was killed in its second job, when the rows of the first were complete.
+job=(quadrature --engine host_direct --sampler white-hemisphere -n '9,64' -m 900 --brdf diffuse -l 12)
+kept=("${job[@]}" --range 100:900 --checkpoint kept.npz --checkpoint-interval 0 -o b.npz)
+"$program" "${kept[@]}" >/dev/null 2>&1 &
+wait_until $! test -e kept-2.npz
+kill -9 $! 2>/dev/null || true
+wait $! 2>/dev/null || true
+"$program" "${kept[@]}" 2>err || complain "a range of two jobs that goes on: $(<err)"
+part a 0:100 "${job[@]}"
+runs 0 a.npz b.npz
+"$program" "${job[@]}" >whole.csv
+cmp <(lines out) <(lines whole.csv) || complain "a range of two jobs: $(diff <(lines out) <(lines whole.csv))"
+
+# What a part says is of its own sets: those of other realizations measure nothing.
+checked=$((checked + 1))
+job=(variance --engine host_direct --integrand disk --sampler white -n 9 -m 20 -k 3)
+for range in 0:10 10:20 0:20; do
+    "$program" "${job[@]}" --range $range | awk -F, '/^[0-9]/ { print $6 }'
+done >measured.txt # the last is the mean of those before
+awk 'NR < 3 { sum += $1 } NR == 3 { exit !((sum / 2 / $1 - 1) ^ 2 < 1e-20) }' measured.txt || complain "measured: $(<measured.txt)"
+"$program" variance --engine host_direct --integrand disk --columns xyw -k 3 --range 20:21 sets.txt >out
+[[ $(awk -F, '/^[0-9]/ { print $6 "," $7 }' out) == , ]] || complain "measured of no set: $(<out)"
+
 # Points so close together that powers need another plan, in some sets of the second range alone.
 if [[ $has_device == yes ]]; then
     awk 'BEGIN { for (s = 0; s < 260; s++) { if (s) print "#"
@@ -112,7 +135,13 @@ refuses 'the realizations 100:256 are missing, between those of "a.npz" and of "
 refuses '"seed.npz" is a range of another job: its seed is 2 instead of 1' a.npz seed.npz
 refuses '"whole.npz" is no answer to a range, or is damaged' a.npz whole.npz
 refuses '"whole.npz" is no answer to a range, or is damaged' whole.npz
+sed 's/\(Pf\)/\1/; $ s/.$/@/' disk.pfm >other.pfm
 mv disk.pfm elsewhere.pfm
+mv other.pfm disk.pfm
+refuses '"b.npz" is of another content of --integrand disk.pfm' b.npz c.npz
+part other 256:300 "${job[@]}"
+refuses '"b.npz" is of another content of --integrand disk.pfm' b.npz other.npz
+rm disk.pfm
 runs 1 b.npz c.npz
 says 'disk.pfm'
 "$program" sample --sampler white -n 4 -o points.txt
@@ -126,6 +155,7 @@ refuses '--range 5:21 goes beyond the realizations, of which there are 20 (--rea
 refuses '--range 20:22 goes beyond the realizations, of which there are 21' "${job[@]}" --columns xyw --range 20:22 sets.txt
 refuses 'one stands for all (--no-skip computes them)' "${job[@]}" --sampler sobol -n 4 -m 20 --range 0:2
 refuses 'in one dimension there are none' "${job[@]}" -d 1 --sampler white -n 4 -m 20 --range 0:2
+refuses 'is of files and samplers, which merge can read again' "${job[@]}" --columns xyw --range 0:5 -
 command=quadrature
 job=(--engine host_direct --brdf diffuse -l 5)
 refuses '--range 41:43 goes beyond the realizations, of which there are 41' "${job[@]}" --lift hemisphere --columns xyw --range 41:43 sets.txt
