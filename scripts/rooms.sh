@@ -19,7 +19,7 @@ add_room() { # ROOM FOLDER...
 }
 add_room jobs jobs/rows jobs/spectrum jobs/quadrature
 rooms+=(request verify verify/bench)
-add_room answers answers/points answers/spectra answers/ranges answers/quadrature answers/homogeneity answers/interpolation answers/parts answers/devices
+add_room answers answers/points answers/ranges answers/spectra answers/quadrature answers/homogeneity answers/interpolation answers/parts answers/devices
 rooms+=(scene scene/run commands api cli cli/commands)
 
 # A room's table names what is in its folders, which are rooms above it: these sources alone look up.

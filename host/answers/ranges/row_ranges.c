@@ -2,7 +2,7 @@
 
 #include "answers/arguments.h"
 #include "answers/kept_rows.h"
-#include "answers/spectra/ranges.h"
+#include "answers/ranges/ranges.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* State of spectra, and answers that are merged by it. */
-#include "answers/spectra/ranges.h"
+#include "answers/ranges/ranges.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "files/decimal.h"
@@ -174,6 +174,15 @@ static void discard(merged *self) {
     free(self->c2);
 }
 
+/* Of ranges: where they are all of a job, for whose powers, which are known no sooner, it would
+ * have been planned once more, PSPEC_ERROR_TOLERANCE. */
+static pspec_status close_ranges(ps_spectrum_sums *sums, ps_error *error) {
+    ps_spectrum_sums_close(sums);
+    return sums->num_all > 0 || sums->error <= sums->tolerance
+               ? PSPEC_OK
+               : ps_range_refuse_powers(sums->error, sums->tolerance, error);
+}
+
 static pspec_status merge_sums(merged *self, const ps_parts *parts, size_t question,
                                ps_error *error) {
     PS_TRY(ps_spectrum_state_read(&self->sums, &self->bins, parts->tables[0], question,
@@ -191,7 +200,7 @@ static pspec_status merge_sums(merged *self, const ps_parts *parts, size_t quest
         ps_bins_free(&bins);
         PS_TRY(status);
     }
-    return self->sums.num_all > 0 ? ps_ranges_close(&self->sums, error) : PSPEC_OK;
+    return self->sums.num_all > 0 ? close_ranges(&self->sums, error) : PSPEC_OK;
 }
 
 static pspec_status look_at_errors(merged *self, const ps_request *request, ps_error *error) {

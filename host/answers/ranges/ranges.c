@@ -1,7 +1,6 @@
-#include "answers/spectra/ranges.h"
+#include "answers/ranges/ranges.h"
 
 #include "answers/arguments.h"
-#include "answers/spectra/measured.h"
 
 #include <string.h>
 
@@ -236,13 +235,4 @@ pspec_status ps_ranges_sort(ps_parts *out, ps_pool *memory, const ps_parts *part
         }
     }
     return PSPEC_OK;
-}
-
-/* ---- the whole job --------------------------------------------------------------------------- */
-
-pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) {
-    ps_spectrum_sums_close(sums);
-    return sums->num_all > 0 || sums->error <= sums->tolerance
-               ? PSPEC_OK
-               : ps_range_refuse_powers(sums->error, sums->tolerance, error);
 }

@@ -1,10 +1,9 @@
 /* Answers to ranges of the realizations of one job, on their way to the answer of the job. */
-#ifndef PS_ANSWERS_SPECTRA_RANGES_H
-#define PS_ANSWERS_SPECTRA_RANGES_H
+#ifndef PS_ANSWERS_RANGES_RANGES_H
+#define PS_ANSWERS_RANGES_RANGES_H
 
 #include "answers/kind.h"
 #include "base/memory.h"
-#include "spectra/spectrum_sums.h"
 
 /* The same parts, in the order of their realizations where all are ranges (in that of the command
  * line else), with memory of the pool. Ranges of different jobs are PSPEC_ERROR_INPUT. */
@@ -20,10 +19,6 @@ const char *ps_ranges_command(const ps_table *table);
  * the job, where it is known. */
 pspec_status ps_ranges_compare(const ps_table *a, const ps_table *b, const char *name,
                                const ps_request *request, ps_error *error) PS_MUST_CHECK;
-
-/* ps_spectrum_sums_close; PSPEC_ERROR_TOLERANCE where that is all of a job, for whose powers, which
- * are known no sooner, it would have been planned once more. */
-pspec_status ps_ranges_close(ps_spectrum_sums *sums, ps_error *error) PS_MUST_CHECK;
 
 /* The header entry number `index` of that key, or a missing one; how many there are. */
 ps_cell ps_entry_find(const ps_table *table, const char *key, size_t index);
