@@ -21,8 +21,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                 COUNT(num_realizations), .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_RANGE] = {NAMED("range", 0, "A:B"), OF(0, SERIES),
-                         .help = "only the realizations A to B - 1, from 0, for pointspec merge "
-                                 "(power, angular, pairs: multiples of 128, or B the last)",
+                         .help = "only the realizations A to B - 1, from 0, for pointspec merge; "
+                                 "of spectra multiples of 128, but B may be the last",
                          .set = ps_set_realization_range},
     [PS_OPTION_STANDARD_ERROR] =
         {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
