@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { MAX_PLATFORMS = 16, MAX_DEVICES = PS_SELECTORS_MOST };
 
@@ -300,31 +301,48 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
 
 /* A job that was cancelled leaves commands behind, and PoCL 3.1 lets go of a part of a device while
  * they run: its threads then read what is gone (4 of 800 jobs whose other device was lost). */
-static void finish_work(const ps_device *device) {
-    if (device->is_share && device->uploads != NULL) {
-        (void)clFinish(device->uploads);
+static void finish_work(cl_command_queue queue) {
+    if (queue != NULL) {
+        (void)clFinish(queue);
     }
-    if (device->is_share && device->queue != NULL) {
-        (void)clFinish(device->queue);
+}
+
+/* A thread of PoCL 3.1 looks at the part once more after it has said that a command has ended; it
+ * holds the queue until then (one of 110 processes that closed six parts ended there). */
+static void release_queue(cl_command_queue queue, bool is_of_share) {
+    const struct timespec pause = {0, 100000}; /* nanoseconds */
+    const unsigned most_pauses = 10000;        /* a second */
+    cl_uint holders = is_of_share ? 2 : 1;
+    if (queue == NULL) {
+        return;
     }
+    for (unsigned i = 0; holders > 1 && i < most_pauses; i++) {
+        if (clGetCommandQueueInfo(queue, CL_QUEUE_REFERENCE_COUNT, sizeof holders, &holders,
+                                  NULL) != CL_SUCCESS) {
+            break;
+        }
+        if (holders > 1) {
+            nanosleep(&pause, NULL);
+        }
+    }
+    clReleaseCommandQueue(queue);
 }
 
 void ps_device_close(ps_device *device) {
     if (device == NULL) {
         return;
     }
-    finish_work(device);
+    if (device->is_share) {
+        finish_work(device->uploads);
+        finish_work(device->queue);
+    }
     ps_programs_release(device);
     globfree(&device->kept);
     free(device->figures);
     ps_staged_release(device);
     ps_process_lock();
-    if (device->uploads != NULL) {
-        clReleaseCommandQueue(device->uploads);
-    }
-    if (device->queue != NULL) {
-        clReleaseCommandQueue(device->queue);
-    }
+    release_queue(device->uploads, device->is_share);
+    release_queue(device->queue, device->is_share);
     if (device->context != NULL) {
         clReleaseContext(device->context);
     }
