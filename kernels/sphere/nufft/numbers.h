@@ -25,7 +25,7 @@ typedef struct orders_sum_numbers {
 
 SAME_SIZE(orders_sum_numbers, 52);
 
-/* grid_table.cl */
+/* sphere/grid/table.cl */
 typedef struct grid_table_numbers {
     ring_numbers rings;
     ps_u32 num_angles, angle_pitch; /* of the table, and of filters */
@@ -33,7 +33,12 @@ typedef struct grid_table_numbers {
 
 SAME_SIZE(grid_table_numbers, 44);
 
-/* grid_values.cl */
+/* sphere/grid/tiles.h: realizations of a work-group, angles in local memory at a time, and degrees
+ * of a run. A vector of the table serves four realizations of an item: 8 LANES sums in registers,
+ * 64 of 255 in double precision. 12 KiB of local memory, 24 in double. */
+enum { TILE_SETS = 32, TILE_ANGLES = 32, TILE_DEGREES = 32 };
+
+/* sphere/grid/values.cl */
 typedef struct grid_values_numbers {
     window_numbers window; /* the same on both axes; n is even */
     ps_u32 num_realizations;

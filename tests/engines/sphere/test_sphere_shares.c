@@ -1,16 +1,18 @@
-/* Realizations of a batch that groups of the sums share on GPUs (kernels/sphere/shares.h):
- * each has the bits that it has alone, in batches that shares divide, and do not. The layout is
- * that of a GPU on whatever device there is. */
+/* Realizations of a batch that groups of the sums share on GPUs (kernels/sphere/shares.h, and
+ * kernels/sphere/grid/tiles.h): each has the bits that it has alone, in batches that shares divide,
+ * and do not, and the powers that it has without. The layout is that of a GPU on whatever device
+ * there is. */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
 #include "engines/sphere/nufft/shape.h"
 #include "sphere/shares.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUM_SETS = 200, NUM_POINTS = 23, DEGREE = 20 };
+enum { NUM_SETS = 200, NUM_POINTS = 23, DEGREE = 70 };
 
 static ps_device *device;
 
@@ -30,11 +32,30 @@ static void shares_cover_all(void **state) {
     }
 }
 
+static bool *is_gpu(void) {
+    return &((ps_device_limits *)ps_device_get_limits(device))->has_dedicated_local_memory;
+}
+
+/* Powers of sets whose expected power is 1 are off by twice the tolerance where both errors are. */
+static void check_powers(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         const pspec_pattern *patterns, const double *found) {
+    const size_t num = problem->frequencies->num;
+    *is_gpu() = false;
+    double *expected =
+        test_run_problem(engine, problem, precision, device, patterns, NUM_SETS, NUM_SETS);
+    *is_gpu() = true;
+    for (size_t i = 0; i < NUM_SETS * num; i++) {
+        assert_true(fabs(found[i] - expected[i]) <=
+                    4 * problem->tolerance * sqrt(fmax(expected[i], 1) * (double)num));
+    }
+    free(expected);
+}
+
 static void check(const ps_engine *engine, ps_sphere_route route, ps_precision precision,
-                  const pspec_pattern *patterns) {
+                  bool only_even, const pspec_pattern *patterns) {
     static const size_t batches[] = {NUM_SETS, 131, 64};
     ps_frequencies set = {0};
-    assert_ok(ps_frequencies_degrees(&set, DEGREE, false, error));
+    assert_ok(ps_frequencies_degrees(&set, DEGREE, only_even, error));
     assert_ok(ps_frequencies_enumerate(&set, error));
     const ps_problem problem = {.frequencies = &set,
                                 .num_points = NUM_POINTS,
@@ -53,6 +74,7 @@ static void check(const ps_engine *engine, ps_sphere_route route, ps_precision p
         assert_memory_equal(found, alone, NUM_SETS * set.num * sizeof *found);
         free(found);
     }
+    check_powers(engine, &problem, precision, patterns, alone);
     free(alone);
     ps_frequencies_free(&set);
 }
@@ -67,8 +89,9 @@ static void sets_have_the_bits_that_they_have_alone(void **state) {
         patterns[i] = test_make_sphere_pattern(&test_sphere_shapes[i % 2], NUM_POINTS, i);
     }
     for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
-        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, (ps_precision)precision, patterns);
-        check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, (ps_precision)precision, patterns);
+        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, (ps_precision)precision, false, patterns);
+        check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, (ps_precision)precision, false, patterns);
+        check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, (ps_precision)precision, true, patterns);
     }
     for (unsigned i = 0; i < NUM_SETS; i++) {
         test_free_sphere_pattern(&patterns[i]);
@@ -81,7 +104,7 @@ int main(void) {
         cmocka_unit_test(sets_have_the_bits_that_they_have_alone),
     };
     device = test_open_device();
-    ((ps_device_limits *)ps_device_get_limits(device))->has_dedicated_local_memory = true;
+    *is_gpu() = true;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     ps_device_close(device);
     return failed;

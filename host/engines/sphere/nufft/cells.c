@@ -1,10 +1,11 @@
 /* By cells: from points on the device to values on the angles of the grid
- * (kernels/sphere/nufft/grid_values.cl), and from these to powers or coefficients
- * (grid_sums.cl). */
+ * (kernels/sphere/grid/values.cl), and from these to powers or coefficients (sums.cl there). */
 #include "engines/sphere/nufft/variants.h"
 
+#include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
+#include "sphere/nufft/numbers.h"
 
 typedef struct cells {
     ps_sphere_grid_table table;
@@ -16,8 +17,8 @@ static cells *of(const ps_sphere_state *self) {
 }
 
 static pspec_status create(ps_sphere_state *self, ps_error *error) {
-    static const ps_sphere_source values = {"sphere/nufft/grid_values.cl", "sphere_grid_values",
-                                            false};
+    static const ps_sphere_source values = {.file = "sphere/grid/values.cl",
+                                            .name = "sphere_grid_values"};
     PS_TRY(ps_sphere_grid_table_create(&of(self)->table, &self->shape, self->only_even,
                                        self->precision, self->device, error));
     return ps_sphere_kernel_get(self, &of(self)->make, &values, false, error);
@@ -70,15 +71,20 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
                                 size_t num, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_grid_table *table = &of(self)->table;
-    const size_t shares = ps_sphere_sum_shares(shape, num);
-    const ps_range range =
-        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS * shares,
-                              4 * (double)shape->table_reals * (double)num);
+    const double flops = 4 * (double)shape->table_reals * (double)num;
+    const ps_sphere_tiles tiles = ps_sphere_tiles_of(shape, ps_real_bytes(self->precision));
+    const size_t group_sets = shape->is_gpu ? TILE_SETS : num;
+    ps_range range = ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
+    if (shape->is_gpu) {
+        range = ps_range_shared(self->device, tiles.items, PS_SPHERE_GROUPS,
+                                ps_divide_up(num, group_sets), flops, 0);
+    }
     return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
                      PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
                      PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),
                      PS_U32(shape->max_degree), PS_U32(shape->num_angles), PS_U32(self->only_even),
-                     PS_U32(shape->half_pitch), PS_U32(shares), PS_BUFFER(*to));
+                     PS_U32(shape->half_pitch), PS_U32(group_sets), PS_BUFFER(*to),
+                     PS_LOCAL(tiles.rows), PS_LOCAL(tiles.columns));
 }
 
 /* ---- the row ----------------------------------------------------------------------------- */
@@ -90,7 +96,8 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
                    (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
 }
 
-static const ps_sphere_source sums = {"sphere/nufft/grid_sums.cl", "sphere_grid_sums", false};
+static const ps_sphere_source sums = {
+    .file = "sphere/grid/sums.cl", .name = "sphere_grid_sums", .on_gpu = "-DTILES=1"};
 
 /* Kernels: points, values, sums of orders and degrees; the table of cells and where it begins. */
 const ps_sphere_variant ps_sphere_cells = {.kernels = 6,

@@ -203,10 +203,10 @@ static pspec_status create_kernels(making *self, ps_error *error) {
     ps_defines_add(&making_defines, "-DTARGET_LANES=%u -DTARGET_VECTORS=%u", self->shape->lanes,
                    self->shape->run_vectors);
     ps_defines_add(&target, "-DRUN_VECTORS=%u", self->shape->run_vectors);
-    PS_TRY(ps_kernel_get(self->device, &self->make, "sphere/nufft/grid_table.cl",
-                         "sphere_grid_table", making_defines.text, error));
-    return ps_kernel_get(self->device, &self->begin, "sphere/nufft/grid_begins.cl",
-                         "sphere_grid_begins", target.text, error);
+    PS_TRY(ps_kernel_get(self->device, &self->make, "sphere/grid/table.cl", "sphere_grid_table",
+                         making_defines.text, error));
+    return ps_kernel_get(self->device, &self->begin, "sphere/grid/begins.cl", "sphere_grid_begins",
+                         target.text, error);
 }
 
 static pspec_status make_numbers(const ps_sphere_grid_table *table, const making *self,

@@ -26,9 +26,10 @@ static rings *of(const ps_sphere_state *self) {
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_sphere_state *self, ps_error *error) {
-    static const ps_sphere_source orders = {"sphere/nufft/orders.cl", "sphere_orders", false};
-    static const ps_sphere_source bands = {"sphere/nufft/orders_bands.cl", "sphere_orders_bands",
-                                           false};
+    static const ps_sphere_source orders = {.file = "sphere/nufft/orders.cl",
+                                            .name = "sphere_orders"};
+    static const ps_sphere_source bands = {.file = "sphere/nufft/orders_bands.cl",
+                                           .name = "sphere_orders_bands"};
     PS_TRY(ps_sphere_kernel_get(self, &of(self)->orders, &orders, false, error));
     return self->shape.is_sorted
                ? ps_sphere_kernel_get(self, &of(self)->bands, &bands, false, error)
@@ -247,9 +248,10 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
     }
 }
 
-static const ps_sphere_source sums = {"sphere/nufft/orders_sum.cl", "sphere_orders_sum", false};
-static const ps_sphere_source sums_one = {"sphere/nufft/orders_sum_one.cl", "sphere_orders_sum_one",
-                                          true};
+static const ps_sphere_source sums = {.file = "sphere/nufft/orders_sum.cl",
+                                      .name = "sphere_orders_sum"};
+static const ps_sphere_source sums_one = {
+    .file = "sphere/nufft/orders_sum_one.cl", .name = "sphere_orders_sum_one", .sums_one = true};
 
 /* Kernels: points, values, sums of orders and degrees; and the bands of sorted points. */
 #define RINGS_ROW(KERNELS, MAKE_VALUES)                                                            \

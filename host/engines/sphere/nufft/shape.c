@@ -4,6 +4,7 @@
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/grid_axis.h"
+#include "sphere/nufft/numbers.h"
 
 #include <math.h>
 
@@ -127,7 +128,7 @@ static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
         (uint64_t)shape->max_degree / 2 + 1 + shape->run_vectors * shape->lanes, LARGEST_LANES);
 }
 
-/* Measures the table as kernels/sphere/nufft/grid_table.h lays it out. */
+/* Measures the table as kernels/sphere/grid/table.h lays it out. */
 static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t num_orders = (uint64_t)shape->max_degree + 1;
     uint64_t vectors = 0;
@@ -201,6 +202,23 @@ bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *l
     return local.table + local.coefficients + local.begins <= limits->local_bytes;
 }
 
+ps_sphere_tiles ps_sphere_tiles_of(const ps_sphere_shape *shape, size_t real_bytes) {
+    enum { SETS_OF_ITEM = 4 };
+    if (!shape->is_gpu) {
+        return (ps_sphere_tiles){.rows = 1, .columns = 1}; /* no argument may be empty */
+    }
+    return (ps_sphere_tiles){
+        .items = (size_t)shape->run_vectors * TILE_SETS / SETS_OF_ITEM,
+        .rows = (size_t)TILE_ANGLES * shape->run_vectors * shape->lanes * real_bytes,
+        .columns = (size_t)TILE_ANGLES * (2 * TILE_SETS + shape->lanes) * real_bytes};
+}
+
+static bool tiles_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                      size_t real_bytes) {
+    const ps_sphere_tiles tiles = ps_sphere_tiles_of(shape, real_bytes);
+    return tiles.rows + tiles.columns <= limits->local_bytes;
+}
+
 /* ---- the two routes ---------------------------------------------------------------------- */
 
 static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits,
@@ -226,12 +244,14 @@ static bool measure_cells(ps_sphere_shape *shape, const ps_device_limits *limits
     const bool is_whole =
         shape->lanes % rings.lanes == 0 && rings.run_vectors * rings.lanes % shape->lanes == 0;
     (void)problem;
+    shape->run_vectors = shape->is_gpu ? TILE_DEGREES / shape->lanes : shape->run_vectors;
     measure_grid(shape, shape->lanes);
     measure_table(shape, real_bytes);
     shape->grid_rows = shape->band_rows;
     shape->half_poles = 2 * shape->pole - 1;
     shape->grid_bytes = ((uint64_t)shape->grid_rows * shape->pitch + 2 * shape->lanes) * real_bytes;
-    return is_whole && ps_sphere_rings_fit(&rings, limits, sizeof(double));
+    return is_whole && ps_sphere_rings_fit(&rings, limits, sizeof(double)) &&
+           tiles_fit(shape, limits, real_bytes);
 }
 
 /* Each returns false where local memory is too small. */

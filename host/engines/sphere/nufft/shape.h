@@ -9,9 +9,9 @@
 #include "engines/nufft/axis.h"
 #include "engines/nufft/order.h"
 
-/* Groups of orders in kernels/sphere/nufft/orders_sum.cl, orders_sum_one.cl, grid_sums.cl and
- * grid_table.cl: each adds up those of its own. There are so many whatever the device, since sums
- * depend on it; enough that all cores have work to the end. */
+/* Groups of orders in kernels/sphere/grid/ and in orders_sum.cl and orders_sum_one.cl of
+ * kernels/sphere/nufft/: each adds up those of its own. There are so many whatever the device,
+ * since sums depend on it; enough that all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
 /* How c_lm is made of the grid. */
@@ -155,13 +155,19 @@ double ps_sphere_chain_error(const ps_nufft_axis *axis, const ps_problem *proble
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations);
 
-/* Local memory in bytes: of orders.cl, orders_bands.cl and grid_values.cl, and of orders_sum.cl and
- * grid_table.cl. */
+/* Local memory in bytes: of orders.cl, orders_bands.cl and grid/values.cl, and of orders_sum.cl and
+ * grid/table.cl. */
 typedef struct ps_sphere_local {
     size_t windows, cells;
     size_t table, coefficients, begins;
 } ps_sphere_local;
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes);
+
+/* kernels/sphere/grid/tiles.h: work-items of a group, and local memory in bytes. */
+typedef struct ps_sphere_tiles {
+    size_t items, rows, columns;
+} ps_sphere_tiles;
+ps_sphere_tiles ps_sphere_tiles_of(const ps_sphere_shape *shape, size_t real_bytes);
 
 /* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the
  * same on all devices. */
@@ -175,7 +181,7 @@ enum {
     PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
     PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */
     PS_SPHERE_CHAIN_AHEAD = 4,  /* orders_chains.h: and these */
-    PS_SPHERE_TABLE_ANGLES = 8  /* grid_table.cl: ANGLES */
+    PS_SPHERE_TABLE_ANGLES = 8  /* grid/table.cl: ANGLES */
 };
 
 #endif

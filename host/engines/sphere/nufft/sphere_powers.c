@@ -20,6 +20,9 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
                        8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape),
                        self->only_even ? 1u : 2u, shape->is_single_chain ? 32u : 64u);
     }
+    if (shape->is_gpu && source->on_gpu != NULL) {
+        ps_defines_add(&defines, "%s", source->on_gpu);
+    }
     if (keeps) {
         ps_defines_add(&defines, "-DKEEP=1");
     }
@@ -31,8 +34,8 @@ static const ps_sphere_source *source_of_sums(const ps_sphere_state *self) {
 }
 
 pspec_status ps_sphere_powers_create(ps_sphere_state *self, ps_error *error) {
-    static const ps_sphere_source fold = {"sphere/nufft/orders_fold.cl", "sphere_orders_fold",
-                                          false};
+    static const ps_sphere_source fold = {.file = "sphere/nufft/orders_fold.cl",
+                                          .name = "sphere_orders_fold"};
     const uint64_t each = (uint64_t)PS_SPHERE_GROUPS * 2 * self->shape.half_pitch * sizeof(double);
     PS_TRY(ps_sphere_kernel_get(self, &self->fold, &fold, false, error));
     PS_TRY(ps_sphere_kernel_get(self, &self->sum, source_of_sums(self), false, error));

@@ -57,7 +57,7 @@ ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t gr
 /* The table of sphere_grid on the device: what a cell of the grid counts in c_lm, for all degrees
  * and orders. */
 
-/* Names of kernels/sphere/nufft/grid_table.h and grid_begins.cl. */
+/* Names of kernels/sphere/grid/table.h and begins.cl. */
 typedef struct ps_sphere_grid_table {
     ps_buffer numbers; /* [shape->table_reals], in the precision of sums */
     ps_buffer offsets, begins;
@@ -76,7 +76,8 @@ double ps_sphere_grid_table_flops(const ps_sphere_shape *shape);
 /* A kernel of kernels/sphere/nufft. */
 typedef struct ps_sphere_source {
     const char *file, *name;
-    bool sums_one; /* orders_sum_one.cl: in double precision, with sum_lanes */
+    bool sums_one;      /* orders_sum_one.cl: in double precision, with sum_lanes */
+    const char *on_gpu; /* options there; NULL: none */
 } ps_sphere_source;
 
 /* Launches a kernel of sums for the first num realizations. */

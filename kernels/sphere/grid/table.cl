@@ -9,13 +9,13 @@
  *   numbers  of numbers.h; their names are used here
  *   starts ... squares, states ... diagonal_scales, coefficients, begins  of orders_sum.cl, rows its table
  *   filters  [order modulo 2][even, odd l - m][num_rings][angle_pitch], angle_pitch a multiple of ANGLES
- *   offsets  [order][even, odd l - m]: grid_table.h
+ *   offsets  [order][even, odd l - m]: table.h
  *   table    float or double, as TARGET_PRECISION says
  *
  * LANES divides TARGET_LANES, and that RUN_VECTORS LANES: vectors of the table are whole in a run.
  */
 #include "sphere/nufft/orders_work.h"
-#include "sphere/nufft/grid_table.h"
+#include "sphere/grid/table.h"
 #include "sphere/nufft/numbers.h"
 
 #ifndef TARGET_PRECISION

@@ -11,7 +11,7 @@
  *   window     of nufft/window.h, the same on both axes
  *   radices, twiddles, position  of nufft/transform/fft.h, of length n / 2
  *   gains      [L + 1][3]: around_gains of orders.cl
- *   begins     [order][even, odd l - m][most_runs] of grid_begins.cl: values that do not count are left alone
+ *   begins     [order][even, odd l - m][most_runs] of begins.cl: values that do not count are left alone
  *   grids      [slot][n + width][pitch], and LANES numbers in front and behind; angle (i + 1/2) 2 pi / n is cell
  *              pole + i of a row, and windows of points at the pole reach `pole` cells behind it
  *   values     [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] (values.h), realizations from
@@ -20,7 +20,7 @@
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #include "shared/ahead.h"
-#include "sphere/nufft/grid_table.h"
+#include "sphere/grid/table.h"
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_grid.h"
 #include "sphere/values.h"

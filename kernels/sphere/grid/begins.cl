@@ -1,5 +1,5 @@
 #include "shared/lanes.h"
-#include "sphere/nufft/grid_table.h"
+#include "sphere/grid/table.h"
 
 /* Vectors of degrees in a run of the table. */
 #ifndef RUN_VECTORS
