@@ -12,6 +12,7 @@
  *   inverses  1 / l for l = 1 .. num_degrees
  *   partials  [realization][run of this launch][high, low][num_degrees]; entry l - 1 belongs to degree l
  *   num_degrees  a multiple of 2 DEGREES
+ *   run_vectors  of pairs
  */
 #include "shared/real.h"
 #include "pairs/layout.h"
@@ -32,13 +33,14 @@ PAIRS_INLINE void begin_chunk(pair_place *at, __local real *memory, const size_t
 __kernel __attribute__((reqd_work_group_size(1, 1, 1))) void
 pairs_sums(__global const real *restrict points, __global const ulong *restrict counts,
            __global const real *restrict inverses, __global real *restrict partials,
-           const ulong stride, const ulong first_run, const uint num_degrees) {
+           const ulong stride, const ulong first_run, const uint num_degrees,
+           const ulong run_vectors) {
     __local real memory[STATES * CHUNK * LANES];
     const size_t realization = get_group_id(1);
     const ulong num_points = counts[realization];
     const ulong all = pair_vectors(num_points);
-    const ulong begin = (first_run + get_group_id(0)) * (CHUNK * RUN);
-    const ulong end = min(begin + CHUNK * RUN, all);
+    const ulong begin = (first_run + get_group_id(0)) * run_vectors;
+    const ulong end = min(begin + run_vectors, all);
     __global real *high =
         partials + (realization * get_num_groups(0) + get_group_id(0)) * 2 * num_degrees;
     for (uint i = 0; i < 2 * num_degrees; i++) {

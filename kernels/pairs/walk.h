@@ -57,39 +57,48 @@
     STEP((i) + 1)                                                                                  \
     sums[(i) + 1] += p;
 
+/* A vector of pairs, up DEGREES degrees from `before` on, odd = 2 before + 1: added to the sums of
+ * each. */
+PAIRS_INLINE void walk_vector(realv *state_p, realv *state_e, const realv t, const realv side,
+                              __global const real *inverses, const real odd, realv *sums) {
+    const realv twice = t + t;
+    realv p = *state_p, e = *state_e, u = t * (realv)odd;
+    (void)side;
+    STEP_TWICE(0)
+    STEP_TWICE(2)
+    STEP_TWICE(4)
+    STEP_TWICE(6)
+    *state_p = p;
+    *state_e = e;
+}
+
+PAIRS_INLINE void clear_sums(realv *sums) {
+    sums[0] = sums[1] = sums[2] = sums[3] = (realv)0;
+    sums[4] = sums[5] = sums[6] = sums[7] = (realv)0;
+}
+
 /* Degrees before + 1 .. before + DEGREES of a chunk: their sums over all pairs. */
 PAIRS_INLINE void walk_block(__local real *memory, const size_t num_vectors,
                              __global const real *inverses, const uint before, realv *sums) {
     const real odd = (real)(2 * before + 1);
-    sums[0] = sums[1] = sums[2] = sums[3] = (realv)0;
-    sums[4] = sums[5] = sums[6] = sums[7] = (realv)0;
+    clear_sums(sums);
     for (size_t v = 0; v < num_vectors; v++) {
-        const realv t = load_local(AT(STATE_T), v), twice = t + t;
-#if !ONLY_EVEN
-        const realv side = load_local(AT(STATE_SIDE), v);
-#endif
         realv p = load_local(AT(STATE_P), v);
         realv e = load_local(AT(STATE_E), v);
-        realv u = t * (realv)odd;
-        STEP_TWICE(0)
-        STEP_TWICE(2)
-        STEP_TWICE(4)
-        STEP_TWICE(6)
+        walk_vector(&p, &e, load_local(AT(STATE_T), v), load_local(AT(STATE_SIDE), v), inverses,
+                    odd, sums);
         store_local(AT(STATE_P), v, p);
         store_local(AT(STATE_E), v, e);
     }
 }
 
 /* As in shared/pair.h. */
-PAIRS_INLINE void add_totals(__global real *high, __global real *low, const real *totals) {
-    for (int i = 0; i < NUM_LANE_SUMS; i++) {
-        const real x = totals[i];
-        const real old = high[i];
-        const real sum = old + x;
-        const real x_part = sum - old;
-        low[i] += (old - (sum - x_part)) + (x - x_part);
-        high[i] = sum;
-    }
+PAIRS_INLINE void add_total(__global real *high, __global real *low, const real x) {
+    const real old = *high;
+    const real sum = old + x;
+    const real x_part = sum - old;
+    *low += (old - (sum - x_part)) + (x - x_part);
+    *high = sum;
 }
 
 /* All degrees of a chunk whose states begin: added to a row [high, low][num_degrees]. */
@@ -103,7 +112,9 @@ PAIRS_INLINE void walk_chunk(__local real *memory, const size_t num_vectors,
         walk_block(memory, num_vectors, inverses + before + DEGREES, before + DEGREES,
                    sums + DEGREES);
         sum_lanes(sums, totals);
-        add_totals(high + before, high + num_degrees + before, totals);
+        for (int i = 0; i < NUM_LANE_SUMS; i++) {
+            add_total(high + before + i, high + num_degrees + before + i, totals[i]);
+        }
     }
 }
 

@@ -72,12 +72,14 @@ static test_memory make_inverses(const pairs_case *one) {
     return test_reals_create(device, one->precision, inverses, LAST);
 }
 
-/* Groups of one work-item, as the kernels want them. */
-#define LAUNCH_ALONE(kernel, first, ...)                                                           \
+/* Groups of so many work-items, as the kernels want them. */
+#define LAUNCH_GROUPS(kernel, items, first, ...)                                                   \
     do {                                                                                           \
-        const ps_range alone = {.rank = 3, .global = {(first), SETS, 1}, .local = {1, 1, 1}};      \
-        assert_ok(PS_LAUNCH(device, (kernel), &alone, error, __VA_ARGS__));                        \
+        const ps_range groups = {                                                                  \
+            .rank = 3, .global = {(first) * (items), SETS, 1}, .local = {(items), 1, 1}};          \
+        assert_ok(PS_LAUNCH(device, (kernel), &groups, error, __VA_ARGS__));                       \
     } while (0)
+#define LAUNCH_ALONE(kernel, first, ...) LAUNCH_GROUPS(kernel, 1, first, __VA_ARGS__)
 
 /* Sums over runs [set][num_runs][2][LAST] against long double, the diagonal added. */
 static void check_sums(const pairs_case *one, const pairs_data *data, const double *sums,
@@ -114,24 +116,34 @@ static size_t count_runs(const pairs_case *one, size_t run) {
     return (ps_pairs_vectors(MOST - one->fewer, one->lanes) + run - 1) / run;
 }
 
-static void check_pair_sums(const pairs_case *one) {
-    const size_t num_runs = count_runs(one, CHUNK * RUN);
+/* Of a run by a work-item, or by a work-group, in a round or in two. */
+static void check_runs(const pairs_case *one, const char *file, const char *name, size_t items,
+                       size_t run) {
+    const size_t num_runs = count_runs(one, run);
     pairs_data data = make_data(one);
     test_memory inverses = make_inverses(one);
     test_memory partials =
         test_reals_create(device, one->precision, NULL, SETS * num_runs * 2 * LAST);
-    ps_kernel *kernel = test_kernel(device, "pairs/sums.cl", "pairs_sums",
-                                    "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DRUN=%d -DONLY_EVEN=0",
-                                    one->precision, one->lanes, CHUNK, RUN);
-    LAUNCH_ALONE(kernel, num_runs, PS_BUFFER(data.on_device.buffer), PS_BUFFER(data.counts.buffer),
-                 PS_BUFFER(inverses.buffer), PS_BUFFER(partials.buffer), PS_U64(data.stride),
-                 PS_U64(0), PS_U32(LAST));
+    ps_kernel *kernel =
+        test_kernel(device, file, name, "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DONLY_EVEN=0",
+                    one->precision, one->lanes, CHUNK);
+    LAUNCH_GROUPS(kernel, items, num_runs, PS_BUFFER(data.on_device.buffer),
+                  PS_BUFFER(data.counts.buffer), PS_BUFFER(inverses.buffer),
+                  PS_BUFFER(partials.buffer), PS_U64(data.stride), PS_U64(0), PS_U32(LAST),
+                  PS_U64(run));
     double *sums = test_reals_read(&partials, one->precision);
     check_sums(one, &data, sums, num_runs, limit_of(one));
     free(sums);
     test_memory_free(&partials);
     test_memory_free_unchanged(&inverses);
     free_data(&data);
+}
+
+static void check_pair_sums(const pairs_case *one) {
+    enum { ITEMS = 64, ROUND = 2 * ITEMS };
+    check_runs(one, "pairs/sums.cl", "pairs_sums", 1, CHUNK * RUN);
+    check_runs(one, "pairs/sums_shared.cl", "pairs_sums_shared", ITEMS, ROUND);
+    check_runs(one, "pairs/sums_shared.cl", "pairs_sums_shared", ITEMS, 2 * ROUND);
 }
 
 /* From pairs to moments to nodes to sums. */

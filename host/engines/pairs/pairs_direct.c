@@ -12,9 +12,14 @@
  * since nothing stops a kernel. */
 static const double slab_bytes = 4.0 * 1024 * 1024;
 
+/* GPUs (kernels/pairs/sums_shared.cl) have longer runs, whose rows one work-item for a few degrees
+ * adds up, one after the other: 512 of them for 4096 points, work for all units. */
+enum { GPU_RUN = 4 * PS_PAIRS_RUN, GPU_ITEMS = 64 };
+
 typedef struct pairs_direct {
     ps_pairs_state pairs;
     ps_kernel *kernel;
+    bool is_shared; /* runs are of work-groups, not of work-items */
 } pairs_direct;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
@@ -22,7 +27,8 @@ typedef struct pairs_direct {
 static ps_pairs_layout make_layout(const ps_problem *problem, const ps_device_limits *limits,
                                    ps_precision precision) {
     ps_pairs_layout out = ps_pairs_layout_of(problem, limits, precision);
-    ps_pairs_layout_cut(&out, problem, PS_PAIRS_RUN, out.row_bytes, slab_bytes);
+    ps_pairs_layout_cut(&out, problem, limits->has_dedicated_local_memory ? GPU_RUN : PS_PAIRS_RUN,
+                        out.row_bytes, slab_bytes);
     return out;
 }
 
@@ -78,9 +84,13 @@ static double error_of_state(const void *state, double mean_power, double weight
 static pspec_status create(void *state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
     pairs_direct *const self = state;
-    const ps_pairs_layout layout = make_layout(problem, ps_device_get_limits(device), precision);
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const ps_pairs_layout layout = make_layout(problem, limits, precision);
+    self->is_shared = limits->has_dedicated_local_memory;
     PS_TRY(ps_pairs_create(&self->pairs, problem, precision, &layout, batch, device, error));
-    PS_TRY(ps_kernel_get(device, &self->kernel, "pairs/sums.cl", "pairs_sums",
+    PS_TRY(ps_kernel_get(device, &self->kernel,
+                         self->is_shared ? "pairs/sums_shared.cl" : "pairs/sums.cl",
+                         self->is_shared ? "pairs_sums_shared" : "pairs_sums",
                          ps_pairs_defines(&self->pairs).text, error));
     return ps_buffer_create(device, &self->pairs.partials,
                             batch * layout.slab * (size_t)layout.row_bytes, "sums of runs of pairs",
@@ -95,14 +105,17 @@ static pspec_status add_slab(void *state, size_t num_patterns, uint64_t first, s
     ps_pairs_state *const self = state;
     const ps_pairs_layout *layout = &self->layout;
     const double flops_per_degree = 6; /* as they are counted: docs/engines/pairs_direct.md */
-    const double pairs = (double)num_runs * PS_PAIRS_RUN * layout->lanes * (double)num_patterns;
+    const double pairs =
+        (double)num_runs * (double)layout->run_vectors * layout->lanes * (double)num_patterns;
+    const size_t items = direct->is_shared ? GPU_ITEMS : 1;
     const ps_range range = {.rank = 3,
-                            .global = {num_runs, num_patterns, 1},
-                            .local = {1, 1, 1},
+                            .global = {num_runs * items, num_patterns, 1},
+                            .local = {items, 1, 1},
                             .flops = flops_per_degree * pairs * (double)layout->num_degrees};
     PS_TRY(PS_LAUNCH(self->device, direct->kernel, &range, error, PS_BUFFER(self->points.filled),
                      PS_BUFFER(self->counts), PS_BUFFER(self->inverses), PS_BUFFER(self->partials),
-                     PS_U64(layout->stride), PS_U64(first), PS_U32(layout->num_degrees)));
+                     PS_U64(layout->stride), PS_U64(first), PS_U32(layout->num_degrees),
+                     PS_U64(layout->run_vectors)));
     return ps_pairs_fold(self, &self->partials, num_patterns, num_runs, first == 0, error);
 }
 

@@ -1,5 +1,5 @@
 /* Laws of pair sums by the engines that sum over pairs: closed forms, rotations, batches,
- * designs. */
+ * designs; with the layouts of CPUs and of GPUs. */
 #include "harness_pairs.h"
 
 #include "engines/pairs/pairs_bins.h"
@@ -239,7 +239,9 @@ int main(void) {
         cmocka_unit_test(rotations),     cmocka_unit_test(white_mean),
         cmocka_unit_test(bound_of_bins), cmocka_unit_test(designs)};
     device = test_open_device();
-    const int failures = cmocka_run_group_tests_name("pairs", tests, NULL, NULL);
+    int failures = cmocka_run_group_tests_name("pairs", tests, NULL, NULL);
+    ((ps_device_limits *)ps_device_get_limits(device))->has_dedicated_local_memory = true;
+    failures += cmocka_run_group_tests_name("pairs as on GPUs", tests, NULL, NULL);
     ps_device_close(device);
     return failures;
 }
