@@ -13,8 +13,8 @@ typedef struct device_rates {
     double transform_share; /* share of its cycles that nufft/ takes */
     double harmonics_per_flop; /* (point, degree, order) triples per nominal flop: sphere/sums.cl,
                                   on 2 cores of an EPYC with AVX2 */
-    /* pairs/sums.cl, on GPUs sums_shared.cl, and histogram.cl, per nominal flop: on 2 cores of a EPYC with AVX2,
-     * bench_pairs, 2026-11 */
+    /* pairs/sums.cl, on GPUs sums_shared.cl, and histogram.cl, per nominal flop: on 2 cores of an
+     * EPYC with AVX2, bench_pairs, 2026-11 */
     double pair_degrees_per_flop; /* (pair, degree) */
     double pairs_per_flop;        /* pairs into a histogram */
     double seconds_per_launch;
@@ -29,14 +29,15 @@ static const device_rates cpu_rates[2] = {
 /* The same of GPUs, where transforms have cycles of their own (engines/nufft/cycles.c). Measured on
  * an H200 or H100 (docs/developer/performance.md, "On a GPU"): lists ran at 11.2 TFLOP/s with 37 of
  * them a phase; a prototype of the product, slowed down by what the kernel does more than it, has
- * 4.9 us for (1024, 128); 1024 points and L = 128 took sphere_direct 278 us. Sums over pairs were
- * not measured: counted, they reach 0.1 (docs/engines/pairs_direct.md), of which plans take less
- * than half; histograms have the share of their CPU's rate that sphere_direct has, whose
- * work-groups have one item, too. A launch is what NVIDIA's driver takes, an estimate until
- * --calibrate has run on one. A kernel for GPUs with work of its own has a column here. */
+ * 4.9 us for (1024, 128). Sums of sphere_direct and over pairs were not measured since work-groups
+ * do them: counted, they reach 0.06 and 0.1 (docs/engines/sphere_direct.md,
+ * docs/engines/pairs_direct.md), of which plans take less than half. Histograms are done by groups
+ * of one item, as sphere_direct was, which had 0.8 % of the share of its CPU's rate. A launch is
+ * what NVIDIA's driver takes, an estimate until --calibrate has run on one. A kernel for GPUs with
+ * work of its own has a column here. */
 static const device_rates gpu_rates[2] = {
-    [PS_SINGLE] = {0.0045, 0.56, 1.0, 4.7e-4, 0.04, 4.2e-5, 5e-6},
-    [PS_DOUBLE] = {0.0045, 0.50, 1.0, 7.0e-4, 0.04, 4.2e-5, 5e-6},
+    [PS_SINGLE] = {0.0045, 0.56, 1.0, 0.02, 0.04, 4.2e-5, 5e-6},
+    [PS_DOUBLE] = {0.0045, 0.50, 1.0, 0.02, 0.04, 4.2e-5, 5e-6},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */

@@ -2,7 +2,8 @@
  *
  *   LANES    points side by side
  *   CHUNK    points whose state stays in local memory; their sums are added to a pair
- *   ORDERS   orders of one work-item: azimuth and sin^m begin exactly at the first, then go by multiplication
+ *   JOBS     work-items of a group, who have a chunk together: one on CPUs
+ *   ORDERS   orders of one work-group: azimuth and sin^m begin exactly at the first, then go by multiplication
  *   DEGREES  degrees of a block, whose sums stay in registers. 8: 16 sums of 32 registers
  *
  * A block of the table is BLOCK_REALS numbers: -kappa[8], epsilon[8], ratio[8], the two factors of
@@ -13,6 +14,9 @@
 
 #ifndef CHUNK
 #define CHUNK 512
+#endif
+#ifndef JOBS
+#define JOBS 1
 #endif
 #ifndef ORDERS
 #define ORDERS 16

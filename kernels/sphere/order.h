@@ -13,7 +13,7 @@
 
 #ifdef __OPENCL_C_VERSION__
 
-/* Local memory of a work-item: what the points of a chunk carry from degree to degree and from
+/* Local memory of a work-group: what the points of a chunk carry from degree to degree and from
  * order to order. */
 #define LOCAL_P 0
 #define LOCAL_E (LOCAL_P + CHUNK)
@@ -27,7 +27,7 @@
 typedef swordv unaligned_swordv __attribute__((aligned(sizeof(real))));
 typedef PS_VECTOR(ulong) ulongv;
 
-/* The pointers of a work-item. */
+/* The pointers of a work-group, whose items have the vectors that are their number modulo JOBS. */
 typedef struct chunk {
     __global const real *values;
     __global const ulong *turns;
@@ -35,6 +35,7 @@ typedef struct chunk {
     __local real *memory;
     __local SWORD *scales; /* [2][CHUNK]: of sin^m(theta), of the state */
     __local uint *is_scaled;
+    __local real *of_items, *of_parts; /* of put_block, with several items */
     ulong capacity;
     size_t num_vectors;
 } chunk;

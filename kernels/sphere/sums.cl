@@ -1,12 +1,14 @@
 /* Coefficients c_lm = sum_j w_j Y_lm(u_j), m >= 0: nearly all the work of sphere_direct.
  *
- * One work-item owns ORDERS orders of one realization, and goes through its points in chunks. For
- * an order it makes w cos(m phi), w sin(m phi) and sin^m(theta) of the points of a chunk, then
- * walks up the degrees, DEGREES at a time: their sums are in registers while the points, LANES side
- * by side, pass by with the state of their recurrences.
+ * A work-group owns ORDERS orders of one realization, and goes through its points in chunks, of
+ * which each of its JOBS items has some vectors. For an order it makes w cos(m phi), w sin(m phi)
+ * and sin^m(theta) of the points of a chunk, then walks up the degrees, DEGREES at a time: their
+ * sums are in registers while the points, LANES side by side, pass by with the state of their
+ * recurrences.
  *
- * Launch: (tiles of orders, realizations) in work-groups of one item, since local memory belongs to
- * one.
+ * Launch: (tiles of orders, realizations) in work-groups of JOBS items: one on CPUs, 64 on GPUs,
+ * where two vectors an item and block of degrees take 416 instructions, sums over the group some
+ * 110.
  *
  *   numbers        of sphere/sums.h; their names are used here
  *   values, turns  of sphere/prepare.cl
@@ -35,6 +37,10 @@
 
 #define VECTORS (CHUNK / LANES)
 #define SUMS (2 * DEGREES)
+/* Items that add up a part of the items' sums, of each sum. */
+#define PARTS (JOBS / SUMS)
+/* From sum to sum: so that items of a part read other banks. */
+#define PITCH (JOBS + 1)
 #define SUM_ALIGNMENT 16
 
 /* ---- a block of degrees ---------------------------------------------------------------------- */
@@ -97,7 +103,7 @@ INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *su
 INLINE void add_block(const chunk *at, TABLE *block, const int first, const int step,
                       real *totals) {
     realv sums[SUMS] = {(realv)0};
-    for (size_t v = 0; v < at->num_vectors; v++) {
+    for (size_t v = get_local_id(0); v < at->num_vectors; v += JOBS) {
         if (at->is_scaled[v]) {
             walk_scaled(at, v, block, sums, first, step);
         } else {
@@ -112,42 +118,63 @@ INLINE void add_block(const chunk *at, TABLE *block, const int first, const int 
 
 /* ---- what a chunk adds to an order ----------------------------------------------------------- */
 
-/* One part of a row of sums begins. */
-INLINE void begin_part(__global real *to, __global real *low, TABLE *ratio, const real *totals,
-                       const int has_low) {
-    for (int i = 0; i < DEGREES; i++) {
-        to[i] = totals[i] * ratio[i];
-    }
-    for (int i = 0; has_low && i < DEGREES; i++) {
-        low[i] = 0;
-    }
-}
-
-/* Another chunk is added to it, as in shared/pair.h. */
-INLINE void add_part(__global real *to, __global real *low, TABLE *ratio, const real *totals) {
-    for (int i = 0; i < DEGREES; i++) {
-        const real x = totals[i] * ratio[i];
-        const real old = to[i];
-        const real sum = old + x;
-        const real x_part = sum - old;
-        low[i] += (old - (sum - x_part)) + (x - x_part);
-        to[i] = sum;
-    }
-}
-
-/* Rows of one order of one realization: re, im and their low parts. */
-INLINE void put_block(__global real *row, const ulong stride, TABLE *block, const real *totals,
-                      const int has_low, const int is_first) {
-    for (int part = 0; part < 2; part++) {
-        __global real *to = row + part * stride;
-        __global real *low = to + 2 * stride;
-        if (is_first) {
-            begin_part(to, low, block + BLOCK_RATIO, totals + part * DEGREES, has_low);
-        } else {
-            add_part(to, low, block + BLOCK_RATIO, totals + part * DEGREES);
+/* One sum begins, or another chunk is added to it, as in shared/pair.h. */
+INLINE void put_total(__global real *to, __global real *low, const real x, const int has_low,
+                      const int is_first) {
+    if (is_first) {
+        *to = x;
+        if (has_low) {
+            *low = 0;
         }
+        return;
+    }
+    const real old = *to;
+    const real sum = old + x;
+    const real x_part = sum - old;
+    *low += (old - (sum - x_part)) + (x - x_part);
+    *to = sum;
+}
+
+/* Sum i of a block into the rows of an order of a realization: re, im and their low parts. */
+INLINE void put_sum(__global real *row, const ulong stride, TABLE *block, const uint i,
+                    const real total, const int has_low, const int is_first) {
+    __global real *to = row + i / DEGREES * stride + i % DEGREES;
+    put_total(to, to + 2 * stride, total * block[BLOCK_RATIO + i % DEGREES], has_low, is_first);
+}
+
+#if JOBS == 1
+INLINE void put_block(const chunk *at, __global real *row, const ulong stride, TABLE *block,
+                      const real *totals, const int has_low, const int is_first) {
+    (void)at;
+    for (uint i = 0; i < SUMS; i++) {
+        put_sum(row, stride, block, i, totals[i], has_low, is_first);
     }
 }
+#else
+/* Sums of all items, added up in one order, whatever the device. All items call it. */
+INLINE void put_block(const chunk *at, __global real *row, const ulong stride, TABLE *block,
+                      const real *totals, const int has_low, const int is_first) {
+    const uint item = get_local_id(0);
+    real sum = 0;
+#pragma unroll
+    for (uint i = 0; i < SUMS; i++) {
+        at->of_items[i * PITCH + item] = totals[i];
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint j = 0; j < JOBS / PARTS; j++) {
+        sum += at->of_items[item / PARTS * PITCH + item % PARTS * (JOBS / PARTS) + j];
+    }
+    at->of_parts[item] = sum;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item < SUMS) {
+        real total = 0;
+        for (uint j = 0; j < PARTS; j++) {
+            total += at->of_parts[item * PARTS + j];
+        }
+        put_sum(row, stride, block, item, total, has_low, is_first);
+    }
+}
+#endif
 
 INLINE void clear_below(__global real *row, const ulong stride, const uint m, const int has_low) {
     for (int part = 0; part < (has_low ? 4 : 2); part++) {
@@ -170,12 +197,12 @@ INLINE void add_order(const chunk *at, TABLE *block, __global real *row, const u
 #else
         add_block(at, block, 0, 1, totals);
 #endif
-        put_block(row + l, stride, block, totals, has_low, is_first);
+        put_block(at, row + l, stride, block, totals, has_low, is_first);
         block += BLOCK_REALS;
     }
 }
 
-__kernel __attribute__((reqd_work_group_size(1, 1, 1))) void
+__kernel __attribute__((reqd_work_group_size(JOBS, 1, 1))) void
 sphere_sums(const sums_numbers numbers, __global const real *restrict values,
             __global const ulong *restrict turns, __global const real *restrict weights,
             __global const ulong *restrict offsets, __global const real *restrict table,
@@ -186,6 +213,8 @@ sphere_sums(const sums_numbers numbers, __global const real *restrict values,
     __local real memory[LOCAL_REALS];
     __local SWORD scales[2 * CHUNK];
     __local uint is_scaled[VECTORS];
+    __local real of_items[JOBS == 1 ? 1 : SUMS * PITCH];
+    __local real of_parts[JOBS];
     const uint first = get_group_id(0) * ORDERS;
     const uint last = min(first + ORDERS, num_orders);
     const size_t realization = get_group_id(1);
@@ -198,16 +227,18 @@ sphere_sums(const sums_numbers numbers, __global const real *restrict values,
         at.memory = memory;
         at.scales = scales;
         at.is_scaled = is_scaled;
+        at.of_items = of_items;
+        at.of_parts = of_parts;
         at.capacity = numbers.capacity;
         at.num_vectors = min(end - from, (ulong)VECTORS);
         const int begins = numbers.is_first && from == begin;
         for (uint order = first; order < last; order++) {
             const uint m = numbers.first_order + order;
             __global real *row = sums + (realization * num_orders + order) * 4 * stride;
-            for (size_t v = 0; v < at.num_vectors; v++) {
+            for (size_t v = get_local_id(0); v < at.num_vectors; v += JOBS) {
                 begin_order(&at, v, m, order == first);
             }
-            if (begins) {
+            if (begins && get_local_id(0) == 0) {
                 clear_below(row, stride, m, has_low);
             }
             add_order(&at, table + (ulong)first_blocks[order] * BLOCK_REALS, row, stride, m,

@@ -21,6 +21,7 @@ typedef struct sphere_case {
     unsigned precision, lanes;
     bool only_even;
     size_t first_order, num_orders; /* of a pass */
+    size_t items;                   /* of a work-group */
 } sphere_case;
 
 /* Points padded to whole vectors of 16; the second realization has three chunks. */
@@ -179,10 +180,15 @@ static void check_case(const sphere_case *one) {
     test_memory offsets = test_memory_create(device, ends, sizeof ends);
     const size_t num_sums = REALIZATIONS * one->num_orders * SUMS * STRIDE;
     test_memory sums = test_reals_create(device, one->precision, NULL, num_sums);
+    const size_t items = one->items;
+    const ps_range range = {
+        .rank = 3,
+        .global = {(one->num_orders + ORDERS - 1) / ORDERS * items, REALIZATIONS, 1},
+        .local = {items, 1, 1}};
     ps_kernel *kernel =
         test_kernel(device, "sphere/sums.cl", "sphere_sums",
-                    "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d",
-                    one->precision, one->lanes, CHUNK, ORDERS, one->only_even);
+                    "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DJOBS=%zu -DORDERS=%d -DONLY_EVEN=%d",
+                    one->precision, one->lanes, CHUNK, items, ORDERS, one->only_even);
     const sums_numbers numbers = {.stride = STRIDE,
                                   .capacity = data.capacity,
                                   .first_order = (uint32_t)one->first_order,
@@ -190,10 +196,10 @@ static void check_case(const sphere_case *one) {
                                   .max_degree = MAX_DEGREE,
                                   .has_low = 1,
                                   .is_first = 1};
-    TEST_LAUNCH(device, kernel, 1, (one->num_orders + ORDERS - 1) / ORDERS, REALIZATIONS, 1,
-                PS_STRUCT(numbers), PS_BUFFER(values.buffer), PS_BUFFER(turns.buffer),
-                PS_BUFFER(weights.buffer), PS_BUFFER(offsets.buffer), PS_BUFFER(table.buffer),
-                PS_BUFFER(blocks.buffer), PS_BUFFER(sums.buffer));
+    assert_ok(PS_LAUNCH(device, kernel, &range, error, PS_STRUCT(numbers), PS_BUFFER(values.buffer),
+                        PS_BUFFER(turns.buffer), PS_BUFFER(weights.buffer),
+                        PS_BUFFER(offsets.buffer), PS_BUFFER(table.buffer),
+                        PS_BUFFER(blocks.buffer), PS_BUFFER(sums.buffer)));
     double *got = test_reals_read(&sums, one->precision);
     check_sums(one, &data, got);
     run_power(one, &sums, got);
@@ -211,16 +217,19 @@ static void check_case(const sphere_case *one) {
 
 static void single(void **state) {
     (void)state;
-    check_case(&(sphere_case){32, 16, false, 0, 20});
-    check_case(&(sphere_case){32, 4, false, 8, 7});
-    check_case(&(sphere_case){32, 16, true, 0, 20});
-    check_case(&(sphere_case){32, 1, false, 0, 5});
+    check_case(&(sphere_case){32, 16, false, 0, 20, 1});
+    check_case(&(sphere_case){32, 4, false, 8, 7, 1});
+    check_case(&(sphere_case){32, 16, true, 0, 20, 1});
+    check_case(&(sphere_case){32, 1, false, 0, 5, 1});
+    check_case(&(sphere_case){32, 4, false, 3, 9, 64});
 }
 
 static void double_precision(void **state) {
     (void)state;
-    check_case(&(sphere_case){64, 8, false, 0, 20});
-    check_case(&(sphere_case){64, 2, true, 5, 15});
+    check_case(&(sphere_case){64, 8, false, 0, 20, 1});
+    check_case(&(sphere_case){64, 2, true, 5, 15, 1});
+    check_case(&(sphere_case){64, 4, false, 0, 20, 64});
+    check_case(&(sphere_case){64, 1, true, 2, 11, 16});
 }
 
 int main(void) {

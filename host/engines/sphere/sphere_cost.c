@@ -28,7 +28,7 @@ double ps_sphere_harmonics(const ps_sphere_layout *layout, const ps_problem *pro
     const size_t orders = (size_t)layout->max_degree + 1;
     const double blocks = (double)ps_sphere_all_blocks(layout->max_degree, 0, orders, NULL);
     const double points = (double)ps_round_up(problem->num_points, layout->lanes);
-    const double items = (double)ps_divide_up(orders, PS_SPHERE_ORDERS) * realizations;
+    const double items = (double)ps_divide_up(orders, layout->group_orders) * realizations;
     const double tables = layout->num_passes == 1 ? 1 : realizations; /* made for every batch */
     const double sums =
         points * (PS_SPHERE_DEGREES * blocks + costs[layout->precision].order * (double)orders) +

@@ -89,8 +89,8 @@ static void destroy(void *state) {
 static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
     ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
-    ps_defines_add(&defines, "-DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d", PS_SPHERE_CHUNK,
-                   PS_SPHERE_ORDERS, layout->only_even);
+    ps_defines_add(&defines, "-DCHUNK=%d -DJOBS=%u -DORDERS=%u -DONLY_EVEN=%d", PS_SPHERE_CHUNK,
+                   layout->group_items, layout->group_orders, layout->only_even);
     PS_TRY(ps_kernel_get(self->device, &self->sums_kernel, "sphere/sums.cl", "sphere_sums",
                          defines.text, error));
     return ps_kernel_get(self->device, &self->power_kernel, "sphere/power.cl", "sphere_power",
@@ -216,8 +216,9 @@ static pspec_status add_slab(sphere_direct *self, size_t num_patterns, size_t pa
                                   .has_low = has_low,
                                   .is_first = is_first};
     ps_range range = {.rank = 3,
-                      .global = {ps_divide_up(orders, PS_SPHERE_ORDERS), num_patterns, 1},
-                      .local = {1, 1, 1},
+                      .global = {ps_divide_up(orders, layout->group_orders) * layout->group_items,
+                                 num_patterns, 1},
+                      .local = {layout->group_items, 1, 1},
                       .flops = flops_per_harmonic * harmonics};
     return PS_LAUNCH(self->device, self->sums_kernel, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(points->values), PS_BUFFER(points->turns),

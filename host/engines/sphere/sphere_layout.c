@@ -68,6 +68,9 @@ ps_sphere_layout ps_sphere_layout_make(const ps_problem *problem, const ps_devic
                                .prepare_lanes = ps_engine_lanes(limits, PS_DOUBLE),
                                .real_bytes =
                                    precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
+    const bool is_gpu = limits->has_dedicated_local_memory;
+    layout.group_items = is_gpu ? PS_SPHERE_GPU_ITEMS : 1;
+    layout.group_orders = is_gpu ? PS_SPHERE_GPU_ORDERS : PS_SPHERE_ORDERS;
     layout.prepare_lanes =
         layout.prepare_lanes < layout.lanes ? layout.prepare_lanes : layout.lanes;
     layout.stride = ps_round_up((uint64_t)layout.max_degree + 1 + PS_SPHERE_DEGREES, ROW_UNIT);

@@ -10,6 +10,10 @@
  * each multiplies its rounding errors on. */
 enum { PS_SPHERE_CHUNK = 512, PS_SPHERE_ORDERS = 16 };
 
+/* On GPUs a work-group has so many items, and fewer orders, so that one set has work for all units:
+ * 65 groups for L = 256. */
+enum { PS_SPHERE_GPU_ITEMS = 64, PS_SPHERE_GPU_ORDERS = 4 };
+
 /* Blocks of constants of the recurrence over degrees (sphere_table.c), for
  * kernels/sphere/legendre.h. */
 enum { PS_SPHERE_DEGREES = 8, PS_SPHERE_BLOCK_REALS = 32 };
@@ -34,6 +38,7 @@ enum { PS_SPHERE_ARRAYS = 6, PS_SPHERE_SUMS = 4, PS_SPHERE_POWERS = 2 };
 typedef struct ps_sphere_layout {
     int32_t max_degree;
     bool only_even;
+    unsigned group_items, group_orders; /* of a work-group: JOBS and ORDERS */
     unsigned lanes, prepare_lanes;
     ps_precision precision;
     size_t real_bytes;
