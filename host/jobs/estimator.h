@@ -92,9 +92,8 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
 
 /* Realizations that several estimators share, with options.makes_rows: those that are added next,
  * from number `first` on, do not change the averages; what each would have added becomes a row of
- * bytes, in their order, from rows on. `end` waits for them. */
+ * bytes, in their order, from rows on. ps_estimator_settle waits for them. */
 void ps_estimator_begin_rows(ps_estimator *estimator, uint64_t first, void *rows);
-pspec_status ps_estimator_end_rows(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
 size_t ps_estimator_row_bytes(const ps_estimator *estimator); /* a multiple of sizeof(double) */
 /* Adds the next realization, a row of any estimator of the plan. Together they have the bits of one
  * estimator; what is measured besides is of ps_estimator_take_measured. */

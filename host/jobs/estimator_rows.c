@@ -36,10 +36,6 @@ void ps_estimator_begin_rows(ps_estimator *estimator, uint64_t first, void *rows
     estimator->next_counts = estimator->next_powers = rows;
 }
 
-pspec_status ps_estimator_end_rows(ps_estimator *estimator, ps_error *error) {
-    return ps_estimator_settle(estimator, error);
-}
-
 static void put_counts(ps_estimator *self, size_t pattern, size_t num_points,
                        const double *totals) {
     row *const next = (void *)self->next_counts;

@@ -34,7 +34,7 @@ static pspec_status make(void *payload, uint64_t first, size_t most, void *rows,
     const uint64_t left = all > 0 ? all - first : UINT64_MAX;
     ps_estimator_begin_rows(job->runner.estimator, first, rows);
     PS_TRY(ps_power_job_add(job, left < most ? left : most, num, error));
-    return ps_estimator_end_rows(job->runner.estimator, error);
+    return ps_estimator_settle(job->runner.estimator, error);
 }
 
 static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error *error) {
