@@ -1,8 +1,9 @@
 /* From values on rings to sum_m |c_lm|^2. A work-group has the orders that are its number modulo
  * the number of groups, so that what it adds up does not depend on the device; groups that have the
  * same ones share the realizations (shares.h). For each order, Lambda_lm is made for a run of
- * degrees and a block of rings at a time, and used by all realizations of the share. Launch:
- * (work-items of one group, groups times shares).
+ * degrees and a block of rings at a time, and used by all realizations of the share: a work-item
+ * has two of them, all degrees or, where they are few, a vector. Launch: (work-items of one group,
+ * groups times shares).
  *
  *   numbers    of numbers.h; their names are used here
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
@@ -29,6 +30,49 @@
 #include "sphere/nufft/orders_work.h"
 #include "sphere/shares.h"
 #include "sphere/values.h"
+
+/* Products of all realizations with a run of degrees at some rings. */
+typedef struct run_products {
+    product_rows rows; /* of even l - m; odd ones come odd_apart further in the table */
+    __global const real *values;
+    size_t apart; /* of realizations, twice that of parities, in values */
+    uint odd_apart;
+    __global real *sums;
+    __global double *powers; /* of all degrees; with KEEP of even l - m of the run */
+    uint half_pitch;
+    uint first, degrees; /* of the run */
+    uint num_realizations;
+} run_products;
+
+/* At most most_vectors vectors of degrees from `vector` on, of realizations r and r + 1. */
+static inline void add_products(const run_products of, const uint r, const uint odd,
+                                const uint vector, const uint most_vectors) {
+    const uint in_parity = odd ? of.degrees / 2 : (of.degrees + 1) / 2;
+    const uint vectors = (in_parity + LANES - 1) / LANES;
+    if (vector >= vectors || r >= of.num_realizations) {
+        return;
+    }
+    product_rows rows = of.rows;
+    rows.table += odd * of.odd_apart + vector * LANES;
+    rows.alphas += odd * (RUN_DEGREES / 2) + vector * LANES;
+    __global const real *from = of.values + r * of.apart + odd * (of.apart / 2);
+    __global real *to = of.sums + ((r * 2 + odd * 2) * RUN_VECTORS + vector) * (2 * LANES);
+    const size_t powers_apart = 2 * (size_t)of.half_pitch;
+#if KEEP
+    __global double *powers = of.powers + odd * powers_apart + vector * LANES;
+    const size_t ends_apart = of.half_pitch;
+#else
+    __global double *powers = of.powers + r * powers_apart + (of.first + odd) % 2 * of.half_pitch +
+                              (of.first + odd) / 2 + vector * LANES;
+    const size_t ends_apart = powers_apart;
+#endif
+    const uint own = min(vectors - vector, most_vectors);
+    if (r + 1 < of.num_realizations) {
+        product_of_two(rows, from, of.apart, to, powers, ends_apart, own);
+    } else {
+        product_of_one(rows, from, of.apart, to, powers, ends_apart, own);
+    }
+}
 
 __kernel void
 sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restrict values,
@@ -70,6 +114,9 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
     if (num_realizations == 0) {
         return;
     }
+    /* Few realizations have a work-item for each vector of degrees. */
+    const uint pieces = (num_realizations + 1) * RUN_VECTORS <= num_items() ? RUN_VECTORS : 1;
+    const uint most_vectors = RUN_VECTORS / pieces;
     const order_starts from_order = {starts, start_scales, steps, step_scales, ratios, cosines};
     for (uint m = group; m <= L; m += groups) {
         const uint start = work.alive / block * block; /* the first block that is not all zeros */
@@ -85,37 +132,23 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                 const uint begin =
                     make_block(work, ring, here, coefficients, table, begins, vectors);
                 dead = dead >= ring && first + degrees > L ? max(dead, ring + begin) : dead;
-                for (uint job = own_item(); job < num_realizations + 1; job += num_items()) {
-                    const uint r = job / 2 * 2, odd = job % 2;
-                    if (only_even != 0 && (m + odd) % 2 != 0) {
-                        continue;
-                    }
-                    const uint in_parity = odd ? degrees / 2 : (degrees + 1) / 2;
-                    const uint own_vectors = (in_parity + LANES - 1) / LANES;
-                    const product_rows rows = {table + odd * block * TABLE_ROW,
-                                               begin,
-                                               here,
-                                               ring == start,
-                                               ring + block >= num_rings,
-                                               m == group,
-                                               m == 0 ? 1 : 2,
-                                               coefficients + OF_ALPHA + odd * (RUN_DEGREES / 2)};
-                    __global const real *from = own_values +
-                                                m * order_pitch(value_sets, apart / 2) + r * apart +
-                                                odd * 2 * (size_t)ring_pitch + 2 * ring;
-                    __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
-#if KEEP
-                    __global double *to_powers =
-                        powers + (m * 2 + odd) * powers_apart + (first - m) / 2;
-#else
-                    __global double *to_powers = powers + r * powers_apart +
-                                                 (first + odd) % 2 * half_pitch + (first + odd) / 2;
-#endif
-                    const size_t ends_apart = KEEP ? half_pitch : powers_apart;
-                    if (r + 1 < num_realizations) {
-                        product_of_two(rows, from, apart, to, to_powers, ends_apart, own_vectors);
-                    } else if (r < num_realizations) {
-                        product_of_one(rows, from, apart, to, to_powers, ends_apart, own_vectors);
+                const run_products run = {
+                    {table, begin, here, ring == start, ring + block >= num_rings, m == group,
+                     m == 0 ? 1 : 2, coefficients + OF_ALPHA},
+                    own_values + m * order_pitch(value_sets, apart / 2) + 2 * ring,
+                    apart,
+                    block * TABLE_ROW,
+                    sums,
+                    KEEP ? powers + m * 2 * powers_apart + (first - m) / 2 : powers,
+                    half_pitch,
+                    first,
+                    degrees,
+                    num_realizations};
+                for (uint job = own_item(); job < (num_realizations + 1) * pieces;
+                     job += num_items()) {
+                    const uint r = job / pieces / 2 * 2, odd = job / pieces % 2;
+                    if (only_even == 0 || (m + odd) % 2 == 0) {
+                        add_products(run, r, odd, job % pieces * most_vectors, most_vectors);
                     }
                 }
                 barrier_everywhere();
