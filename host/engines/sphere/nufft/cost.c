@@ -101,16 +101,18 @@ double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, 
 
 /* Cycles, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11): 0.7
  * to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096,
- * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. */
-/* The same of a GPU, by the time of all kernels on an H200: 135 to 230 ps for a degree and order at
- * an angle of each of 32 to 64 sets by cells ((1024, 64), (1024, 128), (4096, 256)), of which 32
- * work-groups do the sums, and 63 ms for the one set of (1e6, 1000) by rings without its sort.
- * Double precision was measured once, at less than single; a fourth more is an estimate. */
+ * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. The same of a GPU, by the time of all
+ * kernels on an H200: 135 to 230 ps for a degree and order at an angle of each of 32 to 64 sets by
+ * cells ((1024, 64), (1024, 128), (4096, 256)), which took 1 to 2 % of the card, so that batches of
+ * hundreds, which were not measured, are taken to last as long; and 63 ms for the one set of (1e6,
+ * 1000) by rings without its sort. Double precision was measured once, at less than single; a
+ * fourth more is an estimate. */
 static double gpu_cycles(const ps_sphere_shape *shape, ps_precision precision, double num_points,
                          double num_realizations) {
     const double cycles_of_cell = 178, cycles_of_ring = 260, cycles_per_sorted = 15.7e3;
     const double share = 0.7; /* of angles or rings where Lambda_lm is more than zero */
-    const double sets = 32;
+    const double measured_sets = 48;
+    const double sets = fmin(num_realizations, (double)shape->at_once);
     const double dearer = precision == PS_DOUBLE ? 1.25 : 1;
     const bool is_by_rings = shape->route == PS_SPHERE_BY_RINGS;
     const double L = shape->max_degree;
@@ -118,7 +120,7 @@ static double gpu_cycles(const ps_sphere_shape *shape, ps_precision precision, d
     const double numbers = (L + 1) * L / 2 * angles * share;
     const double points = shape->is_sorted ? cycles_per_sorted * num_points : 0;
     return dearer * (is_by_rings ? numbers * cycles_of_ring + points
-                                 : numbers * cycles_of_cell * fmax(1, sets / num_realizations));
+                                 : numbers * cycles_of_cell * measured_sets / fmax(sets, 1));
 }
 
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
