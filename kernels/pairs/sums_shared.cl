@@ -11,15 +11,13 @@
  * A degree and a pair are 6 operations in 4 instructions, of OWN * LANES pairs of an item; sums
  * over the group take some 60 more for DEGREES degrees of them all: 60 % of the peak, counted.
  */
-#include "shared/real.h"
+#define JOBS 64
+#include "shared/group_sums.h"
 #include "pairs/layout.h"
 #include "pairs/walk.h"
 
-#define JOBS 64
 /* With 4 lanes in double precision 254 registers, nothing spilled. */
 #define OWN 2
-#define PARTS 8          /* of the items of a group, added up on their own: JOBS / DEGREES */
-#define PITCH (JOBS + 1) /* from degree to degree: items of a part read other banks */
 
 typedef struct own_pairs {
     realv p[OWN], e[OWN], t[OWN], side[OWN];
@@ -54,22 +52,13 @@ PAIRS_INLINE real sum_of_lanes(const realv v) {
 PAIRS_INLINE void add_over_group(__local real *of_items, __local real *of_parts, const realv *sums,
                                  __global real *high, __global real *low) {
     const uint item = get_local_id(0);
+    real own[DEGREES];
 #pragma unroll
     for (uint i = 0; i < DEGREES; i++) {
-        of_items[i * PITCH + item] = sum_of_lanes(sums[i]);
+        own[i] = sum_of_lanes(sums[i]);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    real sum = 0;
-    for (uint j = 0; j < JOBS / PARTS; j++) {
-        sum += of_items[item / PARTS * PITCH + item % PARTS * (JOBS / PARTS) + j];
-    }
-    of_parts[item] = sum;
-    barrier(CLK_LOCAL_MEM_FENCE);
+    const real total = group_sum(of_items, of_parts, own, DEGREES);
     if (item < DEGREES) {
-        real total = 0;
-        for (uint j = 0; j < PARTS; j++) {
-            total += of_parts[item * PARTS + j];
-        }
         add_total(high + item, low + item, total);
     }
 }
@@ -79,7 +68,7 @@ pairs_sums_shared(__global const real *restrict points, __global const ulong *re
                   __global const real *restrict inverses, __global real *restrict partials,
                   const ulong stride, const ulong first_run, const uint num_degrees,
                   const ulong run_vectors) {
-    __local real of_items[DEGREES * PITCH];
+    __local real of_items[DEGREES * (JOBS + 1)];
     __local real of_parts[JOBS];
     const size_t realization = get_group_id(1);
     const ulong begin = (first_run + get_group_id(0)) * run_vectors;

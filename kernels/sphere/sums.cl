@@ -31,16 +31,13 @@
 #include "shared/turn.h"
 #include "sphere/lane_sums.h"
 #include "sphere/layout.h"
+#include "shared/group_sums.h" /* with JOBS of the layout */
 #include "sphere/legendre.h"
 #include "sphere/order.h"
 #include "sphere/sums.h"
 
 #define VECTORS (CHUNK / LANES)
 #define SUMS (2 * DEGREES)
-/* Items that add up a part of the items' sums, of each sum. */
-#define PARTS (JOBS / SUMS)
-/* From sum to sum: so that items of a part read other banks. */
-#define PITCH (JOBS + 1)
 #define SUM_ALIGNMENT 16
 
 /* ---- a block of degrees ---------------------------------------------------------------------- */
@@ -151,27 +148,13 @@ INLINE void put_block(const chunk *at, __global real *row, const ulong stride, T
     }
 }
 #else
-/* Sums of all items, added up in one order, whatever the device. All items call it. */
+/* Sums of all items of the group, who all call it. */
 INLINE void put_block(const chunk *at, __global real *row, const ulong stride, TABLE *block,
                       const real *totals, const int has_low, const int is_first) {
-    const uint item = get_local_id(0);
-    real sum = 0;
-#pragma unroll
-    for (uint i = 0; i < SUMS; i++) {
-        at->of_items[i * PITCH + item] = totals[i];
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint j = 0; j < JOBS / PARTS; j++) {
-        sum += at->of_items[item / PARTS * PITCH + item % PARTS * (JOBS / PARTS) + j];
-    }
-    at->of_parts[item] = sum;
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < SUMS) {
-        real total = 0;
-        for (uint j = 0; j < PARTS; j++) {
-            total += at->of_parts[item * PARTS + j];
-        }
-        put_sum(row, stride, block, item, total, has_low, is_first);
+    const uint i = get_local_id(0);
+    const real total = group_sum(at->of_items, at->of_parts, totals, SUMS);
+    if (i < SUMS) {
+        put_sum(row, stride, block, i, total, has_low, is_first);
     }
 }
 #endif
@@ -213,7 +196,7 @@ sphere_sums(const sums_numbers numbers, __global const real *restrict values,
     __local real memory[LOCAL_REALS];
     __local SWORD scales[2 * CHUNK];
     __local uint is_scaled[VECTORS];
-    __local real of_items[JOBS == 1 ? 1 : SUMS * PITCH];
+    __local real of_items[JOBS == 1 ? 1 : SUMS * (JOBS + 1)];
     __local real of_parts[JOBS];
     const uint first = get_group_id(0) * ORDERS;
     const uint last = min(first + ORDERS, num_orders);
