@@ -309,23 +309,18 @@ static void finish_work(cl_command_queue queue) {
 
 /* A thread of PoCL 3.1 looks at the part once more after it has said that a command has ended; it
  * holds the queue until then (one of 110 processes that closed six parts ended there). */
-static void release_queue(cl_command_queue queue, bool is_of_share) {
+static void wait_for_holders(cl_command_queue queue) {
     const struct timespec pause = {0, 100000}; /* nanoseconds */
     const unsigned most_pauses = 10000;        /* a second */
-    cl_uint holders = is_of_share ? 2 : 1;
-    if (queue == NULL) {
-        return;
-    }
-    for (unsigned i = 0; holders > 1 && i < most_pauses; i++) {
-        if (clGetCommandQueueInfo(queue, CL_QUEUE_REFERENCE_COUNT, sizeof holders, &holders,
-                                  NULL) != CL_SUCCESS) {
+    for (unsigned i = 0; queue != NULL && i < most_pauses; i++) {
+        cl_uint holders = 1;
+        (void)clGetCommandQueueInfo(queue, CL_QUEUE_REFERENCE_COUNT, sizeof holders, &holders,
+                                    NULL);
+        if (holders <= 1) {
             break;
         }
-        if (holders > 1) {
-            nanosleep(&pause, NULL);
-        }
+        nanosleep(&pause, NULL);
     }
-    clReleaseCommandQueue(queue);
 }
 
 void ps_device_close(ps_device *device) {
@@ -340,9 +335,17 @@ void ps_device_close(ps_device *device) {
     globfree(&device->kept);
     free(device->figures);
     ps_staged_release(device);
+    if (device->is_share) {
+        wait_for_holders(device->uploads);
+        wait_for_holders(device->queue);
+    }
     ps_process_lock();
-    release_queue(device->uploads, device->is_share);
-    release_queue(device->queue, device->is_share);
+    if (device->uploads != NULL) {
+        clReleaseCommandQueue(device->uploads);
+    }
+    if (device->queue != NULL) {
+        clReleaseCommandQueue(device->queue);
+    }
     if (device->context != NULL) {
         clReleaseContext(device->context);
     }

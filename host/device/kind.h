@@ -26,7 +26,7 @@ unsigned ps_device_double_cost(const ps_device_limits *limits);
 /* What choices take a device of its kind to have, whatever it has. */
 typedef struct ps_typical_device {
     double compute_units, clock_mhz;
-    double single_items; /* work-groups of one item that it works on side by side */
+    double single_items; /* small work-groups, of one item on CPUs, that it works on side by side */
     double cache_bytes;  /* of the last level */
     size_t served_units; /* layouts cut work into shares for so many */
     unsigned queues;     /* 2: one copies what comes next while the other computes */

@@ -69,6 +69,7 @@ typedef struct ps_work {
     double harmonics;    /* (point, degree, order) triples, orders from 0 on, and what
                                      begins and ends them in units of the same time */
     double pair_degrees; /* (pair of points, degree), each pair once */
+    double node_degrees; /* (node of a histogram of pairs, degree) */
     double binned_pairs; /* pairs of points put into a histogram */
     double launches;     /* kernel launches */
     double kernels;      /* programs that the driver loads for it, once in a process */

@@ -16,14 +16,15 @@ typedef struct device_rates {
     /* pairs/sums.cl, on GPUs sums_shared.cl, and histogram.cl, per nominal flop: on 2 cores of an
      * EPYC with AVX2, bench_pairs, 2026-11 */
     double pair_degrees_per_flop; /* (pair, degree) */
+    double node_degrees_per_flop; /* (node, degree) */
     double pairs_per_flop;        /* pairs into a histogram */
     double seconds_per_launch;
 } device_rates;
 
 /* Enqueueing one kernel: 10 microseconds cover PoCL's threads. */
 static const device_rates cpu_rates[2] = {
-    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.056, 0.114, 0.005, 10e-6},
-    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.053, 0.113, 0.005, 10e-6},
+    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.056, 0.114, 0.114, 0.005, 10e-6},
+    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.053, 0.113, 0.113, 0.005, 10e-6},
 };
 
 /* The same of GPUs, where transforms have cycles of their own (engines/nufft/cycles.c). Measured on
@@ -31,13 +32,14 @@ static const device_rates cpu_rates[2] = {
  * them a phase; a prototype of the product, slowed down by what the kernel does more than it, has
  * 4.9 us for (1024, 128). Sums of sphere_direct and over pairs were not measured since work-groups
  * do them: counted, they reach 0.06 and 0.1 (docs/engines/sphere_direct.md,
- * docs/engines/pairs_direct.md), of which plans take less than half. Histograms are done by groups
- * of one item, as sphere_direct was, which had 0.8 % of the share of its CPU's rate. A launch is
+ * docs/engines/pairs_direct.md), of which plans take less than half. Histograms and their nodes
+ * are done by groups of one item, as sphere_direct was: both have 0.8 % of their CPU's rate, as it
+ * had. A launch is
  * what NVIDIA's driver takes, an estimate until --calibrate has run on one. A kernel for GPUs with
  * work of its own has a column here. */
 static const device_rates gpu_rates[2] = {
-    [PS_SINGLE] = {0.0045, 0.56, 1.0, 0.02, 0.04, 4.2e-5, 5e-6},
-    [PS_DOUBLE] = {0.0045, 0.50, 1.0, 0.02, 0.04, 4.2e-5, 5e-6},
+    [PS_SINGLE] = {0.0045, 0.56, 1.0, 0.02, 0.04, 9.6e-4, 4.2e-5, 5e-6},
+    [PS_DOUBLE] = {0.0045, 0.50, 1.0, 0.02, 0.04, 9.6e-4, 4.2e-5, 5e-6},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
@@ -82,6 +84,7 @@ static double seconds_at(const ps_work *work, double peak, const device_rates *r
            work->transform_flops / (peak * rates->transform_share) +
            work->harmonics / (peak * rates->harmonics_per_flop) +
            work->pair_degrees / (peak * rates->pair_degrees_per_flop) +
+           work->node_degrees / (peak * rates->node_degrees_per_flop) +
            work->binned_pairs / (peak * rates->pairs_per_flop) +
            work->launches * rates->seconds_per_launch;
 }

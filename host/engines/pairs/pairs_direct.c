@@ -2,6 +2,7 @@
  * the slabs before. */
 #include "engines/engine.h"
 
+#include "device/kind.h"
 #include "device/reals.h"
 #include "engines/error_units.h"
 #include "engines/pairs/pairs_state.h"
@@ -36,23 +37,31 @@ static double largest_buffer(const ps_pairs_layout *layout) {
     return fmax((double)layout->slab * layout->row_bytes, layout->points_bytes);
 }
 
-static ps_work work_of(const ps_pairs_layout *layout, const ps_problem *problem) {
+/* How much longer a GPU takes because few runs leave units idle. */
+static double idle_factor(double runs, const ps_device_limits *limits) {
+    const double units = ps_device_typical(limits).single_items;
+    return limits->has_dedicated_local_memory ? fmax(1, units / runs) : 1;
+}
+
+static ps_work work_of(const ps_pairs_layout *layout, const ps_problem *problem,
+                       const ps_device_limits *limits) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double pairs =
         (double)ps_pairs_vectors(problem->num_points, layout->lanes) * layout->lanes * realizations;
     const double slabs = ceil((double)layout->num_runs / (double)layout->slab);
     const double kernels = 2; /* sums, and their sum */
-    return (ps_work){.kernels = kernels,
-                     .pair_degrees = pairs * ((double)layout->num_degrees + PS_PAIR_BEGIN_DEGREES),
-                     .launches = 2 * slabs,
-                     .fixed_bytes = layout->row_bytes,
-                     .bytes_per_realization =
-                         ((double)layout->slab + 1 + PS_READINGS) * layout->row_bytes,
-                     .row_bytes = (double)problem->frequencies->num * sizeof(double),
-                     .point_bytes = layout->points_bytes,
-                     .coordinate_bytes = layout->points_bytes,
-                     .largest_buffer_per_realization = largest_buffer(layout)};
+    const double idle = idle_factor((double)layout->num_runs * realizations, limits);
+    return (ps_work){
+        .kernels = kernels,
+        .pair_degrees = pairs * ((double)layout->num_degrees + PS_PAIR_BEGIN_DEGREES) * idle,
+        .launches = 2 * slabs,
+        .fixed_bytes = layout->row_bytes,
+        .bytes_per_realization = ((double)layout->slab + 1 + PS_READINGS) * layout->row_bytes,
+        .row_bytes = (double)problem->frequencies->num * sizeof(double),
+        .point_bytes = layout->points_bytes,
+        .coordinate_bytes = layout->points_bytes,
+        .largest_buffer_per_realization = largest_buffer(layout)};
 }
 
 static const ps_pairs_error_law error_laws[] = {
@@ -69,7 +78,7 @@ static ps_survey survey(const ps_problem *problem, const ps_device_limits *limit
     result.why_not = largest_buffer(&layout) > (double)limits->max_allocation_bytes
                          ? "needs a larger buffer than the device allows"
                          : NULL;
-    result.work = work_of(&layout, problem);
+    result.work = work_of(&layout, problem, limits);
     result.error = ps_pairs_rounding(&error_laws[precision], problem, ps_expected_power(problem));
     return result;
 }
@@ -126,9 +135,15 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
 
 static void describe(const void *state, ps_text *text) {
     const ps_pairs_state *self = state;
-    ps_text_append(text, "(pairs_direct precision=%s lanes=%u chunk=%d run=%d%s)",
-                   ps_precision_name(self->precision), self->layout.lanes, PS_PAIRS_CHUNK,
-                   PS_PAIRS_RUN_CHUNKS, self->problem.frequencies->degree_step == 2 ? " even" : "");
+    ps_text_append(text, "(pairs_direct precision=%s lanes=%u ", ps_precision_name(self->precision),
+                   self->layout.lanes);
+    if (((const pairs_direct *)state)->is_shared) {
+        ps_text_append(text, "items=%d run=%llu", GPU_ITEMS,
+                       (unsigned long long)self->layout.run_vectors);
+    } else {
+        ps_text_append(text, "chunk=%d run=%d", PS_PAIRS_CHUNK, PS_PAIRS_RUN_CHUNKS);
+    }
+    ps_text_append(text, "%s)", self->problem.frequencies->degree_step == 2 ? " even" : "");
 }
 
 const ps_engine ps_pairs_direct = {

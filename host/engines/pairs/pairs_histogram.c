@@ -91,7 +91,7 @@ static ps_work work_of(const histogram_layout *layout, const ps_problem *problem
         .binned_pairs = (pairs + pairs_per_set +
                          (double)(layout->pairs.num_runs * layout->num_nodes) / PAIRS_PER_NUMBER) *
                         realizations,
-        .pair_degrees = (double)layout->num_nodes *
+        .node_degrees = (double)layout->num_nodes *
                         ((double)layout->pairs.num_degrees + PS_PAIR_BEGIN_DEGREES) * realizations,
         .launches = 2 * slabs + 3,
         .fixed_bytes = 2 * tables,

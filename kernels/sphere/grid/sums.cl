@@ -9,9 +9,9 @@
  *   offsets  [order][even, odd l - m]
  *   begins   [order][even, odd l - m][most_runs]: angles below are nothing in all degrees of the run
  *   only_even  even degrees only
- *   powers   [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room for
- *            RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
- *            [order][even, odd l - m][re, im][half_pitch]
+ *   powers   [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room
+ *            for RUN_VECTORS vectors behind degree L / 2, with TILES for one, and no more is written. With KEEP
+ *            coefficients of one realization, [order][even, odd l - m][re, im][half_pitch]
  *   rows, columns  local, [TILE_ANGLES][RUN_VECTORS], [TILE_ANGLES][COLUMN_VECTORS] with TILES (tiles.h); else not touched
  */
 #include "shared/ahead.h"

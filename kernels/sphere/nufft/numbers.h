@@ -35,7 +35,7 @@ SAME_SIZE(grid_table_numbers, 44);
 
 /* sphere/grid/tiles.h: realizations of a work-group, angles in local memory at a time, and degrees
  * of a run. A vector of the table serves four realizations of an item: 8 LANES sums in registers,
- * 64 of 255 in double precision. 12 KiB of local memory, 24 in double. */
+ * 64 of 255 in double precision. 13 KB of local memory, 26 in double. */
 enum { TILE_SETS = 32, TILE_ANGLES = 32, TILE_DEGREES = 32 };
 
 /* sphere/grid/values.cl */
