@@ -46,19 +46,4 @@ typedef struct sampler_range {
 
 SAME_SIZE(sampler_range, 40);
 
-/* Point `index` of a realization: number i of the range, of all its realizations one after the
- * other. */
-typedef struct sampler_place {
-    ps_u64 realization, index;
-} sampler_place;
-
-SAMPLER_INLINE sampler_place sampler_place_of(const sampler_range range, const ps_u64 num_points,
-                                              const ps_u64 i) {
-    const ps_u64 realization = i / range.count;
-    const ps_u64 number = i - realization * range.count;
-    const sampler_place place = {range.realization + realization,
-                                 (range.begin + number * range.step) % num_points};
-    return place;
-}
-
 #endif

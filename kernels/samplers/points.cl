@@ -34,9 +34,11 @@ __kernel void sampler_points(const sampler_numbers numbers, const sampler_range 
     if (i >= range.count * range.num_realizations) {
         return;
     }
-    const sampler_place at = sampler_place_of(range, numbers.num_points, i);
+    const ulong realization = i / range.count;
+    const ulong number = i - realization * range.count;
+    const ulong j = (range.begin + number * range.step) % numbers.num_points;
     ulong places[DIMENSION];
-    PLACES(&numbers, table, DIMENSION, at.realization, at.index, places);
+    PLACES(&numbers, table, DIMENSION, range.realization + realization, j, places);
     SAMPLER_FOR(uint axis = 0; axis < DIMENSION; axis++) {
         points[i * DIMENSION + axis] = places[axis];
     }

@@ -31,10 +31,12 @@ __kernel void sampler_sphere_points(const sampler_numbers numbers, const sampler
     if (i >= range.count * range.num_realizations) {
         return;
     }
-    const sampler_place at = sampler_place_of(range, numbers.num_points, i);
+    const ulong realization = i / range.count;
+    const ulong number = i - realization * range.count;
+    const ulong j = (range.begin + number * range.step) % numbers.num_points;
     double x[SAMPLER_PLANE];
     double point[3];
-    COORDINATES(&numbers, at.realization, at.index, x);
+    COORDINATES(&numbers, range.realization + realization, j, x);
     ps_sphere_point_of_area(ON_HEMISPHERE, x[0], x[1], point);
     vstore3((double3)(point[0], point[1], point[2]), i, points);
 }
