@@ -199,20 +199,20 @@ static pspec_status take_cell(const reader *in, ps_cell *out, unsigned kind,
     const size_t width = array->element_bytes / sizeof(uint32_t);
     const char padding[PS_DECIMAL_PADDING] = "";
     ps_text text = {0};
-    bool is_good = false;
     if (array->kind == 'U') {
         put_characters(&text, (const char *)array->data + row * array->element_bytes, width);
         ps_text_append_bytes(&text, padding, sizeof padding);
-        PS_TRY(ps_text_check(&text, in->error));
-        is_good = take_shown(out, kind, ps_text_string(&text));
-    } else {
-        is_good = take_value(out, kind, array, row);
     }
+    const pspec_status status = ps_text_check(&text, in->error);
+    const bool is_good =
+        status == PSPEC_OK && (array->kind == 'U' ? take_shown(out, kind, ps_text_string(&text))
+                                                  : take_value(out, kind, array, row));
     if (is_good && kind == PS_CELL_TEXT) {
         out->text = text.data; /* of the table */
         return PSPEC_OK;
     }
     ps_text_free(&text);
+    PS_TRY(status);
     return is_good ? PSPEC_OK : fail_table(in, "a cell is of no known kind");
 }
 

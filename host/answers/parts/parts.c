@@ -103,10 +103,11 @@ pspec_status ps_parts_find(uint64_t *num_parts, const char *path, ps_error *erro
     *num_parts = access(path, F_OK) == 0;
     ps_text_append_bytes(&place, path, (size_t)(name - path));
     ps_text_append(&place, "."); /* that of "" is the folder of the process */
-    PS_TRY(ps_text_check(&place, error));
-    DIR *const folder = opendir(ps_text_string(&place));
+    const pspec_status named = ps_text_check(&place, error);
+    DIR *const folder = named == PSPEC_OK ? opendir(ps_text_string(&place)) : NULL;
     const int reason = errno;
     ps_text_free(&place);
+    PS_TRY(named);
     if (folder == NULL) { /* where there is none to look into, the first checkpoint fails, too */
         return reason == ENOENT || reason == ENOTDIR || reason == EACCES
                    ? PSPEC_OK
