@@ -20,10 +20,22 @@ typedef struct orders_sum_numbers {
     ps_u32 value_sets; /* of values there is room for so many realizations */
     ps_u32 num_realizations;
     ps_u32 half_pitch; /* of powers */
-    ps_u32 shares;     /* of the realizations, among work-groups (shares.h) */
 } orders_sum_numbers;
 
-SAME_SIZE(orders_sum_numbers, 52);
+SAME_SIZE(orders_sum_numbers, 48);
+
+/* degrees.cl */
+typedef struct degrees_numbers {
+    ps_u64 order_apart; /* numbers from order to order in values */
+    ps_u32 L, only_even;
+    ps_u32 num_rings, ring_pitch;
+    ps_u32 block; /* rings at a time, at most RINGS */
+    ps_u32 groups;
+    ps_u32 num_sets; /* realizations */
+    ps_u32 unused;   /* fills the size up to whole numbers of eight bytes */
+} degrees_numbers;
+
+SAME_SIZE(degrees_numbers, 40);
 
 /* sphere/grid/table.cl */
 typedef struct grid_table_numbers {

@@ -17,8 +17,7 @@
  * on the order, in the mean over rings of white sets; by differences everywhere by 3e-14.
  *
  * In double precision, whatever is summed: in single precision the recurrence is off by 6e-5 at l =
- * 512. A number stands for p 2^(-100 s), s >= 0, since sin^m(theta) underflows. Where s > 0 it is
- * taken for zero. LANES is 2 at least.
+ * 512. Numbers have scales (scales.h). LANES is 2 at least.
  */
 #ifndef PS_SPHERE_ORDERS_CHAINS_H
 #define PS_SPHERE_ORDERS_CHAINS_H
@@ -27,13 +26,7 @@
 #include "shared/lanes.h"
 #include "shared/transpose.h"
 #include "sphere/doubles.h"
-
-/* 2^-100 is far below what counts in either precision, and a normal number in both. Numbers grow by
- * a factor of 2^8 at most from degree to degree (g_l at l = m + 1 = 2^15), so it is enough to look
- * every few degrees. */
-#define SCALE_DOWN 7.888609052210118e-31 /* 2^-100 */
-#define SCALE_UP 1.2676506002282294e30   /* 2^100 */
-#define DEGREES_BETWEEN_LOOKS 4
+#include "sphere/nufft/scales.h"
 
 /* Degrees are done in runs of 2 RUN_VECTORS LANES: RUN_VECTORS vectors of even l - m, and of odd l
  * - m. */

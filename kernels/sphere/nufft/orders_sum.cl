@@ -1,9 +1,8 @@
-/* From values on rings to sum_m |c_lm|^2. A work-group has the orders that are its number modulo
- * the number of groups, so that what it adds up does not depend on the device; groups that have the
- * same ones share the realizations (shares.h). For each order, Lambda_lm is made for a run of
- * degrees and a block of rings at a time, and used by all realizations of the share: a work-item
- * has two of them, all degrees or, where they are few, a vector. Launch: (work-items of one group,
- * groups times shares).
+/* From values on rings to sum_m |c_lm|^2, as CPUs want it (GPUs: degrees.cl). A work-group has the
+ * orders that are its number modulo the number of groups, so that what it adds up does not depend
+ * on the device. For each order, Lambda_lm is made for a run of degrees and a block of rings at a
+ * time, and used by all realizations: a work-item has two of them. Launch: (work-items of one
+ * group, groups).
  *
  *   numbers    of numbers.h; their names are used here
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
@@ -14,10 +13,10 @@
  *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
  *   cosines    [ring_pitch]: cos(theta)
  *   distances, squares  ring_angles of orders_states.h
- *   states, scales  [group][share][2][even, odd l - m][ring_pitch], [group][share][2][ring_pitch]: scratch
- *   diagonal, diagonal_scales  [group][share][ring_pitch]: scratch
- *   sums       [group][share][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for
- *              one realization more
+ *   states, scales  [group][2][even, odd l - m][ring_pitch], [group][2][ring_pitch]: scratch
+ *   diagonal, diagonal_scales  [group][ring_pitch]: scratch
+ *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
+ *              realization more
  *   powers     [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room
  *              for RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
  *              [order][even, odd l - m][re, im][half_pitch]
@@ -28,7 +27,6 @@
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_product.h"
 #include "sphere/nufft/orders_work.h"
-#include "sphere/shares.h"
 #include "sphere/values.h"
 
 /* Products of all realizations with a run of degrees at some rings. */
@@ -44,33 +42,31 @@ typedef struct run_products {
     uint num_realizations;
 } run_products;
 
-/* At most most_vectors vectors of degrees from `vector` on, of realizations r and r + 1. */
-static inline void add_products(const run_products of, const uint r, const uint odd,
-                                const uint vector, const uint most_vectors) {
+/* Realizations r and r + 1. */
+static inline void add_products(const run_products of, const uint r, const uint odd) {
     const uint in_parity = odd ? of.degrees / 2 : (of.degrees + 1) / 2;
     const uint vectors = (in_parity + LANES - 1) / LANES;
-    if (vector >= vectors || r >= of.num_realizations) {
+    if (vectors == 0 || r >= of.num_realizations) {
         return;
     }
     product_rows rows = of.rows;
-    rows.table += odd * of.odd_apart + vector * LANES;
-    rows.alphas += odd * (RUN_DEGREES / 2) + vector * LANES;
+    rows.table += odd * of.odd_apart;
+    rows.alphas += odd * (RUN_DEGREES / 2);
     __global const real *from = of.values + r * of.apart + odd * (of.apart / 2);
-    __global real *to = of.sums + ((r * 2 + odd * 2) * RUN_VECTORS + vector) * (2 * LANES);
+    __global real *to = of.sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
     const size_t powers_apart = 2 * (size_t)of.half_pitch;
 #if KEEP
-    __global double *powers = of.powers + odd * powers_apart + vector * LANES;
+    __global double *powers = of.powers + odd * powers_apart;
     const size_t ends_apart = of.half_pitch;
 #else
-    __global double *powers = of.powers + r * powers_apart + (of.first + odd) % 2 * of.half_pitch +
-                              (of.first + odd) / 2 + vector * LANES;
+    __global double *powers =
+        of.powers + r * powers_apart + (of.first + odd) % 2 * of.half_pitch + (of.first + odd) / 2;
     const size_t ends_apart = powers_apart;
 #endif
-    const uint own = min(vectors - vector, most_vectors);
     if (r + 1 < of.num_realizations) {
-        product_of_two(rows, from, of.apart, to, powers, ends_apart, own);
+        product_of_two(rows, from, of.apart, to, powers, ends_apart, vectors);
     } else {
-        product_of_one(rows, from, of.apart, to, powers, ends_apart, own);
+        product_of_one(rows, from, of.apart, to, powers, ends_apart, vectors);
     }
 }
 
@@ -86,37 +82,25 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                   __global double *restrict all_powers, __local real *table,
                   __local double *coefficients, __local uint *begins) {
     const ring_numbers rings = numbers.rings;
-    const uint value_sets = numbers.value_sets, shares = numbers.shares;
+    const uint value_sets = numbers.value_sets, num_realizations = numbers.num_realizations;
     const uint L = rings.L, only_even = rings.only_even, half_pitch = numbers.half_pitch;
     const uint num_rings = rings.num_rings, ring_pitch = rings.ring_pitch, block = rings.block;
-    const uint own = get_global_id(1), share = own % shares;
-    const uint groups = get_global_size(1) / shares, group = own / shares;
-    const uint begin_set = share_begin(share, shares, numbers.num_realizations);
-    const uint num_realizations =
-        share_begin(share + 1, shares, numbers.num_realizations) - begin_set;
+    const uint groups = get_global_size(1), group = get_global_id(1);
     const size_t apart = 4 * (size_t)ring_pitch;
     const size_t powers_apart = 2 * (size_t)half_pitch;
-    __global const real *own_values = values + begin_set * apart;
-    const size_t of_group = (size_t)group * numbers.num_realizations + begin_set;
-    __global double *states = all_states + own * 4 * (size_t)ring_pitch;
+    __global double *states = all_states + group * 4 * (size_t)ring_pitch;
     __global real *sums =
-        all_sums + (group * (size_t)(numbers.num_realizations + shares) + begin_set + share) *
-                       (2 * RUN_VECTORS * 2 * LANES);
-    __global double *powers = all_powers + (KEEP ? 0 : of_group * powers_apart);
+        all_sums + group * (size_t)(num_realizations + 1) * (2 * RUN_VECTORS * 2 * LANES);
+    __global double *powers =
+        all_powers + (KEEP ? 0 : (size_t)group * num_realizations * powers_apart);
     ring_work work = {{states, states + 2 * (size_t)ring_pitch,
-                       all_scales + own * 2 * (size_t)ring_pitch, ring_pitch},
+                       all_scales + group * 2 * (size_t)ring_pitch, ring_pitch},
                       {distances, squares, rings.polar, rings.crossing, rings.equatorial},
-                      all_diagonals + own * (size_t)ring_pitch,
-                      all_diagonal_scales + own * (size_t)ring_pitch,
+                      all_diagonals + group * (size_t)ring_pitch,
+                      all_diagonal_scales + group * (size_t)ring_pitch,
                       num_rings,
                       block,
                       0};
-    if (num_realizations == 0) {
-        return;
-    }
-    /* Few realizations have a work-item for each vector of degrees. */
-    const uint pieces = (num_realizations + 1) * RUN_VECTORS <= num_items() ? RUN_VECTORS : 1;
-    const uint most_vectors = RUN_VECTORS / pieces;
     const order_starts from_order = {starts, start_scales, steps, step_scales, ratios, cosines};
     for (uint m = group; m <= L; m += groups) {
         const uint start = work.alive / block * block; /* the first block that is not all zeros */
@@ -135,7 +119,7 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                 const run_products run = {
                     {table, begin, here, ring == start, ring + block >= num_rings, m == group,
                      m == 0 ? 1 : 2, coefficients + OF_ALPHA},
-                    own_values + m * order_pitch(value_sets, apart / 2) + 2 * ring,
+                    values + m * order_pitch(value_sets, apart / 2) + 2 * ring,
                     apart,
                     block * TABLE_ROW,
                     sums,
@@ -144,11 +128,10 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                     first,
                     degrees,
                     num_realizations};
-                for (uint job = own_item(); job < (num_realizations + 1) * pieces;
-                     job += num_items()) {
-                    const uint r = job / pieces / 2 * 2, odd = job / pieces % 2;
+                for (uint job = own_item(); job < num_realizations + 1; job += num_items()) {
+                    const uint odd = job % 2;
                     if (only_even == 0 || (m + odd) % 2 == 0) {
-                        add_products(run, r, odd, job % pieces * most_vectors, most_vectors);
+                        add_products(run, job / 2 * 2, odd);
                     }
                 }
                 barrier_everywhere();

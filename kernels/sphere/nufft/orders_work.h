@@ -5,14 +5,6 @@
 
 #include "sphere/nufft/orders_table.h"
 
-/* value 2^(-100 s) with value in [2^-100, 1], from a product of two of them. */
-static inline void normalize(double *value, int *scale) {
-    if (*value != 0 && fabs(*value) < SCALE_DOWN) {
-        *value *= SCALE_UP;
-        *scale += 1;
-    }
-}
-
 /* Degrees m and m + 1 of a ring, from Lambda_mm. By differences they are Lambda_mm and nothing. */
 static inline void begin_ring(const ring_work work, const uint i, const double value,
                               const int scale, const double second) {

@@ -74,11 +74,10 @@ static const double value_budget = 768 << 20;
 enum { GROUPS_PER_CORE = 4 };
 
 /* GPUs have work-groups side by side instead, and each launch costs the time of some hundred sets
- * of 1024 points: as many realizations as fill the card with a group for each, and for the sums of
- * orders, of which there are PS_SPHERE_GROUPS groups, as many shares, of no fewer sets than the
- * pairs of which a group's work-items have one each. Counted, not measured: 20000 sets of (1024,
- * 64) take 55 rounds of four launches instead of the 313 of 64 sets each. */
-enum { SETS_PER_UNIT = 4, GROUPS_PER_UNIT = 4, LEAST_SHARE = 64 };
+ * of 1024 points: as many realizations as fill the card with a group for each. Counted, not
+ * measured: 20000 sets of (1024, 64) take 55 rounds of launches instead of the 313 of 64 sets each.
+ */
+enum { SETS_PER_UNIT = 4 };
 
 static size_t fitting(double budget, uint64_t bytes, size_t most) {
     const double number = bytes > 0 ? floor(budget / (double)bytes) : (double)most;
@@ -105,8 +104,6 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
         (double)limits->max_allocation_bytes - (double)gap_bytes(shape, real_bytes);
     shape->at_once = fitting(fmin(value_budget, largest), shape->value_bytes,
                              fitting(set_budget, vectors, most));
-    shape->sum_shares = shape->is_gpu ? ps_divide_up(GROUPS_PER_UNIT * cores, PS_SPHERE_GROUPS) : 1;
-    shape->sum_shares = ps_sphere_sum_shares(shape, shape->at_once);
     shape->together = shape->is_sorted ? 1 : fitting(point_budget, set_bytes, shape->at_once);
     shape->most_points = shape->together * problem->num_points;
     if (shape->is_sorted && shape->most_points > PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS) {
@@ -125,16 +122,10 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
                         : 1;
 }
 
-size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations) {
-    const size_t most = num_realizations / LEAST_SHARE;
-    return most < 1 ? 1 : most < shape->sum_shares ? most : shape->sum_shares;
-}
-
 /* ---- bytes ------------------------------------------------------------------------------- */
 
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t groups = PS_SPHERE_GROUPS;
-    const uint64_t sharing = groups * shape->sum_shares;
     const uint64_t points = ps_round_up(shape->most_points, shape->lanes);
     const uint64_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
     const uint64_t keys = (uint64_t)shape->bands * shape->tiles;
@@ -146,7 +137,8 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
     const uint64_t staged = shape->is_sorted ? (uint64_t)shape->bands * STAGED_POINTS : 1;
     const uint64_t rings = shape->transform_rings;
-    const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
+    const bool has_table = rings > 0 && !shape->is_gpu; /* of Lambda_lm */
+    const uint64_t pitch = has_table ? shape->ring_pitch : 0;
     const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
     return (ps_sphere_bytes){
         .vectors = points * 3 * sizeof(double),
@@ -165,12 +157,14 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .values = shape->value_bytes,
         .gaps = gap_bytes(shape, real_bytes),
         .powers = groups * 2 * shape->half_pitch * sizeof(double),
-        .sums = pitch > 0 && !shape->is_one_set ? groups * 4 * run * real_bytes : 0,
+        .sums = has_table && !shape->is_one_set ? groups * 4 * run * real_bytes
+                : rings > 0 && shape->is_gpu    ? ps_sphere_degrees_bytes(shape, real_bytes)
+                                                : 0,
         .staged = staged * 2 * sizeof(uint64_t),
         .staged_heights = staged * real_bytes,
-        .states = sharing * 4 * pitch * sizeof(double),
-        .scales = sharing * 2 * pitch * sizeof(int32_t),
-        .diagonals = sharing * pitch * sizeof(double),
+        .states = groups * 4 * pitch * sizeof(double),
+        .scales = groups * 2 * pitch * sizeof(int32_t),
+        .diagonals = groups * pitch * sizeof(double),
         .table = shape->table_reals * real_bytes};
 }
 
@@ -195,9 +189,9 @@ static void add_up(ps_sphere_shape *shape, size_t real_bytes) {
         bytes.weights + 2 * bytes.vectors + bytes.turns + bytes.weights + sorted + bytes.keys +
         bytes.starts + bytes.order + bytes.grids + bytes.rows + bytes.scratch + bytes.strip_turns +
         bytes.strip_weights + bytes.strips + bytes.strip_starts + bytes.staged +
-        bytes.staged_heights + table_bytes(shape, real_bytes) + shape->sum_shares * bytes.sums +
-        bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 + bytes.table +
-        bytes.gaps + (making > rest ? making - rest : 0) + (is_fixed ? shape->at_once * each : 0);
+        bytes.staged_heights + table_bytes(shape, real_bytes) + bytes.sums + bytes.states +
+        bytes.scales + bytes.diagonals + bytes.diagonals / 2 + bytes.table + bytes.gaps +
+        (making > rest ? making - rest : 0) + (is_fixed ? shape->at_once * each : 0);
     const uint64_t buffers[] = {bytes.table,
                                 bytes.grids,
                                 bytes.rows,

@@ -17,6 +17,7 @@ typedef struct rings {
     ps_buffer staged, staged_heights; /* of orders_bands.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
     ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
+    ps_sphere_degrees degrees;                                  /* instead, on GPUs */
 } rings;
 
 static rings *of(const ps_sphere_state *self) {
@@ -47,15 +48,18 @@ static pspec_status create(ps_sphere_state *self, ps_error *error) {
         {&own->strips, bytes.strips, "strips of points"},
         {&own->strip_starts, bytes.strip_starts, "starts of strips"},
         {&own->staged, bytes.staged, "points of bands"},
-        {&own->staged_heights, bytes.staged_heights, "weights of bands"},
+        {&own->staged_heights, bytes.staged_heights, "weights of bands"}};
+    const ps_wanted_buffer of_table[] = {
         {&own->states, bytes.states, "states of rings"},
         {&own->scales, bytes.scales, "scales of rings"},
         {&own->diagonals, bytes.diagonals, "first degrees of rings"},
         {&own->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
-        {&own->sums, (shape->at_once + shape->sum_shares) * bytes.sums, "sums over rings"}};
+        {&own->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"}};
     PS_TRY(ps_sphere_ring_tables_create(&own->tables, shape, self->precision, self->device, error));
     PS_TRY(create_kernels(self, error));
-    return PS_BUFFERS_CREATE(self->device, wanted, error);
+    PS_TRY(PS_BUFFERS_CREATE(self->device, wanted, error));
+    return shape->is_gpu ? ps_sphere_degrees_create(&own->degrees, self, error)
+                         : PS_BUFFERS_CREATE(self->device, of_table, error);
 }
 
 static void free_own(void *own) {
@@ -63,6 +67,7 @@ static void free_own(void *own) {
     PS_BUFFERS_RELEASE(&self->rows, &self->strip_turns, &self->strip_weights, &self->strips,
                        &self->states, &self->scales, &self->diagonals, &self->diagonal_scales,
                        &self->sums, &self->strip_starts, &self->staged, &self->staged_heights);
+    ps_sphere_degrees_free(&self->degrees);
     ps_sphere_ring_tables_free(&self->tables);
 }
 
@@ -218,14 +223,12 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
-    const size_t shares = ps_sphere_sum_shares(shape, num);
     const ps_range range =
-        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS * shares, flops);
+        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
     const orders_sum_numbers numbers = {.rings = ps_sphere_ring_numbers(shape, self->only_even),
                                         .value_sets = (uint32_t)shape->at_once,
                                         .num_realizations = (uint32_t)num,
-                                        .half_pitch = shape->half_pitch,
-                                        .shares = (uint32_t)shares};
+                                        .half_pitch = shape->half_pitch};
     return PS_LAUNCH(
         self->device, kernel, &range, error, PS_STRUCT(numbers), PS_BUFFER(self->values),
         PS_BUFFER(starts->starts), PS_BUFFER(starts->start_scales), PS_BUFFER(starts->steps),
@@ -234,6 +237,12 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
         PS_BUFFER(own->scales), PS_BUFFER(own->diagonals), PS_BUFFER(own->diagonal_scales),
         PS_BUFFER(own->sums), PS_BUFFER(*to), PS_LOCAL(local.table), PS_LOCAL(local.coefficients),
         PS_LOCAL(local.begins));
+}
+
+static pspec_status sum_degrees(ps_sphere_state *self, ps_kernel *kernel, const ps_buffer *to,
+                                size_t num, ps_error *error) {
+    const rings *own = of(self);
+    return ps_sphere_degrees_sum(self, &own->degrees, &own->tables.starts, kernel, to, num, error);
 }
 
 /* ---- the rows ---------------------------------------------------------------------------- */
@@ -253,13 +262,21 @@ static const ps_sphere_source sums = {.file = "sphere/nufft/orders_sum.cl",
 static const ps_sphere_source sums_one = {
     .file = "sphere/nufft/orders_sum_one.cl", .name = "sphere_orders_sum_one", .sums_one = true};
 
-/* Kernels: points, values, sums of orders and degrees; and the bands of sorted points. */
-#define RINGS_ROW(KERNELS, MAKE_VALUES)                                                            \
+static const ps_sphere_source degree_powers = {.file = "sphere/nufft/degree_powers.cl",
+                                               .name = "sphere_degree_powers"};
+
+/* Kernels: points, values, sums of orders and degrees; on GPUs coefficients, too; and the bands of
+ * sorted points. */
+#define RINGS_ROW(KERNELS, MAKE_VALUES, SUMS, LAUNCH_SUMS)                                         \
     {                                                                                              \
         .kernels = (KERNELS), .own_bytes = sizeof(rings), .create = create, .free = free_own,      \
-        .make_values = (MAKE_VALUES), .sources_of_sums = {&sums, &sums_one},                       \
-        .launch_sums = launch_sums, .describe = describe                                           \
+        .make_values = (MAKE_VALUES), .sources_of_sums = {SUMS, &sums_one},                        \
+        .launch_sums = (LAUNCH_SUMS), .describe = describe                                         \
     }
 
-const ps_sphere_variant ps_sphere_rings = RINGS_ROW(4, make_values);
-const ps_sphere_variant ps_sphere_sorted_rings = RINGS_ROW(5, make_sorted);
+const ps_sphere_variant ps_sphere_rings = RINGS_ROW(4, make_values, &sums, launch_sums);
+const ps_sphere_variant ps_sphere_sorted_rings = RINGS_ROW(5, make_sorted, &sums, launch_sums);
+const ps_sphere_variant ps_sphere_gpu_rings =
+    RINGS_ROW(5, make_values, &degree_powers, sum_degrees);
+const ps_sphere_variant ps_sphere_gpu_sorted_rings =
+    RINGS_ROW(6, make_sorted, &degree_powers, sum_degrees);

@@ -158,6 +158,10 @@ static bool chain_is_exact(const ps_sphere_shape *shape, const ps_problem *probl
 static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
                         const ps_device_limits *limits, size_t real_bytes) {
     const unsigned lanes = ps_engine_lanes(limits, PS_DOUBLE);
+    if (limits->has_dedicated_local_memory) {
+        shape->degrees =
+            ps_sphere_degrees_measure(problem->num_realizations == 1, limits, real_bytes);
+    }
     if (problem->num_realizations == 1 && problem->block_points == 0 &&
         !limits->has_dedicated_local_memory) {
         shape->is_one_set = true;
@@ -234,7 +238,8 @@ static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits
     shape->half_poles = 2 * shape->pole;
     shape->grid_bytes = (uint64_t)shape->grid_rows * shape->pitch * real_bytes;
     shape->row_bytes = 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes;
-    return ps_sphere_rings_fit(shape, limits, real_bytes);
+    return shape->is_gpu ? shape->degrees.rings > 0
+                         : ps_sphere_rings_fit(shape, limits, real_bytes);
 }
 
 /* The table is made of rings in double precision. */

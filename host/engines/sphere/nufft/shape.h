@@ -20,6 +20,13 @@ typedef enum ps_sphere_route {
     PS_SPHERE_BY_CELLS  /* sphere_grid: a table of what each cell counts */
 } ps_sphere_route;
 
+/* Work-groups of kernels/sphere/nufft/degrees.cl, which names these, and its local memory in bytes.
+ * rings == 0: it has no room for any. */
+typedef struct ps_sphere_degree_sizes {
+    uint32_t rings, sets;
+    size_t table, columns, coefficients;
+} ps_sphere_degree_sizes;
+
 typedef struct ps_sphere_shape {
     ps_sphere_route route;
     bool is_gpu;              /* whose figures count */
@@ -44,9 +51,10 @@ typedef struct ps_sphere_shape {
     uint32_t ring_lead;        /* rings of a set alone lie so much further, and fill units of rings
                                   up to the equator: there they cost most, at the pole nothing */
     uint32_t run_vectors;      /* RUN_VECTORS of orders_chains.h */
-    bool is_one_set;           /* one realization is expected: sums by orders_sum_one.cl, */
-    unsigned sum_lanes;        /* whose LANES these are */
-    bool is_single_chain;      /* its Lambda_lm in single precision */
+    ps_sphere_degree_sizes degrees; /* sums on GPUs */
+    bool is_one_set;                /* one realization is expected: sums by orders_sum_one.cl, */
+    unsigned sum_lanes;             /* whose LANES these are */
+    bool is_single_chain;           /* its Lambda_lm in single precision */
     uint32_t polar, crossing, equatorial; /* ring_angles of orders_states.h */
     uint32_t block;                       /* rings of a block of orders_sum.cl */
     uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
@@ -59,7 +67,6 @@ typedef struct ps_sphere_shape {
     size_t together;            /* between points and values on rings */
     size_t slots;               /* grids */
     size_t shares;              /* work-groups for each grid */
-    size_t sum_shares;          /* work-groups that have the same orders, at most */
     uint64_t most_points;       /* on the device at a time */
     uint64_t set_points;        /* of a realization that comes in strips, else 0 */
 
@@ -96,9 +103,6 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* In how many shares (kernels/sphere/shares.h) so many realizations are summed. */
-size_t ps_sphere_sum_shares(const ps_sphere_shape *shape, size_t num_realizations);
-
 /* RING_VECTORS of orders_sum_one.cl: for each, registers hold three vectors and four of values. At
  * most 32 rings in all. */
 static inline uint32_t ps_sphere_one_vectors(const ps_sphere_shape *shape) {
@@ -124,7 +128,7 @@ double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, 
                              ps_sphere_route route);
 
 /* Bytes of the buffers, which have the names of kernels/sphere/; values, powers and sums for each
- * of at_once realizations, sums for sum_shares more. */
+ * of at_once realizations, sums for one more. */
 typedef struct ps_sphere_bytes {
     uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
     uint64_t keys, starts;            /* on GPUs the order has the keys */
@@ -162,6 +166,11 @@ typedef struct ps_sphere_local {
     size_t table, coefficients, begins;
 } ps_sphere_local;
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes);
+
+ps_sphere_degree_sizes ps_sphere_degrees_measure(bool is_one_set, const ps_device_limits *limits,
+                                                 size_t real_bytes);
+/* Bytes of the coefficients of a realization there. */
+uint64_t ps_sphere_degrees_bytes(const ps_sphere_shape *shape, size_t real_bytes);
 
 /* kernels/sphere/grid/tiles.h: work-items of a group, and local memory in bytes. */
 typedef struct ps_sphere_tiles {

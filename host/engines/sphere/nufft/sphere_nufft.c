@@ -51,8 +51,9 @@ static const char *refuse_cells(const ps_problem *problem) {
 
 static const ps_sphere_variant *variant_of(const ps_sphere_shape *shape) {
     return shape->route == PS_SPHERE_BY_CELLS ? &ps_sphere_cells
-           : shape->is_sorted                 ? &ps_sphere_sorted_rings
-                                              : &ps_sphere_rings;
+           : shape->is_gpu ? shape->is_sorted ? &ps_sphere_gpu_sorted_rings : &ps_sphere_gpu_rings
+           : shape->is_sorted ? &ps_sphere_sorted_rings
+                              : &ps_sphere_rings;
 }
 
 static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,

@@ -54,6 +54,24 @@ pspec_status ps_sphere_places_return(ps_sphere_places *points, ps_error *error) 
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
 
+/* Sums on GPUs (degrees.c). */
+typedef struct ps_sphere_degrees {
+    ps_kernel *sum;
+    uint32_t rings;         /* at a time: as the shape has them, or as many as work-items */
+    ps_range range;         /* of no realizations yet */
+    ps_buffer coefficients; /* of the shape's at_once realizations */
+} ps_sphere_degrees;
+
+typedef struct ps_sphere_state ps_sphere_state;
+
+pspec_status ps_sphere_degrees_create(ps_sphere_degrees *out, const ps_sphere_state *self,
+                                      ps_error *error) PS_MUST_CHECK;
+void ps_sphere_degrees_free(ps_sphere_degrees *degrees); /* {0} is allowed */
+/* Of values of the first num realizations, by a kernel of degree_powers.cl. */
+pspec_status ps_sphere_degrees_sum(const ps_sphere_state *self, const ps_sphere_degrees *degrees,
+                                   const ps_sphere_starts *starts, ps_kernel *kernel,
+                                   const ps_buffer *to, size_t num, ps_error *error) PS_MUST_CHECK;
+
 /* The table of sphere_grid on the device: what a cell of the grid counts in c_lm, for all degrees
  * and orders. */
 
@@ -81,7 +99,6 @@ typedef struct ps_sphere_source {
 } ps_sphere_source;
 
 /* Launches a kernel of sums for the first num realizations. */
-typedef struct ps_sphere_state ps_sphere_state;
 typedef pspec_status ps_sphere_launch_sums(ps_sphere_state *state, ps_kernel *kernel,
                                            const ps_buffer *to, size_t num, ps_error *error);
 
@@ -102,7 +119,8 @@ typedef struct ps_sphere_variant {
 } ps_sphere_variant;
 
 /* By rings (rings.c), all points at once or sorted, and by cells (cells.c). */
-extern const ps_sphere_variant ps_sphere_rings, ps_sphere_sorted_rings, ps_sphere_cells;
+extern const ps_sphere_variant ps_sphere_rings, ps_sphere_sorted_rings, ps_sphere_gpu_rings,
+    ps_sphere_gpu_sorted_rings, ps_sphere_cells;
 
 struct ps_sphere_state {
     ps_device *device;

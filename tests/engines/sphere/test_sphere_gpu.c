@@ -1,37 +1,21 @@
-/* Realizations of a batch that groups of the sums share on GPUs (kernels/sphere/shares.h, and
- * kernels/sphere/grid/tiles.h): each has the bits that it has alone, in batches that shares divide,
- * and do not, and the powers that it has without. The layout is that of a GPU on whatever device
- * there is. */
+/* Realizations of a batch on GPUs, whose sums work-groups of some of them share
+ * (kernels/sphere/nufft/degrees.cl, kernels/sphere/grid/tiles.h): each has the bits that it has
+ * alone, in batches that groups divide, and do not, and the powers that it has on CPUs. The layout
+ * is that of a GPU on whatever device there is. */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
 #include "engines/sphere/nufft/shape.h"
-#include "sphere/shares.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of L = 70 a parity has two runs of degrees, and angles of the grid come in two parts. */
-enum { NUM_SETS = 200, NUM_POINTS = 23, LOW = 20, HIGH = 70 };
+/* Of L = 70 a parity has two runs of degrees, and angles of the grid come in two parts; of L = 135
+ * rings come in two blocks. */
+enum { NUM_SETS = 67, NUM_POINTS = 23, LOW = 20, HIGH = 70, HIGHER = 135 };
 
 static ps_device *device;
-
-/* Every realization is of one share, and pairs are not parted. */
-static void shares_cover_all(void **state) {
-    (void)state;
-    for (ps_u32 num = 1; num < 100; num++) {
-        for (ps_u32 shares = 1; shares < 20; shares++) {
-            assert_int_equal(share_begin(0, shares, num), 0);
-            assert_int_equal(share_begin(shares, shares, num), num);
-            for (ps_u32 s = 0; s < shares; s++) {
-                const ps_u32 begin = share_begin(s, shares, num);
-                assert_true(begin <= share_begin(s + 1, shares, num));
-                assert_true(begin % 2 == 0 || begin == num);
-            }
-        }
-    }
-}
 
 static bool *is_gpu(void) {
     return &((ps_device_limits *)ps_device_get_limits(device))->has_dedicated_local_memory;
@@ -54,7 +38,7 @@ static void check_powers(const ps_engine *engine, const ps_problem *problem, ps_
 
 static void check(const ps_engine *engine, ps_sphere_route route, ps_precision precision,
                   int32_t degree, bool only_even, const pspec_pattern *patterns) {
-    static const size_t batches[] = {NUM_SETS, 131, 64};
+    static const size_t batches[] = {NUM_SETS, 35, 8};
     ps_frequencies set = {0};
     assert_ok(ps_frequencies_degrees(&set, degree, only_even, error));
     assert_ok(ps_frequencies_enumerate(&set, error));
@@ -66,8 +50,6 @@ static void check(const ps_engine *engine, ps_sphere_route route, ps_precision p
     const ps_sphere_shape shape =
         ps_sphere_shape_make(&problem, ps_device_get_limits(device), precision, route);
     assert_int_equal(shape.at_once, NUM_SETS);
-    assert_int_equal(ps_sphere_sum_shares(&shape, NUM_SETS), 3);
-    assert_int_equal(ps_sphere_sum_shares(&shape, 1), 1);
     double *alone = test_run_problem(engine, &problem, precision, device, patterns, NUM_SETS, 1);
     for (size_t b = 0; b < sizeof batches / sizeof *batches; b++) {
         double *found =
@@ -90,7 +72,9 @@ static void sets_have_the_bits_that_they_have_alone(void **state) {
         patterns[i] = test_make_sphere_pattern(&test_sphere_shapes[i % 2], NUM_POINTS, i);
     }
     for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
-        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, (ps_precision)precision, LOW, false, patterns);
+        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, (ps_precision)precision, HIGHER, false,
+              patterns);
+        check(&ps_sphere_nufft, PS_SPHERE_BY_RINGS, (ps_precision)precision, LOW, true, patterns);
         check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, (ps_precision)precision, HIGH, false, patterns);
         check(&ps_sphere_grid, PS_SPHERE_BY_CELLS, (ps_precision)precision, LOW, true, patterns);
     }
@@ -101,7 +85,6 @@ static void sets_have_the_bits_that_they_have_alone(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_cover_all),
         cmocka_unit_test(sets_have_the_bits_that_they_have_alone),
     };
     device = test_open_device();
