@@ -24,9 +24,9 @@ static const job_case cases[] = {
     {"sobol:scramble=owen", "torus_direct", 33, 3, 3, 3, 1e-12},
     {"white", "torus_nufft", PS_SELF_CHECK_POINTS + 1001, 2, 8, 1, 1e-3}, /* comes in parts */
     {"white-sphere", "sphere_nufft", 61, 3, 9, 300, 1e-5},
-    {"white-hemisphere", "sphere_grid", 64, 3, 8, 9, 1e-5},
+    {"white-hemisphere", "sphere_nufft", 64, 3, 8, 9, 1e-5},
     {"zphi", "sphere_nufft", 48, 3, 12, 9, 1e-9},
-    {"zphi", "sphere_grid", 3072, 3, 12, 2, 1e-9},
+    {"zphi", "sphere_nufft", 3072, 3, 12, 2, 1e-9},
     {"jittered:lift=hemisphere", "sphere_nufft", 36, 3, 12, 5, 1e-5},
     {"white:lift=sphere", "sphere_nufft", PS_SELF_CHECK_POINTS + 1001, 3, 70, 1, 1e-3},
     {"zphi", "sphere_nufft", 200000, 3, 40, 1, 1e-5},

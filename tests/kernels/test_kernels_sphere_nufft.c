@@ -62,10 +62,18 @@ static double row_error(const pspec_pattern *pattern, const ps_frequencies *degr
     return sqrt(sum);
 }
 
-static void check_case(const ps_engine *engine, const sphere_case *what) {
+/* An engine in one of its layouts. */
+typedef struct engine_layout {
+    const ps_engine *engine;
+    bool of_gpus;
+} engine_layout;
+
+static void check_case(const engine_layout *how, const sphere_case *what) {
+    const ps_engine *const engine = how->engine;
     if (!ps_device_get_limits(device)->has_fp64) {
         return; /* needed in single precision, too */
     }
+    ps_device_set_dedicated_local_memory(device, how->of_gpus);
     ps_frequencies degrees = test_degrees(what->max_degree, what->only_even);
     const ps_problem problem = {.frequencies = &degrees,
                                 .num_points = NUM_POINTS,
@@ -125,13 +133,16 @@ static void one_by_one(void **state) {
 }
 
 int main(void) {
-    void *const nufft = (void *)(uintptr_t)&ps_sphere_nufft; /* cmocka's states are not constant */
-    void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
-    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(single, nufft),
-                                       cmocka_unit_test_prestate(double_precision, nufft),
-                                       cmocka_unit_test_prestate(one_by_one, nufft),
-                                       cmocka_unit_test_prestate(single, grid),
-                                       cmocka_unit_test_prestate(double_precision, grid)};
+    static engine_layout rings = {&ps_sphere_nufft, false}, gridded = {&ps_sphere_nufft, true};
+    static engine_layout cells = {&ps_sphere_grid, false};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(single, &rings),
+                                       cmocka_unit_test_prestate(double_precision, &rings),
+                                       cmocka_unit_test_prestate(one_by_one, &rings),
+                                       cmocka_unit_test_prestate(single, &gridded),
+                                       cmocka_unit_test_prestate(double_precision, &gridded),
+                                       cmocka_unit_test_prestate(one_by_one, &gridded),
+                                       cmocka_unit_test_prestate(single, &cells),
+                                       cmocka_unit_test_prestate(double_precision, &cells)};
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("kernels_sphere_nufft", tests, NULL, NULL);
     ps_device_close(device);

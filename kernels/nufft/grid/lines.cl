@@ -40,11 +40,12 @@
 #define CELLS_2 16
 #endif
 
-typedef struct lines_buffers {
+typedef struct line_data {
+    const grid_lines_numbers *numbers;
     __global const real *from, *high, *low, *turns, *gains;
     __global real *to;
     real mean, scale;
-} lines_buffers;
+} line_data;
 
 #if FROM
 /* The box `back` boxes in front, around the axis. */
@@ -53,7 +54,7 @@ static inline uint box_before(const uint box, const uint back, const uint boxes)
 }
 
 /* A cell: its own box, then those in front whose windows reach it, in order. */
-static inline real load_cell(const lines_buffers *all, const grid_lines_numbers *numbers,
+static inline real load_cell(const line_data *all, const grid_lines_numbers *numbers,
                              const uint cell) {
     const uint z = cell % CELLS_2, y = cell / CELLS_2 % CELLS_1, x = cell / CELLS_2 / CELLS_1;
     const uint boxes_1 = numbers->boxes[1], boxes_2 = numbers->boxes[2];
@@ -75,20 +76,19 @@ static inline real load_cell(const lines_buffers *all, const grid_lines_numbers 
 }
 #endif
 
-/* Number i of a line. */
-static inline complexv load_number(const lines_buffers *all, const grid_lines_numbers *numbers,
-                                   const ulong first, const uint i) {
-    const size_t at = first + i * numbers->inner;
+static inline complexv load_number(const line_data *all, const size_t line, const uint i) {
+    const ulong inner = all->numbers->inner;
+    const size_t at = (line / inner * N + i) * inner + line % inner;
 #if FROM
-    return (complexv){load_cell(all, numbers, (uint)at), 0};
+    return (complexv){load_cell(all, all->numbers, (uint)at), 0};
 #else
     return (complexv){all->from[2 * at], all->from[2 * at + 1]};
 #endif
 }
 
-/* Result q of a line. */
-static inline void store_number(const lines_buffers *all, const grid_lines_numbers *numbers,
-                                const ulong line, const uint q, const complexv z) {
+static inline void store_number(const line_data *all, const size_t line, const uint q,
+                                const complexv z) {
+    const grid_lines_numbers *numbers = all->numbers;
     const ulong outer = line / numbers->inner, inner = line % numbers->inner;
 #if TO == 2
     const uint turn = (uint)(inner / numbers->neighbours) * q;
@@ -118,6 +118,8 @@ static inline void store_number(const lines_buffers *all, const grid_lines_numbe
 #endif
 }
 
+#include "nufft/grid/line_pass.h"
+
 __kernel void
 nufft_grid_lines(const grid_lines_numbers numbers, __global const real *restrict from,
                  __global const real *restrict high, __global const real *restrict low,
@@ -126,44 +128,16 @@ nufft_grid_lines(const grid_lines_numbers numbers, __global const real *restrict
                  __global const real *restrict scales, __global real *restrict to,
                  __global real *restrict power, __local real *lines) {
     const size_t set = get_global_id(2), row = numbers.first_row + set;
-    const size_t first_line = get_global_id(1) * LINES;
     const size_t tiles = set * numbers.boxes[0] * numbers.boxes[1] * numbers.boxes[2] * TILE_CELLS;
-    const lines_buffers all = {from + 2 * set * numbers.from_stride,
-                               high + tiles,
-                               PAIRS ? low + tiles : low,
-                               turns,
-                               gains,
-                               TO == 1 ? power + row * numbers.to_stride
-                                       : to + 2 * set * numbers.to_stride,
-                               FROM ? means[set] : 0,
-                               TO == 1 ? scales[row] : 0};
-    held x;
-#pragma unroll
-    for (int round = 0; round < ROUNDS(RADIX_0); round++) {
-        const uint job = get_local_id(0) + round * ITEMS, t = place_of_job(job, RADIX_0);
-        const ulong line = min(first_line + line_of_job(job, RADIX_0), (size_t)numbers.lines - 1);
-        const ulong first = line / numbers.inner * N * numbers.inner + line % numbers.inner;
-        if (job < JOBS(RADIX_0)) {
-#pragma unroll
-            for (int i = 0; i < RADIX_0; i++) {
-                const complexv z = load_number(&all, &numbers, first, t + i * (N / RADIX_0));
-                x.re[round * RADIX_0 + i] = z.re;
-                x.im[round * RADIX_0 + i] = z.im;
-            }
-        }
-    }
-    transform_lines(&x, lines, roots);
-#pragma unroll
-    for (int round = 0; round < ROUNDS(LAST_RADIX); round++) {
-        const uint job = get_local_id(0) + round * ITEMS, t = place_of_job(job, LAST_RADIX);
-        const ulong line = first_line + line_of_job(job, LAST_RADIX);
-        if (job < JOBS(LAST_RADIX) && line < numbers.lines) {
-#pragma unroll
-            for (int i = 0; i < LAST_RADIX; i++) {
-                const uint held = round * LAST_RADIX + i;
-                store_number(&all, &numbers, line, result_of(t, i, LAST_RADIX, BEFORE_LAST),
-                             (complexv){x.re[held], x.im[held]});
-            }
-        }
-    }
+    const line_data all = {&numbers,
+                           from + 2 * set * numbers.from_stride,
+                           high + tiles,
+                           PAIRS ? low + tiles : low,
+                           turns,
+                           gains,
+                           TO == 1 ? power + row * numbers.to_stride
+                                   : to + 2 * set * numbers.to_stride,
+                           FROM ? means[set] : 0,
+                           TO == 1 ? scales[row] : 0};
+    pass_lines(&all, get_global_id(1) * LINES, numbers.lines, roots, lines);
 }

@@ -4,8 +4,32 @@
 #ifndef PS_SPHERE_GRID_LANES_H
 #define PS_SPHERE_GRID_LANES_H
 
-#include "sphere/grid/rows.h"
 #include "shared/ahead.h"
+#include "shared/group.h"
+#include "shared/lanes.h"
+#include "sphere/grid/table.h"
+#include "sphere/nufft/orders_finish.h"
+
+/* Vectors of degrees of a run: in registers, with real and imaginary parts of two realizations,
+ * half of 32 of them, or 8 of 16. */
+#ifndef RUN_VECTORS
+#define RUN_VECTORS 4
+#endif
+
+/* A run of the table from angle `begin` on, and where its sums go. */
+typedef struct table_rows {
+    __global const real *table;
+    uint begin, num_angles;
+    bool is_lowest; /* of the orders that are added up */
+    double weight;  /* of |c|^2: orders m and -m */
+} table_rows;
+
+/* Numbers of some realizations: [realization][vector of angles][re, im][LANES]. */
+typedef struct set_values {
+    __global const real *values;
+    size_t apart;
+    uint num; /* realizations */
+} set_values;
 
 /* NUM realizations, VECTORS vectors of degrees. values: of the first angle, realizations `apart`
  * numbers apart; powers [realization], `powers_apart` from each other. */
@@ -85,11 +109,9 @@ static inline void product_of_two(const table_rows rows, __global const real *va
     switch (vectors) { PRODUCT_CASES(2); }
 }
 
-/* One run of `here` vectors, pairs of realizations by turns; local memory is for tiles. */
+/* One run of `here` vectors, pairs of realizations by turns. */
 static inline void sum_run(const table_rows rows, const uint here, const set_values from,
-                           __global double *powers, const size_t powers_apart,
-                           __local realv *unused_table, __local realv *unused_columns) {
-    (void)unused_table, (void)unused_columns;
+                           __global double *powers, const size_t powers_apart) {
     for (uint r = 2 * own_item(); r < from.num; r += 2 * num_items()) {
         __global const real *values = from.values + r * from.apart;
         __global double *to = powers + (KEEP ? 0 : r * powers_apart);

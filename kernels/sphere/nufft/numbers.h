@@ -24,6 +24,17 @@ typedef struct orders_sum_numbers {
 
 SAME_SIZE(orders_sum_numbers, 48);
 
+/* ring_lines.cl */
+typedef struct ring_lines_numbers {
+    ps_u64 order_apart; /* numbers from order to order in values */
+    ps_u32 L, only_even;
+    ps_u32 num_lines; /* of a set */
+    ps_u32 num_rings, ring_pitch;
+    ps_u32 first_value; /* where values of the first set go */
+} ring_lines_numbers;
+
+SAME_SIZE(ring_lines_numbers, 32);
+
 /* degrees.cl */
 typedef struct degrees_numbers {
     ps_u64 order_apart; /* numbers from order to order in values */
@@ -44,11 +55,6 @@ typedef struct grid_table_numbers {
 } grid_table_numbers;
 
 SAME_SIZE(grid_table_numbers, 44);
-
-/* sphere/grid/tiles.h: realizations of a work-group, angles in local memory at a time, and degrees
- * of a run. A vector of the table serves four realizations of an item: 8 LANES sums in registers,
- * 64 of 255 in double precision. 13 KB of local memory, 26 in double. */
-enum { TILE_SETS = 32, TILE_ANGLES = 32, TILE_DEGREES = 32 };
 
 /* sphere/grid/values.cl */
 typedef struct grid_values_numbers {

@@ -9,8 +9,6 @@
  *   sorted, heights  [num_points][2] of sphere/turns.h, [num_points]: as long as the points; heights are left alone
  *                    without weights (has_weights 0)
  *   starts           [part][bands tiles + 1]: from the beginning of the part
- *
- * GPUs have turns and keys alone of here, and nufft/order.cl for the rest.
  */
 #include "sphere/bands.h"
 #include "sphere/nufft/numbers.h"
@@ -75,16 +73,4 @@ __kernel void sphere_orders_sort(const orders_sort_numbers numbers,
             heights[place] = weights[i];
         }
     }
-}
-
-/* Launch: (points / LANES), rounded up at will. */
-__kernel void sphere_orders_keys(const orders_sort_numbers numbers,
-                                 __global const double *restrict points,
-                                 __global ulong *restrict turns, __global uint *restrict keys) {
-    const size_t first = get_global_id(0) * (size_t)LANES, num_points = numbers.num_points;
-    if (first >= num_points) {
-        return;
-    }
-    make_turns(points + 3 * numbers.first_point, turns, first, num_points, numbers.shift);
-    make_keys(turns, keys, first, numbers.n, numbers.width, numbers.bands, numbers.tiles);
 }

@@ -1,5 +1,6 @@
 /* Which fine grid, window and rings sphere_nufft and sphere_grid take: the cheapest that keep the
  * tolerance. */
+#include "base/round.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
@@ -19,13 +20,19 @@ enum { MOST_CELLS = 1 << 16 };
 /* Each candidate is longer than the one before by this part at least. */
 enum { NEXT_LENGTH = 32 };
 
-/* By rings the cheapest to transform; by cells any, since transforms are the smaller part. */
-static uint32_t (*const lengths[])(uint64_t least) = {
-    [PS_SPHERE_BY_RINGS] = ps_fft_good_length, [PS_SPHERE_BY_CELLS] = ps_fft_length};
+/* By rings, and on GPUs, the cheapest to transform; by cells any, since transforms are the smaller
+ * part. Cells are a multiple of a unit: even, on GPUs whole boxes. */
+static const struct {
+    uint32_t (*length)(uint64_t least);
+    uint32_t unit;
+} lengths[] = {[PS_SPHERE_BY_RINGS] = {ps_fft_good_length, 2},
+               [PS_SPHERE_BY_CELLS] = {ps_fft_length, 2},
+               [PS_SPHERE_ON_GPU] = {ps_fft_good_length, 32}};
 
-/* An even length from `least` on; 0: beyond 32 bits. */
-static uint32_t even_length(uint64_t least, ps_sphere_route route) {
-    return 2 * lengths[route]((least + 1) / 2);
+/* A length from `least` on; 0: beyond 32 bits. */
+static uint32_t next_length(uint64_t least, ps_sphere_route route) {
+    const uint32_t unit = lengths[route].unit;
+    return unit * lengths[route].length(ps_divide_up(least, unit));
 }
 
 /* A few more than the least where the two transforms of half the length are cheaper by more than
@@ -96,25 +103,24 @@ static ps_nufft_axis choose_width(const ps_problem *problem, uint32_t n, ps_prec
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
                                     ps_sphere_route route) {
     const double twice = 2.0 * problem->frequencies->max_frequency;
-    const double points = ps_planned_points(problem);
     const uint64_t last = (uint64_t)fmax(LEAST_CELLS, largest_sigma * twice);
     ps_nufft_axis best = {0};
     double best_error = HUGE_VAL;
     double best_cycles = HUGE_VAL;
     for (uint32_t n =
-             even_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)), route);
+             next_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)), route);
          n != 0 && n <= MOST_CELLS && (best.n == 0 || n <= last);
-         n = even_length((uint64_t)n + 1 + n / NEXT_LENGTH, route)) {
+         n = next_length((uint64_t)n + 1 + n / NEXT_LENGTH, route)) {
         double error = 0;
         const ps_nufft_axis least = {.max_frequency = problem->frequencies->max_frequency,
                                      .n = n,
                                      .window = {.width = hopeful_width(problem, n)}};
         if (best_error <= problem->tolerance &&
-            ps_sphere_grid_cycles(&least, precision, points, route) >= best_cycles) {
+            ps_sphere_grid_cycles(&least, problem, precision, route) >= best_cycles) {
             continue;
         }
         const ps_nufft_axis axis = choose_width(problem, n, precision, route, &error);
-        const double cycles = ps_sphere_grid_cycles(&axis, precision, points, route);
+        const double cycles = ps_sphere_grid_cycles(&axis, problem, precision, route);
         const bool is_enough = error <= problem->tolerance;
         const bool was_enough = best_error <= problem->tolerance;
         if (best.n == 0 ||

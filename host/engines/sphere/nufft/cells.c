@@ -72,19 +72,13 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_grid_table *table = &of(self)->table;
     const double flops = 4 * (double)shape->table_reals * (double)num;
-    const ps_sphere_tiles tiles = ps_sphere_tiles_of(shape, ps_real_bytes(self->precision));
-    const size_t group_sets = shape->is_gpu ? TILE_SETS : num;
-    ps_range range = ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
-    if (shape->is_gpu) {
-        range = ps_range_shared(self->device, tiles.items, PS_SPHERE_GROUPS,
-                                ps_divide_up(num, group_sets), flops, 0);
-    }
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
                      PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
                      PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),
                      PS_U32(shape->max_degree), PS_U32(shape->num_angles), PS_U32(self->only_even),
-                     PS_U32(shape->half_pitch), PS_U32(group_sets), PS_BUFFER(*to),
-                     PS_LOCAL(tiles.rows), PS_LOCAL(tiles.columns));
+                     PS_U32(shape->half_pitch), PS_BUFFER(*to));
 }
 
 /* ---- the row ----------------------------------------------------------------------------- */
@@ -96,8 +90,7 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
                    (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
 }
 
-static const ps_sphere_source sums = {
-    .file = "sphere/grid/sums.cl", .name = "sphere_grid_sums", .on_gpu = "-DTILES=1"};
+static const ps_sphere_source sums = {.file = "sphere/grid/sums.cl", .name = "sphere_grid_sums"};
 
 /* Kernels: points, values, sums of orders and degrees; the table of cells and where it begins. */
 const ps_sphere_variant ps_sphere_cells = {.kernels = 6,

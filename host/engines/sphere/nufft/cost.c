@@ -3,6 +3,7 @@
 #include "engines/nufft/fft.h"
 #include "engines/nufft/grid_axis.h"
 #include "engines/sphere/nufft/shape.h"
+#include "engines/torus/nufft/cost.h"
 
 #include <math.h>
 
@@ -84,6 +85,33 @@ static double no_more_cycles(const ps_sphere_shape *shape, double lanes, double 
     return 0;
 }
 
+/* ---- on GPUs ----------------------------------------------------------------------------- */
+
+/* Behind the grid, in nominal cycles of a picosecond (engines/nufft/cycles.c), of a device with an
+ * H200's bandwidth and peaks: transforms to rings as those of the grid; numbers of sums, values and
+ * coefficients written once and read once, coefficients once more for each block of rings. A
+ * product of sums is four operations, a step of the recurrence six in double precision, both at a
+ * third of the peak, as plain sums of the torus were measured; prototypes with matrix units did
+ * half of it. Counted, not measured. */
+static double gpu_ring_cycles(const ps_sphere_shape *shape, double lanes, double num_points,
+                              double num_realizations) {
+    const double cycles_of_product = 0.2, cycles_of_step = 0.6,
+                 share = 0.8; /* of rings with more than zeros */
+    const double word = ps_nufft_cycles[PS_NUFFT_GPU_WORD];
+    const double single_lanes = ps_nufft_nominal_lanes(PS_SINGLE);
+    const double factor = single_lanes / lanes; /* words of a number */
+    const double L = shape->max_degree, orders = L + 1;
+    const double degrees = orders * (L + 2) / 2; /* and orders */
+    const double numbers = degrees * shape->num_rings * share;
+    const double sums = 2 * orders * (2 * L + 1), values = 4 * orders * shape->num_rings;
+    const double sets = fmax(1, fmin(num_realizations, shape->degrees.sets));
+    (void)num_points;
+    return 2 * orders * ps_fft_flops(shape->rings / 2) * ps_nufft_cycles[PS_NUFFT_GPU_OPERATION] *
+               factor +
+           (sums + 2 * values + 2 * 2 * degrees) * word * factor +
+           numbers * (cycles_of_product * factor + cycles_of_step / sets);
+}
+
 /* ---- all --------------------------------------------------------------------------------- */
 
 static const struct {
@@ -91,45 +119,30 @@ static const struct {
     double (*more)(const ps_sphere_shape *, double lanes, double num_points,
                    double num_realizations);
 } routes[] = {[PS_SPHERE_BY_RINGS] = {ring_cycles, more_ring_cycles},
-              [PS_SPHERE_BY_CELLS] = {cell_cycles, no_more_cycles}};
+              [PS_SPHERE_BY_CELLS] = {cell_cycles, no_more_cycles},
+              [PS_SPHERE_ON_GPU] = {NULL, gpu_ring_cycles}};
 
-double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
-                             ps_sphere_route route) {
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, const ps_problem *problem,
+                             ps_precision precision, ps_sphere_route route) {
     const double lanes = ps_nufft_nominal_lanes(precision);
+    const double num_points = ps_planned_points(problem);
+    if (route == PS_SPHERE_ON_GPU) {
+        const ps_nufft_choice choice = ps_sphere_plane_choice(axis, problem, precision);
+        const ps_nufft_counts counts = ps_nufft_count(&choice, precision, num_points);
+        return ps_nufft_cycles_of(&counts);
+    }
     return spreading_cycles(axis, lanes, num_points) + routes[route].grid(axis, lanes);
 }
 
 /* Cycles, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11): 0.7
  * to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096,
- * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. The same of a GPU, by the time of all
- * kernels on an H200: 135 to 230 ps for a degree and order at an angle of each of 32 to 64 sets by
- * cells ((1024, 64), (1024, 128), (4096, 256)), which took 1 to 2 % of the card, so that batches of
- * hundreds, which were not measured, are taken to last as long; and 63 ms for the one set of (1e6,
- * 1000) by rings without its sort. Double precision was measured once, at less than single; a
- * fourth more is an estimate. */
-static double gpu_cycles(const ps_sphere_shape *shape, ps_precision precision, double num_points,
-                         double num_realizations) {
-    const double cycles_of_cell = 178, cycles_of_ring = 260, cycles_per_sorted = 15.7e3;
-    const double share = 0.7; /* of angles or rings where Lambda_lm is more than zero */
-    const double measured_sets = 48;
-    const double sets = fmin(num_realizations, (double)shape->at_once);
-    const double dearer = precision == PS_DOUBLE ? 1.25 : 1;
-    const bool is_by_rings = shape->route == PS_SPHERE_BY_RINGS;
-    const double L = shape->max_degree;
-    const double angles = is_by_rings ? shape->num_rings : shape->axis.n / 4.0;
-    const double numbers = (L + 1) * L / 2 * angles * share;
-    const double points = shape->is_sorted ? cycles_per_sorted * num_points : 0;
-    return dearer * (is_by_rings ? numbers * cycles_of_ring + points
-                                 : numbers * cycles_of_cell * measured_sets / fmax(sets, 1));
-}
-
-double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
-                             double num_points, double num_realizations) {
+ * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. */
+double ps_sphere_nufft_flops(const ps_sphere_shape *shape, const ps_problem *problem,
+                             ps_precision precision, double num_realizations) {
     const double flops_per_lane = 4; /* two fused operations in a cycle */
     const double lanes = ps_nufft_nominal_lanes(precision);
     const double cycles =
-        shape->is_gpu ? gpu_cycles(shape, precision, num_points, num_realizations)
-                      : ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) +
-                            routes[shape->route].more(shape, lanes, num_points, num_realizations);
+        ps_sphere_grid_cycles(&shape->axis, problem, precision, shape->route) +
+        routes[shape->route].more(shape, lanes, ps_planned_points(problem), num_realizations);
     return cycles * lanes * flops_per_lane;
 }

@@ -53,9 +53,8 @@ void ps_sphere_degrees_free(ps_sphere_degrees *degrees) {
 /* Rings come in blocks of about the same size. */
 static degrees_numbers numbers_of(const ps_sphere_state *self, uint32_t rings, size_t num) {
     const ps_sphere_shape *shape = &self->shape;
-    const size_t gap = 2 * shape->lanes; /* kernels/sphere/values.h */
     const uint64_t blocks = ps_divide_up(shape->num_rings, rings);
-    return (degrees_numbers){.order_apart = shape->at_once * 4 * shape->ring_pitch + gap,
+    return (degrees_numbers){.order_apart = ps_sphere_order_apart(shape),
                              .L = (uint32_t)shape->max_degree,
                              .only_even = self->only_even,
                              .num_rings = shape->num_rings,

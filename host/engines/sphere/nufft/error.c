@@ -25,7 +25,8 @@ static const struct {
     double windows;
     double transforms; /* one after another */
 } routes[] = {[PS_SPHERE_BY_RINGS] = {.windows = 4, .transforms = 3},
-              [PS_SPHERE_BY_CELLS] = {.windows = 3.5, .transforms = 1}};
+              [PS_SPHERE_BY_CELLS] = {.windows = 3.5, .transforms = 1},
+              [PS_SPHERE_ON_GPU] = {.windows = 4, .transforms = 3}};
 static const double roundings_per_pass = 0.4;
 static const double dense_roundings =
     2; /* 1.4 with a million points: pointspec stress --case sphere-sum-1e6 */

@@ -48,7 +48,8 @@ static const struct {
     uint64_t (*making)(const ps_sphere_shape *);
     bool shares_grids; /* between work-groups, where there are more of these */
 } routes[] = {[PS_SPHERE_BY_RINGS] = {ring_table_bytes, no_bytes, true},
-              [PS_SPHERE_BY_CELLS] = {cell_table_bytes, making_bytes, false}};
+              [PS_SPHERE_BY_CELLS] = {cell_table_bytes, making_bytes, false},
+              [PS_SPHERE_ON_GPU] = {ring_table_bytes, no_bytes, false}};
 
 /* ---- realizations side by side ----------------------------------------------------------- */
 
@@ -89,14 +90,28 @@ static uint64_t gap_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     return ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes;
 }
 
+/* The grid on GPUs: as many realizations as its boxes and lines have room for. */
+static void choose_plane(ps_sphere_shape *shape, const ps_problem *problem,
+                         const ps_device_limits *limits, size_t real_bytes) {
+    const ps_precision precision = real_bytes == sizeof(float) ? PS_SINGLE : PS_DOUBLE;
+    shape->plane = ps_sphere_plane_layout(shape, problem, limits, precision, shape->together);
+    if (shape->plane.lanes == 0) {
+        shape->lanes = 0;
+        return;
+    }
+    shape->together = shape->plane.parts;
+    shape->most_points = shape->together * shape->plane.part_points;
+    shape->plane_bytes = ps_divide_up(shape->plane.fixed_bytes, shape->plane.parts);
+}
+
 static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
                            const ps_device_limits *limits, size_t real_bytes) {
     const size_t cores = ps_device_typical(limits).served_units;
     const uint64_t known = problem->num_realizations;
     const bool is_small = (double)shape->value_bytes * MOST_SMALL_AT_ONCE <= small_values;
-    const size_t wanted = shape->is_gpu ? SETS_PER_UNIT * cores
-                          : is_small    ? MOST_SMALL_AT_ONCE
-                                        : MOST_AT_ONCE;
+    const size_t wanted = shape->route == PS_SPHERE_ON_GPU ? SETS_PER_UNIT * cores
+                          : is_small                       ? MOST_SMALL_AT_ONCE
+                                                           : MOST_AT_ONCE;
     const size_t most = known > 0 && known < wanted ? (size_t)known : wanted;
     const uint64_t vectors = problem->num_points * 3 * sizeof(double);
     const uint64_t set_bytes = vectors + problem->num_points * (2 * sizeof(uint64_t) + real_bytes);
@@ -105,15 +120,16 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
     shape->at_once = fitting(fmin(value_budget, largest), shape->value_bytes,
                              fitting(set_budget, vectors, most));
     shape->together = shape->is_sorted ? 1 : fitting(point_budget, set_bytes, shape->at_once);
+    shape->slots = shape->shares = 1;
     shape->most_points = shape->together * problem->num_points;
+    if (shape->route == PS_SPHERE_ON_GPU) {
+        choose_plane(shape, problem, limits, real_bytes);
+        return;
+    }
     if (shape->is_sorted && shape->most_points > PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS) {
         shape->most_points = PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS;
     }
     const size_t groups = GROUPS_PER_CORE * cores;
-    if (shape->is_sorted) {
-        const uint32_t keys = shape->bands * shape->tiles;
-        shape->order = ps_nufft_order_measure(limits, PS_SPHERE_PART_POINTS, keys, keys + 1);
-    }
     shape->set_points = ps_sphere_has_strips(shape) ? problem->num_points : 0;
     shape->slots = fitting(grid_budget, shape->grid_bytes + shape->row_bytes,
                            shape->together < groups ? shape->together : groups);
@@ -124,7 +140,21 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem,
 
 /* ---- bytes ------------------------------------------------------------------------------- */
 
+/* Beside the grid, which is plane_bytes for each of plane.parts. */
+static ps_sphere_bytes gpu_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
+    const uint64_t points = ps_round_up(shape->most_points, shape->lanes);
+    return (ps_sphere_bytes){.vectors = points * 3 * sizeof(double),
+                             .turns = points * 2 * sizeof(uint64_t),
+                             .weights = points * real_bytes,
+                             .values = shape->value_bytes,
+                             .powers = PS_SPHERE_GROUPS * 2 * shape->half_pitch * sizeof(double),
+                             .sums = ps_sphere_degrees_bytes(shape, real_bytes)};
+}
+
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
+    if (shape->route == PS_SPHERE_ON_GPU) {
+        return gpu_bytes_of(shape, real_bytes);
+    }
     const uint64_t groups = PS_SPHERE_GROUPS;
     const uint64_t points = ps_round_up(shape->most_points, shape->lanes);
     const uint64_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
@@ -137,16 +167,14 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
     const uint64_t staged = shape->is_sorted ? (uint64_t)shape->bands * STAGED_POINTS : 1;
     const uint64_t rings = shape->transform_rings;
-    const bool has_table = rings > 0 && !shape->is_gpu; /* of Lambda_lm */
-    const uint64_t pitch = has_table ? shape->ring_pitch : 0;
+    const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
     const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
     return (ps_sphere_bytes){
         .vectors = points * 3 * sizeof(double),
         .turns = points * 2 * sizeof(uint64_t),
         .weights = points * real_bytes,
-        .keys = shape->is_sorted && shape->order.tile == 0 ? points * sizeof(uint32_t) : 0,
+        .keys = shape->is_sorted ? points * sizeof(uint32_t) : 0,
         .starts = shape->is_sorted ? parts * (keys + 1) * sizeof(uint32_t) : 0,
-        .order = parts * ps_nufft_order_bytes(&shape->order),
         .grids = (has_strips ? work_groups : shape->slots) * shape->grid_bytes,
         .rows = shape->slots * shape->row_bytes,
         .strip_turns = strip_points * 2 * sizeof(uint64_t),
@@ -157,9 +185,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .values = shape->value_bytes,
         .gaps = gap_bytes(shape, real_bytes),
         .powers = groups * 2 * shape->half_pitch * sizeof(double),
-        .sums = has_table && !shape->is_one_set ? groups * 4 * run * real_bytes
-                : rings > 0 && shape->is_gpu    ? ps_sphere_degrees_bytes(shape, real_bytes)
-                                                : 0,
+        .sums = pitch > 0 && !shape->is_one_set ? groups * 4 * run * real_bytes : 0,
         .staged = staged * 2 * sizeof(uint64_t),
         .staged_heights = staged * real_bytes,
         .states = groups * 4 * pitch * sizeof(double),
@@ -186,20 +212,21 @@ static void add_up(ps_sphere_shape *shape, size_t real_bytes) {
     shape->each_bytes = is_fixed ? 0 : each;
     shape->host_bytes = bytes.weights;
     shape->fixed_bytes =
-        bytes.weights + 2 * bytes.vectors + bytes.turns + bytes.weights + sorted + bytes.keys +
-        bytes.starts + bytes.order + bytes.grids + bytes.rows + bytes.scratch + bytes.strip_turns +
-        bytes.strip_weights + bytes.strips + bytes.strip_starts + bytes.staged +
-        bytes.staged_heights + table_bytes(shape, real_bytes) + bytes.sums + bytes.states +
-        bytes.scales + bytes.diagonals + bytes.diagonals / 2 + bytes.table + bytes.gaps +
-        (making > rest ? making - rest : 0) + (is_fixed ? shape->at_once * each : 0);
-    const uint64_t buffers[] = {bytes.table,
+        shape->plane.parts * shape->plane_bytes + bytes.weights + 2 * bytes.vectors + bytes.turns +
+        bytes.weights + sorted + bytes.keys + bytes.starts + bytes.grids + bytes.rows +
+        bytes.scratch + bytes.strip_turns + bytes.strip_weights + bytes.strips +
+        bytes.strip_starts + bytes.staged + bytes.staged_heights + table_bytes(shape, real_bytes) +
+        bytes.sums + bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
+        bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
+        (is_fixed ? shape->at_once * each : 0);
+    const uint64_t buffers[] = {shape->plane.largest_buffer,
+                                bytes.table,
                                 bytes.grids,
                                 bytes.rows,
                                 shape->at_once * bytes.values + bytes.gaps,
                                 shape->at_once * bytes.powers,
-                                bytes.vectors,
-                                ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS) *
-                                    ps_nufft_order_largest(&shape->order)};
+                                shape->at_once * bytes.sums,
+                                bytes.vectors};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         shape->largest_buffer =
             buffers[i] > shape->largest_buffer ? buffers[i] : shape->largest_buffer;
@@ -224,7 +251,7 @@ void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                             const ps_device_limits *limits, size_t real_bytes) {
     choose_at_once(shape, problem, limits, real_bytes);
     add_up(shape, real_bytes);
-    if (shape->is_gpu) {
+    if (shape->route == PS_SPHERE_ON_GPU) {
         spread_over_sets(shape, real_bytes);
     }
 }
@@ -235,6 +262,9 @@ void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch) {
     if (shape->together > shape->at_once) {
         shape->most_points = shape->most_points / shape->together * shape->at_once;
         shape->together = shape->at_once;
+    }
+    if (shape->plane.parts > shape->together) {
+        ps_nufft_layout_shrink(&shape->plane, shape->together);
     }
     if (shape->slots > shape->together) {
         shape->shares =

@@ -13,11 +13,6 @@ __extension__ typedef unsigned __int128 wide; /* not in ISO C */
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-/* Of realizations, or of the parts of one. */
-static size_t num_offsets(const ps_sphere_shape *shape) {
-    return (shape->order.tile > 0 ? PS_SPHERE_PARTS : shape->together) + 1;
-}
-
 static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, ps_real_bytes(self->precision));
@@ -29,7 +24,7 @@ static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
     } wanted[] = {
         {&self->turns, bytes.turns, "angles of points", true},
         {&self->weights, bytes.weights, "weights", true},
-        {&self->offsets, num_offsets(shape) * sizeof(uint64_t), "offsets", true},
+        {&self->offsets, (shape->together + 1) * sizeof(uint64_t), "offsets", true},
         {&self->keys, bytes.keys, "bands of points", bytes.keys > 0},
         {&self->sorted, bytes.turns, "sorted points", shape->is_sorted},
         {&self->heights, bytes.weights, "sorted weights", shape->is_sorted},
@@ -59,10 +54,11 @@ static void set_weight(ps_sphere_places *self, size_t at, double weight) {
     }
 }
 
-/* They stay on the device until weights arrive; where points are sorted nobody looks at them. */
+/* They stay on the device until weights arrive; where points are sorted, on GPUs all of them,
+ * nobody looks at them. */
 static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error) {
     self->has_unit_weights = true;
-    if (self->shape->is_sorted) {
+    if (self->shape->is_sorted || self->shape->route == PS_SPHERE_ON_GPU) {
         return PSPEC_OK;
     }
     PS_TRY(make_room_for_weights(self, error));
@@ -78,20 +74,11 @@ static uint64_t shift_of(const ps_sphere_shape *shape) {
 }
 
 static pspec_status create_kernels(ps_sphere_places *self, ps_error *error) {
-    enum { TURN, SORT, KEYS };
-    static const char *const names[][2] = {
-        [TURN] = {"sphere/nufft/orders_turns.cl", "sphere_orders_turns"},
-        [SORT] = {"sphere/nufft/orders_sort.cl", "sphere_orders_sort"},
-        [KEYS] = {"sphere/nufft/orders_sort.cl", "sphere_orders_keys"}};
-    const ps_sphere_shape *const shape = self->shape;
-    const int which = shape->order.tile > 0 ? KEYS : shape->is_sorted ? SORT : TURN;
-    const size_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
+    const bool sorts = self->shape->is_sorted;
     const ps_defines defines = ps_defines_of(ps_real_bytes(self->precision), self->lanes);
-    PS_TRY(ps_kernel_get(self->device, &self->turn, names[which][0], names[which][1], defines.text,
-                         error));
-    return which == KEYS ? ps_nufft_order_create(&self->order, &shape->order, parts, 2,
-                                                 self->precision, self->device, error)
-                         : PSPEC_OK;
+    return ps_kernel_get(self->device, &self->turn,
+                         sorts ? "sphere/nufft/orders_sort.cl" : "sphere/nufft/orders_turns.cl",
+                         sorts ? "sphere_orders_sort" : "sphere_orders_turns", defines.text, error);
 }
 
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
@@ -102,14 +89,13 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
                               .most_points = shape->most_points,
                               .lanes = shape->lanes,
                               .shift = shift_of(shape)};
-    PS_TRY(PS_NEW(&out->host_offsets, num_offsets(shape), "offsets", error));
+    PS_TRY(PS_NEW(&out->host_offsets, shape->together + 1, "offsets", error));
     PS_TRY(create_kernels(out, error));
     PS_TRY(create_buffers(out, error));
     return upload_unit_weights(out, error);
 }
 
 void ps_sphere_places_free(ps_sphere_places *points) {
-    ps_nufft_order_free(&points->order);
     ps_feed_free(&points->vectors);
     PS_BUFFERS_RELEASE(&points->lent, &points->turns, &points->weights, &points->offsets,
                        &points->keys, &points->sorted, &points->heights, &points->starts);
@@ -229,33 +215,6 @@ static pspec_status upload_weights(ps_sphere_places *self, const ps_batch *batch
                            error);
 }
 
-/* On GPUs, parts as sets. */
-static pspec_status order_points(ps_sphere_places *self, const orders_sort_numbers *numbers,
-                                 size_t num_parts, ps_error *error) {
-    const ps_range range =
-        ps_range_light(self->device, ps_divide_up(self->num_points, self->lanes), 1, 1, 0,
-                       (double)(self->num_points *
-                                (3 * sizeof(double) + 2 * sizeof(uint64_t) + sizeof(uint32_t))));
-    const ps_nufft_order_points points = {.points = &self->turns,
-                                          .weights = &self->weights,
-                                          .offsets = &self->offsets,
-                                          .places = &self->offsets,
-                                          .sorted = &self->sorted,
-                                          .heights = &self->heights,
-                                          .starts = &self->starts,
-                                          .has_weights = numbers->has_weights != 0};
-    for (size_t part = 0; part <= num_parts; part++) {
-        const uint64_t begin = part * PS_SPHERE_PART_POINTS;
-        self->host_offsets[part] = begin < self->num_points ? begin : self->num_points;
-    }
-    PS_TRY(ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
-                           (num_parts + 1) * sizeof(uint64_t), error));
-    PS_TRY(PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(*numbers),
-                     PS_BUFFER(*vectors_of(self)), PS_BUFFER(self->turns),
-                     PS_BUFFER(self->order.keys)));
-    return ps_nufft_order_run(&self->order, &points, num_parts, error);
-}
-
 static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
@@ -271,9 +230,6 @@ static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
                                          .bands = shape->bands,
                                          .tiles = shape->tiles,
                                          .has_weights = !self->has_unit_weights};
-    if (shape->order.tile > 0) {
-        return order_points(self, &numbers, parts, error);
-    }
     return PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(*vectors_of(self)), PS_BUFFER(self->weights), PS_BUFFER(self->turns),
                      PS_BUFFER(self->keys), PS_BUFFER(self->sorted), PS_BUFFER(self->heights),

@@ -17,7 +17,6 @@ typedef struct rings {
     ps_buffer staged, staged_heights; /* of orders_bands.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
     ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
-    ps_sphere_degrees degrees;                                  /* instead, on GPUs */
 } rings;
 
 static rings *of(const ps_sphere_state *self) {
@@ -48,8 +47,7 @@ static pspec_status create(ps_sphere_state *self, ps_error *error) {
         {&own->strips, bytes.strips, "strips of points"},
         {&own->strip_starts, bytes.strip_starts, "starts of strips"},
         {&own->staged, bytes.staged, "points of bands"},
-        {&own->staged_heights, bytes.staged_heights, "weights of bands"}};
-    const ps_wanted_buffer of_table[] = {
+        {&own->staged_heights, bytes.staged_heights, "weights of bands"},
         {&own->states, bytes.states, "states of rings"},
         {&own->scales, bytes.scales, "scales of rings"},
         {&own->diagonals, bytes.diagonals, "first degrees of rings"},
@@ -57,9 +55,7 @@ static pspec_status create(ps_sphere_state *self, ps_error *error) {
         {&own->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"}};
     PS_TRY(ps_sphere_ring_tables_create(&own->tables, shape, self->precision, self->device, error));
     PS_TRY(create_kernels(self, error));
-    PS_TRY(PS_BUFFERS_CREATE(self->device, wanted, error));
-    return shape->is_gpu ? ps_sphere_degrees_create(&own->degrees, self, error)
-                         : PS_BUFFERS_CREATE(self->device, of_table, error);
+    return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 static void free_own(void *own) {
@@ -67,7 +63,6 @@ static void free_own(void *own) {
     PS_BUFFERS_RELEASE(&self->rows, &self->strip_turns, &self->strip_weights, &self->strips,
                        &self->states, &self->scales, &self->diagonals, &self->diagonal_scales,
                        &self->sums, &self->strip_starts, &self->staged, &self->staged_heights);
-    ps_sphere_degrees_free(&self->degrees);
     ps_sphere_ring_tables_free(&self->tables);
 }
 
@@ -239,12 +234,6 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
         PS_LOCAL(local.begins));
 }
 
-static pspec_status sum_degrees(ps_sphere_state *self, ps_kernel *kernel, const ps_buffer *to,
-                                size_t num, ps_error *error) {
-    const rings *own = of(self);
-    return ps_sphere_degrees_sum(self, &own->degrees, &own->tables.starts, kernel, to, num, error);
-}
-
 /* ---- the rows ---------------------------------------------------------------------------- */
 
 static void describe(const ps_sphere_state *self, ps_text *text) {
@@ -262,21 +251,13 @@ static const ps_sphere_source sums = {.file = "sphere/nufft/orders_sum.cl",
 static const ps_sphere_source sums_one = {
     .file = "sphere/nufft/orders_sum_one.cl", .name = "sphere_orders_sum_one", .sums_one = true};
 
-static const ps_sphere_source degree_powers = {.file = "sphere/nufft/degree_powers.cl",
-                                               .name = "sphere_degree_powers"};
-
-/* Kernels: points, values, sums of orders and degrees; on GPUs coefficients, too; and the bands of
- * sorted points. */
-#define RINGS_ROW(KERNELS, MAKE_VALUES, SUMS, LAUNCH_SUMS)                                         \
+/* Kernels: points, values, sums of orders and degrees; and the bands of sorted points. */
+#define RINGS_ROW(KERNELS, MAKE_VALUES)                                                            \
     {                                                                                              \
         .kernels = (KERNELS), .own_bytes = sizeof(rings), .create = create, .free = free_own,      \
-        .make_values = (MAKE_VALUES), .sources_of_sums = {SUMS, &sums_one},                        \
-        .launch_sums = (LAUNCH_SUMS), .describe = describe                                         \
+        .make_values = (MAKE_VALUES), .sources_of_sums = {&sums, &sums_one},                       \
+        .launch_sums = launch_sums, .describe = describe                                           \
     }
 
-const ps_sphere_variant ps_sphere_rings = RINGS_ROW(4, make_values, &sums, launch_sums);
-const ps_sphere_variant ps_sphere_sorted_rings = RINGS_ROW(5, make_sorted, &sums, launch_sums);
-const ps_sphere_variant ps_sphere_gpu_rings =
-    RINGS_ROW(5, make_values, &degree_powers, sum_degrees);
-const ps_sphere_variant ps_sphere_gpu_sorted_rings =
-    RINGS_ROW(6, make_sorted, &degree_powers, sum_degrees);
+const ps_sphere_variant ps_sphere_rings = RINGS_ROW(4, make_values);
+const ps_sphere_variant ps_sphere_sorted_rings = RINGS_ROW(5, make_sorted);

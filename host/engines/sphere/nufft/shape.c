@@ -4,7 +4,6 @@
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/grid_axis.h"
-#include "sphere/nufft/numbers.h"
 
 #include <math.h>
 
@@ -66,9 +65,7 @@ static void choose_bands(ps_sphere_shape *shape, double points, size_t real_byte
 /* Bytes of a strip: the second cache of a core holds it, beside what is transformed. */
 static const size_t strip_bytes = 384 << 10;
 
-/* Not where a realization has many work-items, which would wait for the one that sorts. */
-static void choose_strip(ps_sphere_shape *shape, const ps_device_limits *limits,
-                         size_t real_bytes) {
+static void choose_strip(ps_sphere_shape *shape, size_t real_bytes) {
     const uint32_t lanes = shape->lanes;
     const uint64_t rows = (uint64_t)shape->axis.n + shape->axis.window.width;
     const uint64_t behind = ps_round_up(ps_nufft_bins(&shape->axis), lanes);
@@ -76,8 +73,7 @@ static void choose_strip(ps_sphere_shape *shape, const ps_device_limits *limits,
     const uint64_t strip =
         fitting > behind + 2 * lanes ? (fitting - behind) / lanes * lanes : 2 * (uint64_t)lanes;
     const bool is_small = rows * shape->pitch * real_bytes <= strip_bytes;
-    if (!shape->is_sorted && !is_small && !limits->has_dedicated_local_memory &&
-        strip < shape->columns) {
+    if (!shape->is_sorted && !is_small && strip < shape->columns) {
         shape->strip = (uint32_t)strip;
         shape->pitch = (uint32_t)(strip + behind);
     }
@@ -152,18 +148,12 @@ static bool chain_is_exact(const ps_sphere_shape *shape, const ps_problem *probl
     return hypot(rest, ps_sphere_chain_error(&shape->axis, problem, power)) <= problem->tolerance;
 }
 
-/* A realization alone needs no table that others would share. Not on GPUs, whose work-items would
- * each have rings, and sums of all of them to add up; nor of a set that comes in blocks, after
+/* A realization alone needs no table that others would share. Not a set that comes in blocks, after
  * which nobody knows whether others follow. */
 static void choose_sums(ps_sphere_shape *shape, const ps_problem *problem,
                         const ps_device_limits *limits, size_t real_bytes) {
     const unsigned lanes = ps_engine_lanes(limits, PS_DOUBLE);
-    if (limits->has_dedicated_local_memory) {
-        shape->degrees =
-            ps_sphere_degrees_measure(problem->num_realizations == 1, limits, real_bytes);
-    }
-    if (problem->num_realizations == 1 && problem->block_points == 0 &&
-        !limits->has_dedicated_local_memory) {
+    if (problem->num_realizations == 1 && problem->block_points == 0) {
         shape->is_one_set = true;
         shape->sum_lanes = lanes;
         shape->is_single_chain = real_bytes == sizeof(float) && chain_is_exact(shape, problem);
@@ -206,24 +196,7 @@ bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *l
     return local.table + local.coefficients + local.begins <= limits->local_bytes;
 }
 
-ps_sphere_tiles ps_sphere_tiles_of(const ps_sphere_shape *shape, size_t real_bytes) {
-    enum { SETS_OF_ITEM = 4 };
-    if (!shape->is_gpu) {
-        return (ps_sphere_tiles){.rows = 1, .columns = 1}; /* no argument may be empty */
-    }
-    return (ps_sphere_tiles){
-        .items = (size_t)shape->run_vectors * TILE_SETS / SETS_OF_ITEM,
-        .rows = (size_t)TILE_ANGLES * shape->run_vectors * shape->lanes * real_bytes,
-        .columns = (size_t)TILE_ANGLES * (2 * TILE_SETS + shape->lanes) * real_bytes};
-}
-
-static bool tiles_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
-                      size_t real_bytes) {
-    const ps_sphere_tiles tiles = ps_sphere_tiles_of(shape, real_bytes);
-    return tiles.rows + tiles.columns <= limits->local_bytes;
-}
-
-/* ---- the two routes ---------------------------------------------------------------------- */
+/* ---- the routes -------------------------------------------------------------------------- */
 
 static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits,
                           const ps_problem *problem, size_t real_bytes) {
@@ -232,14 +205,14 @@ static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits
     measure_grid(shape, unit);
     choose_sums(shape, problem, limits, real_bytes);
     choose_bands(shape, points, real_bytes);
-    choose_strip(shape, limits, real_bytes);
+    choose_strip(shape, real_bytes);
     shape->grid_rows = shape->bands * shape->band_rows;
     shape->transform_rings = shape->rings;
     shape->half_poles = 2 * shape->pole;
     shape->grid_bytes = (uint64_t)shape->grid_rows * shape->pitch * real_bytes;
     shape->row_bytes = 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes;
-    return shape->is_gpu ? shape->degrees.rings > 0
-                         : ps_sphere_rings_fit(shape, limits, real_bytes);
+    return ps_sphere_rings_fit(shape, limits, real_bytes) &&
+           spreading_fits(shape, limits, real_bytes);
 }
 
 /* The table is made of rings in double precision. */
@@ -249,20 +222,38 @@ static bool measure_cells(ps_sphere_shape *shape, const ps_device_limits *limits
     const bool is_whole =
         shape->lanes % rings.lanes == 0 && rings.run_vectors * rings.lanes % shape->lanes == 0;
     (void)problem;
-    shape->run_vectors = shape->is_gpu ? TILE_DEGREES / shape->lanes : shape->run_vectors;
     measure_grid(shape, shape->lanes);
     measure_table(shape, real_bytes);
     shape->grid_rows = shape->band_rows;
     shape->half_poles = 2 * shape->pole - 1;
     shape->grid_bytes = ((uint64_t)shape->grid_rows * shape->pitch + 2 * shape->lanes) * real_bytes;
     return is_whole && ps_sphere_rings_fit(&rings, limits, sizeof(double)) &&
-           tiles_fit(shape, limits, real_bytes);
+           spreading_fits(shape, limits, real_bytes);
+}
+
+/* On GPUs torus_nufft measures the grid, once it is known of how many sets (memory.c). */
+static bool measure_on_gpu(ps_sphere_shape *shape, const ps_device_limits *limits,
+                           const ps_problem *problem, size_t real_bytes) {
+    const uint64_t lines = 2 * ((uint64_t)shape->max_degree + 1);
+    const uint32_t most = shape->rings; /* lengths up to twice as long are tried */
+    uint32_t half = shape->rings / 2;
+    bool fits = ps_nufft_pass_measure(&shape->ring_pass, half, lines, limits, real_bytes);
+    while (!fits && half < most) {
+        half = ps_fft_length((uint64_t)half + 1);
+        fits = ps_nufft_pass_measure(&shape->ring_pass, half, lines, limits, real_bytes);
+    }
+    shape->rings = 2 * half;
+    shape->num_rings = shape->rings / 4 + 1;
+    measure_rings_in_memory(shape, real_bytes);
+    shape->degrees = ps_sphere_degrees_measure(problem->num_realizations == 1, limits, real_bytes);
+    return fits && shape->degrees.rings > 0;
 }
 
 /* Each returns false where local memory is too small. */
 static bool (*const measures[])(ps_sphere_shape *, const ps_device_limits *, const ps_problem *,
-                                size_t real_bytes) = {
-    [PS_SPHERE_BY_RINGS] = measure_rings, [PS_SPHERE_BY_CELLS] = measure_cells};
+                                size_t real_bytes) = {[PS_SPHERE_BY_RINGS] = measure_rings,
+                                                      [PS_SPHERE_BY_CELLS] = measure_cells,
+                                                      [PS_SPHERE_ON_GPU] = measure_on_gpu};
 
 ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits *limits,
                                       ps_precision precision) {
@@ -288,10 +279,7 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
         ps_sphere_rings_shape(problem->frequencies->max_frequency, limits, precision);
     shape.axis = axis;
     shape.route = route;
-    shape.is_gpu = limits->has_dedicated_local_memory;
-    const bool fits = measures[route](&shape, limits, problem, real_bytes) &&
-                      spreading_fits(&shape, limits, real_bytes);
-    if (!fits) {
+    if (!measures[route](&shape, limits, problem, real_bytes)) {
         shape.lanes = 0;
         return shape;
     }

@@ -7,7 +7,7 @@
 
 #include "engines/engine.h"
 #include "engines/nufft/axis.h"
-#include "engines/nufft/order.h"
+#include "engines/torus/nufft/layout.h"
 
 /* Groups of orders in kernels/sphere/grid/ and in orders_sum.cl and orders_sum_one.cl of
  * kernels/sphere/nufft/: each adds up those of its own. There are so many whatever the device,
@@ -17,7 +17,8 @@ enum { PS_SPHERE_GROUPS = 32 };
 /* How c_lm is made of the grid. */
 typedef enum ps_sphere_route {
     PS_SPHERE_BY_RINGS, /* sphere_nufft: transforms to rings, where Lambda_lm is known */
-    PS_SPHERE_BY_CELLS  /* sphere_grid: a table of what each cell counts */
+    PS_SPHERE_BY_CELLS, /* sphere_grid: a table of what each cell counts */
+    PS_SPHERE_ON_GPU    /* sphere_nufft there: to rings by the grid of torus_nufft */
 } ps_sphere_route;
 
 /* Work-groups of kernels/sphere/nufft/degrees.cl, which names these, and its local memory in bytes.
@@ -29,7 +30,6 @@ typedef struct ps_sphere_degree_sizes {
 
 typedef struct ps_sphere_shape {
     ps_sphere_route route;
-    bool is_gpu;              /* whose figures count */
     int32_t max_degree;       /* L */
     ps_nufft_axis axis;       /* longitude and angle from the pole: n is even */
     uint32_t rings;           /* on a whole great circle through the poles, even and above 2 L */
@@ -51,7 +51,10 @@ typedef struct ps_sphere_shape {
     uint32_t ring_lead;        /* rings of a set alone lie so much further, and fill units of rings
                                   up to the equator: there they cost most, at the pole nothing */
     uint32_t run_vectors;      /* RUN_VECTORS of orders_chains.h */
-    ps_sphere_degree_sizes degrees; /* sums on GPUs */
+    ps_nufft_layout plane;     /* the grid on GPUs, of `together` realizations, */
+    uint64_t plane_bytes;      /* and what it takes of each */
+    ps_nufft_pass ring_pass;   /* transforms to rings there, */
+    ps_sphere_degree_sizes degrees; /* and sums */
     bool is_one_set;                /* one realization is expected: sums by orders_sum_one.cl, */
     unsigned sum_lanes;             /* whose LANES these are */
     bool is_single_chain;           /* its Lambda_lm in single precision */
@@ -60,15 +63,14 @@ typedef struct ps_sphere_shape {
     uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
     uint32_t bands, band_rows;            /* of a grid (kernels/sphere/bands.h) */
     uint32_t tiles;                       /* of angles from the pole, of sorted points */
-    uint32_t strip;             /* columns of a strip (kernels/sphere/nufft/orders_strips.h) */
-    bool is_sorted;             /* one realization at a time, in chunks of points */
-    ps_nufft_order_sizes order; /* of its parts, on GPUs */
-    size_t at_once;             /* realizations between values on rings and powers */
-    size_t together;            /* between points and values on rings */
-    size_t slots;               /* grids */
-    size_t shares;              /* work-groups for each grid */
-    uint64_t most_points;       /* on the device at a time */
-    uint64_t set_points;        /* of a realization that comes in strips, else 0 */
+    uint32_t strip;       /* columns of a strip (kernels/sphere/nufft/orders_strips.h) */
+    bool is_sorted;       /* one realization at a time, in chunks of points */
+    size_t at_once;       /* realizations between values on rings and powers */
+    size_t together;      /* between points and values on rings */
+    size_t slots;         /* grids */
+    size_t shares;        /* work-groups for each grid */
+    uint64_t most_points; /* on the device at a time */
+    uint64_t set_points;  /* of a realization that comes in strips, else 0 */
 
     uint64_t grid_bytes;  /* of a grid, or of a strip */
     uint64_t row_bytes;   /* of the rows of a realization */
@@ -124,15 +126,14 @@ ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision prec
 uint32_t ps_sphere_ring_length(int32_t max_degree);
 
 /* Cycles on a core, of what depends on the grid. */
-double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
-                             ps_sphere_route route);
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, const ps_problem *problem,
+                             ps_precision precision, ps_sphere_route route);
 
 /* Bytes of the buffers, which have the names of kernels/sphere/; values, powers and sums for each
  * of at_once realizations, sums for one more. */
 typedef struct ps_sphere_bytes {
     uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
-    uint64_t keys, starts;            /* on GPUs the order has the keys */
-    uint64_t order;
+    uint64_t keys, starts;
     uint64_t grids, rows, scratch;
     uint64_t strip_turns, strip_weights, strips, strip_starts;
     uint64_t values, powers, sums;
@@ -156,8 +157,8 @@ double ps_sphere_chain_error(const ps_nufft_axis *axis, const ps_problem *proble
                              double mean_power);
 
 /* What a device at its peak would do while it works on one realization. */
-double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
-                             double num_points, double num_realizations);
+double ps_sphere_nufft_flops(const ps_sphere_shape *shape, const ps_problem *problem,
+                             ps_precision precision, double num_realizations);
 
 /* Local memory in bytes: of orders.cl, orders_bands.cl and grid/values.cl, and of orders_sum.cl and
  * grid/table.cl. */
@@ -169,14 +170,20 @@ ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_
 
 ps_sphere_degree_sizes ps_sphere_degrees_measure(bool is_one_set, const ps_device_limits *limits,
                                                  size_t real_bytes);
+/* The grid on GPUs: how torus_nufft treats it, with an axis of longitudes and one of great circles,
+ * and its sizes for up to num_sets sets at a time. */
+ps_nufft_choice ps_sphere_plane_choice(const ps_nufft_axis *axis, const ps_problem *problem,
+                                       ps_precision precision);
+ps_nufft_layout ps_sphere_plane_layout(const ps_sphere_shape *shape, const ps_problem *problem,
+                                       const ps_device_limits *limits, ps_precision precision,
+                                       size_t num_sets);
+/* Numbers from order to order in values on rings there. */
+static inline size_t ps_sphere_order_apart(const ps_sphere_shape *shape) {
+    return shape->at_once * 4 * shape->ring_pitch;
+}
+
 /* Bytes of the coefficients of a realization there. */
 uint64_t ps_sphere_degrees_bytes(const ps_sphere_shape *shape, size_t real_bytes);
-
-/* kernels/sphere/grid/tiles.h: work-items of a group, and local memory in bytes. */
-typedef struct ps_sphere_tiles {
-    size_t items, rows, columns;
-} ps_sphere_tiles;
-ps_sphere_tiles ps_sphere_tiles_of(const ps_sphere_shape *shape, size_t real_bytes);
 
 /* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the
  * same on all devices. */

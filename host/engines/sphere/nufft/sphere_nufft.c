@@ -39,8 +39,11 @@ static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_li
 }
 
 /* Refuses before axes are tried, which takes long where tables would be far too large anyway. */
-static const char *refuse_cells(const ps_problem *problem) {
+static const char *refuse_cells(const ps_problem *problem, const ps_device_limits *limits) {
     const int32_t most_degree = 1024;
+    if (limits->has_dedicated_local_memory) {
+        return "its table is for the caches of CPUs; on GPUs sphere_nufft serves all degrees";
+    }
     if (problem->frequencies->max_frequency > most_degree) {
         return "the table of cells would take more than 64 MiB";
     }
@@ -51,17 +54,21 @@ static const char *refuse_cells(const ps_problem *problem) {
 
 static const ps_sphere_variant *variant_of(const ps_sphere_shape *shape) {
     return shape->route == PS_SPHERE_BY_CELLS ? &ps_sphere_cells
-           : shape->is_gpu ? shape->is_sorted ? &ps_sphere_gpu_sorted_rings : &ps_sphere_gpu_rings
-           : shape->is_sorted ? &ps_sphere_sorted_rings
-                              : &ps_sphere_rings;
+           : shape->route == PS_SPHERE_ON_GPU ? &ps_sphere_gridded
+           : shape->is_sorted                 ? &ps_sphere_sorted_rings
+                                              : &ps_sphere_rings;
 }
 
 static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                        ps_precision precision) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    /* Of places, sums and powers. */
-    const double launches_of_some = 3 + ps_nufft_order_launches(&shape->order);
+    /* Of places, sums and powers; on GPUs also boxes, passes of the grid and of rings, and
+     * coefficients. */
+    const bool on_gpu = shape->route == PS_SPHERE_ON_GPU;
+    const double launches_of_some =
+        on_gpu ? 6 + shape->plane.grid.num_passes + ps_nufft_order_launches(&shape->plane.order)
+               : 4;
     const double row = (double)problem->frequencies->num * sizeof(double);
     /* coefficients as the kernel keeps them, on the device and on the host */
     const double kept = problem->harmonics == PS_NO_HARMONICS
@@ -69,10 +76,8 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                             : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
                                   (double)sizeof(double);
     const ps_sphere_variant *variant = variant_of(shape);
-    const double kernels = variant->kernels + (shape->order.tile > 0 ? 1 : 0) +
-                           (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
-    const double flops =
-        ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
+    const double kernels = variant->kernels + (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
+    const double flops = ps_sphere_nufft_flops(shape, problem, precision, realizations);
     const double of_table =
         variant->count_table_flops != NULL ? variant->count_table_flops(shape) : 0;
     return (ps_work){.transform_flops = realizations * flops + of_table,
@@ -110,9 +115,15 @@ static ps_survey survey_route(const ps_problem *problem, const ps_device_limits 
     return result;
 }
 
+/* limits: NULL without a device, which refuse() says. */
+static ps_sphere_route ring_route(const ps_device_limits *limits) {
+    const bool on_gpu = limits != NULL && limits->has_dedicated_local_memory;
+    return on_gpu ? PS_SPHERE_ON_GPU : PS_SPHERE_BY_RINGS;
+}
+
 static ps_survey survey_rings(const ps_problem *problem, const ps_device_limits *limits,
                               ps_precision precision) {
-    return survey_route(problem, limits, precision, PS_SPHERE_BY_RINGS,
+    return survey_route(problem, limits, precision, ring_route(limits),
                         refuse(problem, limits, precision));
 }
 
@@ -120,7 +131,7 @@ static ps_survey survey_cells(const ps_problem *problem, const ps_device_limits 
                               ps_precision precision) {
     const char *why_not = refuse(problem, limits, precision);
     return survey_route(problem, limits, precision, PS_SPHERE_BY_CELLS,
-                        why_not != NULL ? why_not : refuse_cells(problem));
+                        why_not != NULL ? why_not : refuse_cells(problem, limits));
 }
 
 static double error_of_state(const void *state, double mean_power, double weight_share) {
@@ -168,12 +179,13 @@ static pspec_status create_rows(ps_sphere_state *self, size_t batch, ps_error *e
 
 static pspec_status create_buffers(ps_sphere_state *self, ps_error *error) {
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(&self->shape, ps_real_bytes(self->precision));
-    const ps_wanted_buffer wanted[] = {
-        {&self->grids, bytes.grids, "grids of the sphere"},
-        {&self->scratch, bytes.scratch, "rows of transforms"},
-        {&self->values, self->shape.at_once * bytes.values + bytes.gaps,
-         self->shape.route == PS_SPHERE_BY_CELLS ? "values on angles" : "values on rings"}};
-    return PS_BUFFERS_CREATE(self->device, wanted, error);
+    const ps_wanted_buffer wanted[] = {{&self->grids, bytes.grids, "grids of the sphere"},
+                                       {&self->scratch, bytes.scratch, "rows of transforms"}};
+    PS_TRY(ps_buffer_create(
+        self->device, &self->values, self->shape.at_once * bytes.values + bytes.gaps,
+        self->shape.route == PS_SPHERE_BY_CELLS ? "values on angles" : "values on rings", error));
+    return self->shape.route == PS_SPHERE_ON_GPU ? PSPEC_OK
+                                                 : PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
 static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {
@@ -204,7 +216,8 @@ static pspec_status create_route(ps_sphere_state *self, const ps_problem *proble
 
 static pspec_status create_rings(void *state, const ps_problem *problem, ps_precision precision,
                                  size_t batch, ps_device *device, ps_error *error) {
-    return create_route(state, problem, precision, batch, device, PS_SPHERE_BY_RINGS, error);
+    return create_route(state, problem, precision, batch, device,
+                        ring_route(ps_device_get_limits(device)), error);
 }
 
 static pspec_status create_cells(void *state, const ps_problem *problem, ps_precision precision,

@@ -20,9 +20,6 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
                        8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape),
                        self->only_even ? 1u : 2u, shape->is_single_chain ? 32u : 64u);
     }
-    if (shape->is_gpu && source->on_gpu != NULL) {
-        ps_defines_add(&defines, "%s", source->on_gpu);
-    }
     if (keeps) {
         ps_defines_add(&defines, "-DKEEP=1");
     }

@@ -47,9 +47,8 @@ static pspec_status create_along_gains(ps_buffer *out, const ps_sphere_shape *sh
     return status;
 }
 
-/* exp(-2 pi i j / n), j < num. */
-static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_precision precision,
-                                 ps_device *device, ps_error *error) {
+pspec_status ps_sphere_turns_create(ps_buffer *out, uint32_t n, uint32_t num,
+                                    ps_precision precision, ps_device *device, ps_error *error) {
     double *turns = NULL;
     PS_TRY(PS_NEW(&turns, 2 * (size_t)num, "turns", error));
     for (uint32_t j = 0; j < num; j++) {
@@ -190,6 +189,9 @@ pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shap
     *out = (ps_sphere_tables){0};
     PS_TRY(
         ps_nufft_plan_create(&out->plan, &shape->axis, false, tolerance, precision, device, error));
+    if (shape->route == PS_SPHERE_ON_GPU) {
+        return PSPEC_OK; /* whose transforms have their own */
+    }
     PS_TRY(ps_fft_plan_create(&out->halves, shape->axis.n / 2, precision, device, error));
     return create_around_gains(&out->around_gains, shape, precision, device, error);
 }
@@ -207,9 +209,9 @@ pspec_status ps_sphere_ring_tables_create(ps_sphere_ring_tables *out, const ps_s
     const uint32_t n = shape->axis.n;
     *out = (ps_sphere_ring_tables){0};
     PS_TRY(ps_fft_plan_create(&out->transforms, shape->rings / 2, precision, device, error));
-    PS_TRY(create_turns(&out->turns, n, n / 2, precision, device, error));
-    PS_TRY(
-        create_turns(&out->ring_turns, shape->rings, shape->num_rings, precision, device, error));
+    PS_TRY(ps_sphere_turns_create(&out->turns, n, n / 2, precision, device, error));
+    PS_TRY(ps_sphere_turns_create(&out->ring_turns, shape->rings, shape->num_rings, precision,
+                                  device, error));
     PS_TRY(create_along_gains(&out->along_gains, shape, precision, device, error));
     return ps_sphere_starts_create(&out->starts, shape, device, error);
 }

@@ -30,6 +30,10 @@ typedef struct ps_sphere_ring_tables {
 pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
                                      ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_sphere_starts_free(ps_sphere_starts *starts);
+/* exp(-2 pi i j / n), j < num. */
+pspec_status ps_sphere_turns_create(ps_buffer *out, uint32_t n, uint32_t num,
+                                    ps_precision precision, ps_device *device,
+                                    ps_error *error) PS_MUST_CHECK;
 /* What kernels are told of the rings of a shape. */
 ring_numbers ps_sphere_ring_numbers(const ps_sphere_shape *shape, bool only_even);
 

@@ -22,10 +22,9 @@ typedef struct ps_sphere_places {
     unsigned lanes;
     uint64_t shift;         /* of the angle from the pole, in units of 2^-64 turns */
     bool has_unit_weights;  /* on the device */
-    ps_kernel *turn;        /* or sort, or keys where there is an order */
-    ps_nufft_order order;   /* of parts, on GPUs */
+    ps_kernel *turn;        /* or sort */
     void *host_weights;     /* [most_points] float or double; NULL: none yet */
-    uint64_t *host_offsets; /* [together + 1], where there is an order of the parts */
+    uint64_t *host_offsets; /* [together + 1] */
     ps_feed vectors;        /* [most_points][3] */
     ps_buffer lent;         /* of ps_sphere_places_lend; {0}: none */
     const double *lent_points;
@@ -94,8 +93,7 @@ double ps_sphere_grid_table_flops(const ps_sphere_shape *shape);
 /* A kernel of kernels/sphere/nufft. */
 typedef struct ps_sphere_source {
     const char *file, *name;
-    bool sums_one;      /* orders_sum_one.cl: in double precision, with sum_lanes */
-    const char *on_gpu; /* options there; NULL: none */
+    bool sums_one; /* orders_sum_one.cl: in double precision, with sum_lanes */
 } ps_sphere_source;
 
 /* Launches a kernel of sums for the first num realizations. */
@@ -118,9 +116,10 @@ typedef struct ps_sphere_variant {
     void (*describe)(const ps_sphere_state *, ps_text *);
 } ps_sphere_variant;
 
-/* By rings (rings.c), all points at once or sorted, and by cells (cells.c). */
-extern const ps_sphere_variant ps_sphere_rings, ps_sphere_sorted_rings, ps_sphere_gpu_rings,
-    ps_sphere_gpu_sorted_rings, ps_sphere_cells;
+/* By rings on CPUs (rings.c), all points at once or sorted, and on GPUs (gridded.c), and by cells
+ * (cells.c). */
+extern const ps_sphere_variant ps_sphere_rings, ps_sphere_sorted_rings, ps_sphere_gridded,
+    ps_sphere_cells;
 
 struct ps_sphere_state {
     ps_device *device;

@@ -38,6 +38,7 @@ typedef struct ps_nufft_choice {
     /* Points whose numbers are added up in working precision, before pairs of numbers; 0: all,
      * without pairs */
     uint64_t chunk;
+    bool keeps_sums; /* on the device, instead of their powers: grids of GPUs alone can */
     ps_nufft_axis axes[PS_NUFFT_MAX_AXES];
 } ps_nufft_choice;
 

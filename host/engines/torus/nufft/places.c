@@ -30,15 +30,21 @@ static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, p
                      : PSPEC_OK;
 }
 
-pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
-                                    unsigned dimension, ps_precision precision, ps_device *device,
-                                    ps_error *error) {
+pspec_status ps_nufft_places_create_order(ps_nufft_places *out, const ps_nufft_layout *layout,
+                                          unsigned dimension, ps_precision precision,
+                                          ps_device *device, ps_error *error) {
     *out = (ps_nufft_places){.layout = layout, .device = device, .dimension = dimension};
     PS_TRY(PS_NEW(&out->host_places, layout->parts + 1, "places", error));
     PS_TRY(create_sort(out, precision, error));
-    PS_TRY(ps_torus_points_create(&out->points, dimension, layout->parts, layout->part_points,
-                                  precision, false, device, error));
     return create_buffers(out, error);
+}
+
+pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
+                                    unsigned dimension, ps_precision precision, ps_device *device,
+                                    ps_error *error) {
+    PS_TRY(ps_nufft_places_create_order(out, layout, dimension, precision, device, error));
+    return ps_torus_points_create(&out->points, dimension, layout->parts, layout->part_points,
+                                  precision, false, device, error);
 }
 
 void ps_nufft_places_free(ps_nufft_places *places) {
@@ -89,37 +95,51 @@ static void set_keys(const ps_nufft_layout *layout, sort_numbers *numbers) {
 
 /* On GPUs. */
 static pspec_status order_points(ps_nufft_places *self, const sort_numbers *numbers,
-                                 ps_error *error) {
-    const size_t num = self->num_points;
-    const ps_nufft_order_points points = {.points = &self->points.points,
-                                          .weights = &self->points.weights,
-                                          .offsets = &self->points.offsets,
+                                 const ps_nufft_source *source, ps_error *error) {
+    const size_t num = source->num_points;
+    const ps_nufft_order_points points = {.points = source->points,
+                                          .weights = source->weights,
+                                          .offsets = source->offsets,
                                           .places = &self->places,
                                           .sorted = &self->sorted,
                                           .heights = &self->heights,
                                           .starts = &self->starts,
-                                          .has_weights = numbers->has_weights != 0};
+                                          .has_weights = source->has_weights};
     const size_t bytes = num * (self->dimension * sizeof(uint64_t) + sizeof(uint32_t));
     const ps_range range = ps_range_light(self->device, ps_divide_up(num, self->layout->lanes), 1,
                                           1, 0, (double)bytes);
     PS_TRY(PS_LAUNCH(self->device, self->sort, &range, error, PS_STRUCT(*numbers), PS_U64(num),
-                     PS_BUFFER(self->points.points), PS_BUFFER(self->order.keys)));
+                     PS_BUFFER(*source->points), PS_BUFFER(self->order.keys)));
     return ps_nufft_order_run(&self->order, &points, numbers->num_realizations, error);
 }
 
-pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_error *error) {
+static pspec_status sort_source(ps_nufft_places *self, const ps_nufft_source *source,
+                                size_t num_parts, ps_error *error) {
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
-    const ps_range range = ps_range_heavy(places->device, num_parts, 1, 1,
-                                          (double)places->num_points * flops_per_point, 0);
-    sort_numbers numbers = {.num_realizations = num_parts,
-                            .has_weights = places->points.has_unit_weights ? 0 : 1};
-    set_keys(places->layout, &numbers);
-    if (places->layout->order.tile > 0) {
-        return order_points(places, &numbers, error);
+    const ps_range range = ps_range_heavy(self->device, num_parts, 1, 1,
+                                          (double)source->num_points * flops_per_point, 0);
+    sort_numbers numbers = {.num_realizations = num_parts, .has_weights = source->has_weights};
+    set_keys(self->layout, &numbers);
+    if (self->layout->order.tile > 0) {
+        return order_points(self, &numbers, source, error);
     }
-    return PS_LAUNCH(places->device, places->sort, &range, error, PS_STRUCT(numbers),
-                     PS_BUFFER(places->points.points), PS_BUFFER(places->points.weights),
-                     PS_BUFFER(places->points.offsets), PS_BUFFER(places->places),
-                     PS_BUFFER(places->sorted), PS_BUFFER(places->heights),
-                     PS_BUFFER(places->starts));
+    return PS_LAUNCH(self->device, self->sort, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(*source->points), PS_BUFFER(*source->weights),
+                     PS_BUFFER(*source->offsets), PS_BUFFER(self->places), PS_BUFFER(self->sorted),
+                     PS_BUFFER(self->heights), PS_BUFFER(self->starts));
+}
+
+pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_error *error) {
+    const ps_nufft_source source = {.points = &places->points.points,
+                                    .weights = &places->points.weights,
+                                    .offsets = &places->points.offsets,
+                                    .num_points = places->num_points,
+                                    .has_weights = !places->points.has_unit_weights};
+    return sort_source(places, &source, num_parts, error);
+}
+
+pspec_status ps_nufft_places_order(ps_nufft_places *places, const ps_nufft_source *source,
+                                   const ps_batch *parts, ps_error *error) {
+    PS_TRY(upload_places(places, parts, error));
+    return sort_source(places, source, parts->num_patterns, error);
 }

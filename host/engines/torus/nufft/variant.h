@@ -10,16 +10,23 @@
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/torus_points.h"
 
+/* Points on the device, as sort.cl takes them. */
+typedef struct ps_nufft_source {
+    const ps_buffer *points, *weights, *offsets;
+    size_t num_points; /* of all parts */
+    bool has_weights;
+} ps_nufft_source;
+
 /* Point sets in the order of cells (kernels/nufft/place.h). */
 
 typedef struct ps_nufft_places {
     const ps_nufft_layout *layout;
     ps_device *device;
     unsigned dimension;
-    ps_torus_points points;
-    size_t num_points;    /* that were uploaded */
-    ps_kernel *sort;      /* or keys, where there is an order */
-    ps_nufft_order order; /* on GPUs */
+    ps_torus_points points; /* {0}: places are made of points that others have on the device */
+    size_t num_points;      /* that were uploaded */
+    ps_kernel *sort;        /* or keys, where there is an order */
+    ps_nufft_order order;   /* on GPUs */
     uint64_t *host_places;
     ps_buffer places, sorted, heights, starts;
 } ps_nufft_places;
@@ -30,12 +37,20 @@ pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout 
                                     ps_error *error) PS_MUST_CHECK;
 void ps_nufft_places_free(ps_nufft_places *places);
 
+/* The same without points of its own. */
+pspec_status ps_nufft_places_create_order(ps_nufft_places *out, const ps_nufft_layout *layout,
+                                          unsigned dimension, ps_precision precision,
+                                          ps_device *device, ps_error *error) PS_MUST_CHECK;
+
 /* Every pattern has at most layout->part_points points; at most layout->parts of them. */
 pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *parts,
                                     ps_error *error) PS_MUST_CHECK;
 /* Sorts what was uploaded by the cells or boxes of the layout. */
 pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts,
                                   ps_error *error) PS_MUST_CHECK;
+/* Sorts the points of parts that others have on the device. */
+pspec_status ps_nufft_places_order(ps_nufft_places *places, const ps_nufft_source *source,
+                                   const ps_batch *parts, ps_error *error) PS_MUST_CHECK;
 
 /* Of an axis whose row must fit into local memory, a megabyte at most, in one lane of 8 bytes. */
 enum { PS_NUFFT_MOST_ROW_CELLS = 1 << 17 };
@@ -118,6 +133,11 @@ struct ps_nufft_launcher {
     pspec_status (*begin)(ps_nufft_state *, ps_error *);
     pspec_status (*spread)(ps_nufft_state *, size_t num_parts, ps_error *);
 };
+
+/* What kernels/nufft/grid/stockham.h is compiled with for work-groups of so many items. */
+void ps_nufft_line_defines(ps_defines *defines, const ps_nufft_pass *sizes, size_t items);
+/* Where the grid of GPUs leaves sums that its choice keeps: [set][k_0][k_1 ..], complex. */
+const ps_buffer *ps_nufft_grid_sums(const ps_nufft_state *self);
 
 /* In the order in which they are tried, ended by NULL. */
 extern const ps_nufft_variant *const ps_nufft_variants[];

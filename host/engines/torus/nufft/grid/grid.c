@@ -47,6 +47,14 @@ static pspec_status create_spread(ps_nufft_state *self, ps_error *error) {
                          "nufft_grid_spread", defines.text, error);
 }
 
+void ps_nufft_line_defines(ps_defines *defines, const ps_nufft_pass *sizes, size_t items) {
+    for (unsigned i = 0; i < PS_NUFFT_PASS_RADICES; i++) {
+        ps_defines_add(defines, "-DRADIX_%u=%lu", i, (unsigned long)sizes->radices[i]);
+    }
+    ps_defines_add(defines, "-DLINES=%lu -DITEMS=%zu -DIS_ACROSS=%d",
+                   (unsigned long)sizes->lines_at_once, items, sizes->inner > 1);
+}
+
 static pspec_status create_lines(ps_nufft_state *self, const ps_nufft_pass *sizes, pass *out,
                                  ps_error *error) {
     ps_defines defines = ps_defines_of(self->layout.real_bytes, 0);
@@ -57,13 +65,11 @@ static pspec_status create_lines(ps_nufft_state *self, const ps_nufft_pass *size
                        (unsigned long)self->layout.grid.cells[1],
                        (unsigned long)self->layout.grid.cells[2]);
     }
-    for (unsigned i = 0; i < PS_NUFFT_PASS_RADICES; i++) {
-        ps_defines_add(&defines, "-DRADIX_%u=%lu", i, (unsigned long)sizes->radices[i]);
-    }
-    ps_defines_add(
-        &defines, "-DLINES=%lu -DITEMS=%zu -DIS_ACROSS=%d -DFROM=%d -DTO=%d -DIS_HALF=%d",
-        (unsigned long)sizes->lines_at_once, out->range.local[0], sizes->inner > 1, sizes->is_first,
-        sizes->is_turned ? 2 : sizes->is_last, sizes->axis + 1 == self->layout.choice.num_axes);
+    const ps_nufft_choice *choice = &self->layout.choice;
+    ps_nufft_line_defines(&defines, sizes, out->range.local[0]);
+    ps_defines_add(&defines, "-DFROM=%d -DTO=%d -DIS_HALF=%d", sizes->is_first,
+                   sizes->is_turned ? 2 : sizes->is_last && !choice->keeps_sums,
+                   sizes->axis + 1 == choice->num_axes);
     return ps_kernel_get(self->device, &out->kernel, "nufft/grid/lines.cl", "nufft_grid_lines",
                          defines.text, error);
 }
@@ -186,6 +192,10 @@ static pspec_status run(ps_nufft_state *self, size_t num_realizations,
                         const ps_nufft_target *target, ps_error *error) {
     PS_TRY(spread(self, num_realizations, error));
     return transform(self, num_realizations, target, error);
+}
+
+const ps_buffer *ps_nufft_grid_sums(const ps_nufft_state *self) {
+    return &of(self)->numbers[(self->layout.grid.num_passes - 1) % 2];
 }
 
 const ps_nufft_launcher ps_nufft_grid_launcher = {

@@ -138,7 +138,8 @@ ps_nufft_grid_sizes ps_nufft_grid_measure(const ps_nufft_choice *choice, double 
         const ps_nufft_pass *pass = &sizes.passes[i];
         const size_t bytes = pass->lines_at_once * ps_nufft_line_reals(pass->length) * real_bytes;
         sizes.local_bytes = larger(sizes.local_bytes, bytes);
-        sizes.numbers[i % 2] = larger(sizes.numbers[i % 2], pass->is_last ? 1 : pass->to);
+        const size_t numbers = pass->is_last && !choice->keeps_sums ? 1 : pass->to;
+        sizes.numbers[i % 2] = larger(sizes.numbers[i % 2], numbers);
     }
     return sizes;
 }

@@ -28,6 +28,10 @@ unsigned ps_nufft_passes_measure(ps_nufft_pass passes[PS_NUFFT_MOST_PASSES],
                                  const ps_nufft_choice *choice, const ps_device_limits *limits,
                                  size_t real_bytes);
 
+/* The same of `lines` lines of a set that are nothing else's axis; false: they are too long. */
+bool ps_nufft_pass_measure(ps_nufft_pass *pass, uint32_t length, uint64_t lines,
+                           const ps_device_limits *limits, size_t real_bytes);
+
 /* Numbers of local memory that a line takes (kernels/nufft/grid/stockham.h). */
 size_t ps_nufft_line_reals(uint32_t length);
 

@@ -99,6 +99,16 @@ static void add_pass(ps_nufft_pass *pass, const ps_device_limits *limits, size_t
     fill_group(pass, limits, real_bytes);
 }
 
+bool ps_nufft_pass_measure(ps_nufft_pass *pass, uint32_t length, uint64_t lines,
+                           const ps_device_limits *limits, size_t real_bytes) {
+    *pass = (ps_nufft_pass){.length = length, .inner = 1};
+    if (!fits(length, limits, real_bytes)) {
+        return false;
+    }
+    add_pass(pass, limits, real_bytes, lines);
+    return true;
+}
+
 unsigned ps_nufft_passes_measure(ps_nufft_pass passes[PS_NUFFT_MOST_PASSES],
                                  const ps_nufft_choice *choice, const ps_device_limits *limits,
                                  size_t real_bytes) {
