@@ -71,7 +71,7 @@ static void measure(ps_device *device, const ps_brdf *brdf, size_t num, double s
     const ps_rule rule = {num, points, weights};
     ps_kernel_error e;
     const double begin = bench_seconds();
-    BENCH_TRY(ps_kernel_error_of(&of, &rule, NULL, NULL, &e, error));
+    BENCH_TRY(ps_kernel_error_of(&of, &rule, NULL, NULL, NULL, &e, error));
     const double check = bench_seconds() - begin;
     printf("%-9s %7zu %4g %9.3f %9.3f %9.3f %9.3g %9.2g %9.2g %6zu %9.2g %9.1f\n",
            found.facts.is_dense ? "cholesky" : "gradients", num, smoothness,

@@ -20,7 +20,8 @@ pspec_status ps_fibonacci_error(const ps_representer *representer, const ps_morp
     ps_kernel_error found = {0};
     PS_TRY(ps_fibonacci_rule(&points, num_points, *morph, error));
     const ps_rule rule = {num_points, points, NULL};
-    const pspec_status status = ps_kernel_error_of(representer, &rule, NULL, NULL, &found, error);
+    const pspec_status status =
+        ps_kernel_error_of(representer, &rule, NULL, NULL, NULL, &found, error);
     free(points);
     *out = sqrt(fmax(found.squared, found.bound));
     return status;

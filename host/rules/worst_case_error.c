@@ -201,18 +201,21 @@ static double sum_kappa(const ps_rule *rule, const double *kappa) {
 }
 
 pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule *rule,
-                                const double *kappa, const ps_watch *watch, ps_kernel_error *out,
-                                ps_error *error) {
-    double distance = 0;
+                                const double *kappa, const double *distance, const ps_watch *watch,
+                                ps_kernel_error *out, ps_error *error) {
+    double own_distance = 0;
     double *own = NULL;
-    PS_TRY(ps_rule_distance(rule, representer->smoothness, watch, &distance, error));
+    PS_TRY(distance != NULL
+               ? PSPEC_OK
+               : ps_rule_distance(rule, representer->smoothness, watch, &own_distance, error));
     if (kappa == NULL) {
         PS_TRY(PS_NEW(&own, rule->num_points, "kappa", error));
         ps_representer_kappa(representer, rule->num_points, rule->points, own);
         kappa = own;
     }
     const ps_weight_sums weights = ps_rule_weight_sums(rule);
-    *out = error_from_sums(representer, &weights, distance, sum_kappa(rule, kappa));
+    *out = error_from_sums(representer, &weights, distance != NULL ? *distance : own_distance,
+                           sum_kappa(rule, kappa));
     free(own);
     return PSPEC_OK;
 }

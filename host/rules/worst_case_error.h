@@ -38,10 +38,11 @@ typedef struct ps_kernel_error {
 pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
                               double *sum, ps_error *error) PS_MUST_CHECK;
 
-/* (Q2). kappa: of the points, [num_points], or NULL to have it made here. */
+/* (Q2). kappa: of the points, [num_points], and distance: the sum of ps_rule_distance; NULL to have
+ * it made here. */
 pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule *rule,
-                                const double *kappa, const ps_watch *watch, ps_kernel_error *out,
-                                ps_error *error) PS_MUST_CHECK;
+                                const double *kappa, const double *distance, const ps_watch *watch,
+                                ps_kernel_error *out, ps_error *error) PS_MUST_CHECK;
 
 /* One degree of the spectral form. */
 typedef struct ps_degree_error {

@@ -171,8 +171,8 @@ static pspec_status compare_weights(const ps_representer *representer, const dou
     const ps_rule equal_rule = {num, points, NULL};
     PS_TRY(ps_optimal_weights_find(representer, num, points, NULL, false, NULL, weights, &optimal,
                                    error));
-    PS_TRY(ps_kernel_error_of(representer, &rule, NULL, NULL, &own, error));
-    PS_TRY(ps_kernel_error_of(representer, &equal_rule, NULL, NULL, &equal, error));
+    PS_TRY(ps_kernel_error_of(representer, &rule, NULL, NULL, NULL, &own, error));
+    PS_TRY(ps_kernel_error_of(representer, &equal_rule, NULL, NULL, NULL, &equal, error));
     *found = fmax(fabs(optimal.squared - own.squared), own.squared - equal.squared);
     *bound = own.bound;
     return PSPEC_OK;

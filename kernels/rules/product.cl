@@ -4,13 +4,13 @@
  *
  * One work-item owns LANES points i and a segment of points j, BLOCK of which are added up before
  * they join the sum in two parts: the same sums whatever the work-groups. Launch: (vectors of
- * points i, segments) in work-groups of any size, the vectors rounded up; no local memory. Equal
- * points have the distance 0, exactly.
+ * points i, segments, sets) in work-groups of any size, the vectors rounded up; no local memory.
+ * Equal points have the distance 0, exactly.
  *
- *   points    [3][stride]: coordinates, any numbers beyond the points; stride is a multiple of LANES and of BLOCK
- *   x         [stride]; 0 beyond the points
+ *   points    [set][3][stride]: coordinates, any numbers beyond the points; stride is a multiple of LANES and of BLOCK
+ *   x         [set][stride]; 0 beyond the points
  *   power     one number; not looked at with ROOT, which is for power 1/2
- *   partials  [segment][high, low][stride]
+ *   partials  [set][segment][high, low][stride]
  *   segment   points j of a segment, a multiple of BLOCK
  */
 #include "shared/real.h"
@@ -25,11 +25,14 @@
 #define BLOCK 8
 #endif
 
-__kernel void kernel_product(__global const real *restrict points, __global const real *restrict x,
+__kernel void kernel_product(__global const real *restrict all_points,
+                             __global const real *restrict all_x,
                              __global const real *restrict power, __global real *restrict partials,
                              const ulong stride, const ulong segment) {
     const ulong vector = get_global_id(0);
-    const size_t index = get_global_id(1);
+    const size_t index = get_global_id(1), set = get_global_id(2);
+    __global const real *const points = all_points + set * 3 * stride;
+    __global const real *const x = all_x + set * stride;
     if (vector * LANES >= stride) {
         return;
     }
@@ -51,7 +54,7 @@ __kernel void kernel_product(__global const real *restrict points, __global cons
         }
         pair_add(&high, &low, sum);
     }
-    __global real *to = partials + index * 2 * stride;
+    __global real *to = partials + (set * get_global_size(1) + index) * 2 * stride;
     store_global(to, vector, high);
     store_global(to + stride, vector, low);
 }

@@ -26,6 +26,6 @@ double test_squared_error(const ps_representer *r, size_t num, const double *poi
                           const double *weights) {
     const ps_rule rule = {num, points, weights};
     ps_kernel_error e;
-    assert_ok(ps_kernel_error_of(r, &rule, NULL, NULL, &e, error));
+    assert_ok(ps_kernel_error_of(r, &rule, NULL, NULL, NULL, &e, error));
     return e.squared;
 }

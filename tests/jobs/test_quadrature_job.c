@@ -222,10 +222,37 @@ static void one_is_enough(void **state) {
     ps_brdf_destroy(job.brdf);
 }
 
+/* In batches, whose last one is short. */
+static void gpus_sum_distances(void **state) {
+    asked job;
+    ps_device *const gpu = test_open_gpu();
+    (void)state;
+    ask(&job, "white-hemisphere:morph=diffuse", 65, 10, "sphere_direct");
+    ps_quadrature_job *const by_host = run(&job.question);
+    job.question.open_device = gpu;
+    ps_quadrature_job *const whole = run(&job.question);
+    assert_true(whole->rules.distances != NULL && by_host->rules.distances == NULL);
+    job.question.batch = 4;
+    ps_quadrature_job *const parts = run(&job.question);
+    same_bits(&whole->result, &parts->result);
+    assert_true(fabs(whole->result.squared.mean - by_host->result.squared.mean) <=
+                whole->result.numerical_bound + by_host->result.numerical_bound);
+    ps_quadrature_job_destroy(by_host);
+    ps_quadrature_job_destroy(whole);
+    ps_quadrature_job_destroy(parts);
+    ps_brdf_destroy(job.brdf);
+    ps_device_close(gpu);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(batches), cmocka_unit_test(two_routes), cmocka_unit_test(replanned),
-        cmocka_unit_test(looks),   cmocka_unit_test(stops),      cmocka_unit_test(one_is_enough),
+        cmocka_unit_test(gpus_sum_distances),
+        cmocka_unit_test(batches),
+        cmocka_unit_test(two_routes),
+        cmocka_unit_test(replanned),
+        cmocka_unit_test(looks),
+        cmocka_unit_test(stops),
+        cmocka_unit_test(one_is_enough),
     };
     ps_device_close(test_open_device()); /* skips where there is none */
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -86,9 +86,37 @@ static void segments(void **state) {
     free(again);
 }
 
+/* Rules of several sizes, more than one segment, alone and together. */
+static void distances_of_rules(void **state) {
+    enum { NUM = 5, MOST = 4096 + 33 };
+    static const size_t nums[NUM] = {1, 300, 17, MOST, 64};
+    ps_kernel_product *product = NULL;
+    ps_rule rules[NUM];
+    double sums[NUM], alone = 0, expected = 0, size = 0;
+    (void)state;
+    for (size_t r = 0; r < NUM; r++) {
+        rules[r] =
+            (ps_rule){nums[r], test_sphere_white_set(nums[r], &seed), make_vector(nums[r], &size)};
+    }
+    assert_ok(ps_kernel_distances_create(&product, device, 0.5, MOST, NUM, error));
+    assert_int_equal(ps_kernel_distances_most_points(product), MOST);
+    assert_ok(ps_kernel_distances_sum(product, rules, NUM, sums, error));
+    for (size_t r = 0; r < NUM; r++) {
+        const ps_weight_sums weights = ps_rule_weight_sums(&rules[r]);
+        assert_ok(ps_kernel_distances_sum(product, &rules[r], 1, &alone, error));
+        assert_memory_equal(&alone, &sums[r], sizeof alone);
+        assert_ok(ps_rule_distance(&rules[r], 1.5, NULL, &expected, error));
+        assert_true(fabs(sums[r] - expected) <= 1e-15 * weights.size * weights.size);
+        free((double *)rules[r].points);
+        free((double *)rules[r].weights);
+    }
+    ps_kernel_product_destroy(product);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(against_long_double),
-                                       cmocka_unit_test(segments)};
+                                       cmocka_unit_test(segments),
+                                       cmocka_unit_test(distances_of_rules)};
     device = test_open_device();
     if (!ps_kernel_product_is_possible(device)) {
         print_message("no double precision: skipped\n");

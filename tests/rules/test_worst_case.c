@@ -206,7 +206,7 @@ static void check_kernel_form(const test_set *set, const cJSON *one, const ps_re
         seen->kappa = fmax(seen->kappa, off);
         assert_true(off <= KAPPA);
     }
-    assert_ok(ps_kernel_error_of(r, &rule, NULL, NULL, &e, error));
+    assert_ok(ps_kernel_error_of(r, &rule, NULL, NULL, NULL, &e, error));
     const double size = ps_rule_weight_sums(&rule).size;
     const double off = fabs(e.squared - test_field(one, "E2"));
     seen->squared = fmax(seen->squared, off);

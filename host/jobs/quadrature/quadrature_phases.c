@@ -4,6 +4,7 @@
 #include "jobs/spectrum/power_phases.h"
 #include "plan/cost_model.h"
 #include "rules/distance_split.h"
+#include "rules/kernel/kernel_product.h"
 
 #include <math.h>
 
@@ -17,6 +18,10 @@ static bool needs_powers(double smoothness) {
 
 /* Of a sum with a power of every distance; other sums take ps_cost_rule_seconds. */
 static const double power_seconds = 4e-9;
+
+/* Of a pair on a GPU, which has each of them twice: 40 operations in double precision, roots most
+ * of them, at a third of the peak of an H200; counted, not measured. */
+static const double gpu_pair_seconds = 4e-12;
 
 void ps_phases_lobe(ps_phases *phases, const ps_representer *representer) {
     const double tries = 3; /* degrees grow by half until they are enough: 1 + 2/3 + 4/9 + .. */
@@ -94,7 +99,12 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
     }
     const double distances =
         setup->num_distances > 0 ? setup->num_distances : ps_distance_count(points);
-    ps_phases_distances(phases, "worst-case error", question->smoothness, distances, sets);
+    if (question->weights.kind != PS_WEIGHTS_OPTIMAL &&
+        ps_kernel_distances_pay(setup->device, setup->problem.num_points)) {
+        ps_phases_add(phases, "worst-case error", sets * points * points * gpu_pair_seconds);
+    } else {
+        ps_phases_distances(phases, "worst-case error", question->smoothness, distances, sets);
+    }
     ps_phases_say(phases, "worst-case error", "%.4g distances of pairs of points, %.3g bytes",
                   sets * distances, (double)ps_distance_bytes(setup->problem.num_points));
 }

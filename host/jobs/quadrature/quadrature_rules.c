@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "base/pieces.h"
-#include "rules/kernel/kernel_product.h"
 #include "math/linear/cholesky.h"
 #include "points/lists/weight_list.h"
 #include "rules/optimal_weights.h"
@@ -78,6 +77,7 @@ void ps_rules_free(ps_rules *rules) {
     ps_power_sets_free(&rules->sets);
     free(rules->places);
     free_batch(rules);
+    ps_kernel_product_destroy(rules->distances);
     *rules = (ps_rules){0};
 }
 
@@ -280,7 +280,9 @@ static pspec_status find_kernel_form(const ps_representer *representer, const ps
     const ps_watch told = watch != NULL ? watch_phase(&e) : (ps_watch){0};
     const ps_rule view = {set->num_points, set->points, rule->weights};
     rule->weight = ps_rule_weight_sums(&view);
-    return ps_kernel_error_of(representer, &view, rule->kappa, &told, &rule->kernel, error);
+    return ps_kernel_error_of(representer, &view, rule->kappa,
+                              rule->has_distance ? &rule->distance : NULL, &told, &rule->kernel,
+                              error);
 }
 
 typedef struct work {
@@ -329,6 +331,7 @@ static pspec_status complete(ps_rules *rules, const ps_representer *representer,
         most = num > most ? num : most;
         num_pairs += num * (num / 2 + 1);
     }
+    PS_TRY(ps_rules_sum_distances(rules, representer->smoothness, most, error));
     if (most <= SMALL) {
         PS_TRY(
             ps_pieces_share(watch, "rules", num_pairs, rules->num, do_small, (void *)&all, error));

@@ -5,6 +5,7 @@
 
 #include "jobs/quadrature/quadrature_setup.h"
 #include "jobs/spectrum/power_sets.h"
+#include "rules/kernel/kernel_product.h"
 #include "rules/worst_case_error.h"
 
 /* For the result: of a rule, or of all that were added. */
@@ -23,6 +24,8 @@ typedef struct ps_weighted_rule {
     double *weights, *kappa; /* [capacity] in one block */
     size_t capacity;
     ps_weight_sums weight;
+    double distance; /* of the kernel form, where a device has summed it */
+    bool has_distance;
     ps_kernel_error kernel;
     bool is_complete; /* with its kernel form */
     ps_rule_facts facts;
@@ -30,12 +33,14 @@ typedef struct ps_weighted_rule {
 
 typedef struct ps_rules {
     const ps_quadrature_question *question;
-    /* for systems without a matrix; NULL: none. Borrowed, set before the first batch */
+    /* for systems without a matrix, and on GPUs sums of distances; NULL: none. Borrowed, set before
+     * the first batch */
     ps_device *device;
-    ps_power_sets sets;      /* points, which are whole, and weights of a file */
-    ps_weighted_rule *batch; /* [capacity] of these */
-    size_t capacity, num;    /* rules in batch */
-    uint64_t num_read, most; /* rules; others are left unread */
+    ps_kernel_product *distances; /* on GPUs; NULL: none yet */
+    ps_power_sets sets;           /* points, which are whole, and weights of a file */
+    ps_weighted_rule *batch;      /* [capacity] of these */
+    size_t capacity, num;         /* rules in batch */
+    uint64_t num_read, most;      /* rules; others are left unread */
     size_t *places;   /* [num_given] of the points of the only rule that are kept, where its */
     size_t num_given; /* weights are, too: points that it was given with */
 } ps_rules;
@@ -50,6 +55,10 @@ pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error
  * the last. */
 pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
+/* On a GPU sums the distances of the batch, whose largest rule has so many points
+ * (quadrature_distances.c). */
+pspec_status ps_rules_sum_distances(ps_rules *rules, double smoothness, size_t most_points,
+                                    ps_error *error) PS_MUST_CHECK;
 /* Adds those of a rule to those of the rules before; {0} before the first. */
 void ps_rule_facts_join(ps_rule_facts *facts, const ps_rule_facts *rule);
 /* To a checkpoint or from one. */

@@ -240,6 +240,16 @@ static bool is_for_pairs(const char *name) {
     return false;
 }
 
+/* Of what a GPU sums distances with (quadrature_distances.c). */
+static double bytes_of_distances(const ps_quadrature_setup *setup,
+                                 const ps_quadrature_question *question, uint64_t num_points) {
+    const bool are_summed = question->weights.kind != PS_WEIGHTS_OPTIMAL &&
+                            ps_kernel_distances_pay(setup->device, num_points);
+    return are_summed ? (double)ps_kernel_product_bytes(num_points) *
+                            (double)ps_kernel_distances_at_once(num_points)
+                      : 0;
+}
+
 static ps_problem make_problem(const ps_quadrature_setup *setup,
                                const ps_quadrature_question *question, const ps_rule_shape *shape) {
     /* |dc_lm| is e relative to white noise: Q is then off by 4 e at most */
@@ -250,7 +260,8 @@ static ps_problem make_problem(const ps_quadrature_setup *setup,
         .planned_points = shape->num_points,
         .num_realizations = setup->planned_realizations,
         .has_weights = true,
-        .making_bytes = question->sampler != NULL ? ps_sampler_work_bytes(question->sampler) : 0,
+        .making_bytes = (question->sampler != NULL ? ps_sampler_work_bytes(question->sampler) : 0) +
+                        bytes_of_distances(setup, question, shape->most_points),
         .measure = setup->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
         .tolerance = setup->by_pairs ? question->accuracy.tolerance
                                      : question->accuracy.tolerance / amplitudes,

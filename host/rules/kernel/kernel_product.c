@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
+#include "rules/distance_split.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,12 +17,13 @@ enum { UNIT = 16 };
 
 struct ps_kernel_product {
     ps_device *device;
-    size_t num_points, stride, num_segments;
+    size_t most_sets;                        /* of distances; 1: of a product */
+    size_t num_points, stride, num_segments; /* of the largest set */
     unsigned lanes;
     ps_kernel *kernel;
     ps_buffer points, x, power, partials;
-    double *host;   /* [num_segments][PARTS][stride] */
-    double *padded; /* [stride]: x, and 0 beyond it */
+    double *host;   /* [most_sets][num_segments][PARTS][stride] */
+    double *padded; /* [most_sets][AXES][stride]: points, or x, and 0 beyond them */
 };
 
 static size_t stride_of(uint64_t num_points) {
@@ -40,8 +42,19 @@ uint64_t ps_kernel_product_bytes(uint64_t num_points) {
     enum { HOST_AND_DEVICE = 2 };
     const uint64_t stride = stride_of(num_points);
     const uint64_t columns =
-        AXES + HOST_AND_DEVICE * (1 + PARTS * (uint64_t)count_segments((size_t)stride));
+        1 + HOST_AND_DEVICE * (AXES + PARTS * (uint64_t)count_segments((size_t)stride));
     return columns * stride * sizeof(double);
+}
+
+bool ps_kernel_distances_pay(const ps_device *device, uint64_t num_points) {
+    return ps_kernel_product_is_possible(device) && num_points <= PS_DISTANCE_MOST_WHOLE &&
+           ps_device_get_limits(device)->has_dedicated_local_memory;
+}
+
+size_t ps_kernel_distances_at_once(uint64_t num_points) {
+    enum { POINTS = 1 << 18 };
+    const uint64_t fitting = POINTS / (num_points > 0 ? num_points : 1);
+    return fitting > 0 ? (size_t)fitting : 1;
 }
 
 static pspec_status create_kernel(ps_kernel_product *self, double power, ps_error *error) {
@@ -53,53 +66,80 @@ static pspec_status create_kernel(ps_kernel_product *self, double power, ps_erro
 }
 
 /* Coordinates in columns. */
-static pspec_status upload_points(ps_kernel_product *self, const double *points, ps_error *error) {
-    const size_t row = self->stride * sizeof(double);
-    PS_TRY(ps_buffer_create(self->device, &self->points, AXES * row, "points", error));
+static void pad_points(ps_kernel_product *self, size_t set, size_t num, const double *points) {
     for (size_t axis = 0; axis < AXES; axis++) {
-        for (size_t j = 0; j < self->num_points; j++) {
-            self->padded[j] = points[AXES * j + axis];
+        double *const to = self->padded + (AXES * set + axis) * self->stride;
+        for (size_t j = 0; j < num; j++) {
+            to[j] = points[AXES * j + axis];
         }
-        PS_TRY(ps_buffer_write(self->device, &self->points, axis * row, self->padded, row, error));
     }
-    return PSPEC_OK;
 }
 
-static pspec_status fill(ps_kernel_product *self, double power, const double *points,
-                         ps_error *error) {
+/* Of so many sets, as they were padded. */
+static pspec_status write_points(ps_kernel_product *self, size_t num_sets, ps_error *error) {
+    return ps_buffer_write(self->device, &self->points, 0, self->padded,
+                           num_sets * AXES * self->stride * sizeof(double), error);
+}
+
+static pspec_status fill(ps_kernel_product *self, double power, ps_error *error) {
     size_t num = 0;
-    if (!ps_size_multiply(self->num_segments * PARTS, self->stride, &num)) {
+    if (!ps_size_multiply(self->most_sets * self->num_segments * PARTS, self->stride, &num)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu points are too many for a product",
                        self->num_points);
     }
+    const size_t row = self->most_sets * self->stride;
     PS_TRY(PS_NEW(&self->host, num, "sums of segments of points", error));
-    PS_TRY(PS_NEW(&self->padded, self->stride, "a vector", error));
+    PS_TRY(PS_NEW(&self->padded, AXES * row, "points", error));
     PS_TRY(create_kernel(self, power, error));
-    PS_TRY(upload_points(self, points, error));
+    PS_TRY(ps_buffer_create(self->device, &self->points, AXES * row * sizeof(double), "points",
+                            error));
     PS_TRY(ps_reals_upload(self->device, &self->power, PS_DOUBLE, &power, 1, "a power", error));
-    PS_TRY(
-        ps_buffer_create(self->device, &self->x, self->stride * sizeof(double), "a vector", error));
+    PS_TRY(ps_buffer_create(self->device, &self->x, row * sizeof(double), "a vector", error));
     return ps_buffer_create(self->device, &self->partials, num * sizeof(double),
                             "sums of segments of points", error);
 }
 
-pspec_status ps_kernel_product_create(ps_kernel_product **out, ps_device *device, double power,
-                                      size_t num_points, const double *points, ps_error *error) {
+static pspec_status create(ps_kernel_product **out, ps_device *device, double power,
+                           size_t num_points, size_t most_sets, ps_error *error) {
     *out = NULL;
     ps_kernel_product *self = NULL;
     PS_TRY(PS_NEW(&self, 1, "a product", error));
     self->device = device;
+    self->most_sets = most_sets;
     self->num_points = num_points;
     self->stride = stride_of(num_points);
     self->num_segments = count_segments(self->stride);
     self->lanes = ps_engine_lanes(ps_device_get_limits(device), PS_DOUBLE);
-    const pspec_status status = fill(self, power, points, error);
-    if (status != PSPEC_OK) {
-        ps_kernel_product_destroy(self);
-        return status;
-    }
     *out = self;
-    return PSPEC_OK;
+    return fill(self, power, error);
+}
+
+pspec_status ps_kernel_product_create(ps_kernel_product **out, ps_device *device, double power,
+                                      size_t num_points, const double *points, ps_error *error) {
+    pspec_status status = create(out, device, power, num_points, 1, error);
+    if (status == PSPEC_OK) {
+        pad_points(*out, 0, num_points, points);
+        status = write_points(*out, 1, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_kernel_product_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+pspec_status ps_kernel_distances_create(ps_kernel_product **out, ps_device *device, double power,
+                                        size_t most_points, size_t most_sets, ps_error *error) {
+    const pspec_status status = create(out, device, power, most_points, most_sets, error);
+    if (status != PSPEC_OK) {
+        ps_kernel_product_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+size_t ps_kernel_distances_most_points(const ps_kernel_product *product) {
+    return product != NULL ? product->num_points : 0;
 }
 
 void ps_kernel_product_destroy(ps_kernel_product *self) {
@@ -112,23 +152,23 @@ void ps_kernel_product_destroy(ps_kernel_product *self) {
     free(self);
 }
 
-/* Segment after segment, high parts first where both are of one segment. */
-static void add_up(const ps_kernel_product *self, double *out) {
-    for (size_t i = 0; i < self->num_points; i++) {
-        long double sum = 0;
-        for (size_t row = 0; row < self->num_segments * PARTS; row++) {
-            sum += self->host[row * self->stride + i];
-        }
-        out[i] = (double)sum;
+/* Point i of a set: segment after segment, high parts first where both are of one segment. */
+static long double add_up(const ps_kernel_product *self, size_t set, size_t i) {
+    const size_t rows = self->num_segments * PARTS;
+    long double sum = 0;
+    for (size_t row = 0; row < rows; row++) {
+        sum += self->host[(set * rows + row) * self->stride + i];
     }
+    return sum;
 }
 
 /* So many vectors of points, from the first on, with all points. */
-static pspec_status launch(ps_kernel_product *self, size_t first, size_t num, ps_error *error) {
+static pspec_status launch(ps_kernel_product *self, size_t first, size_t num, size_t num_sets,
+                           ps_error *error) {
     const double flops_per_pair = 12;
-    const double pairs = (double)num * self->lanes * (double)self->stride;
+    const double pairs = (double)num * self->lanes * (double)self->stride * (double)num_sets;
     ps_range range =
-        ps_range_heavy(self->device, num, self->num_segments, 1, flops_per_pair * pairs, 0);
+        ps_range_heavy(self->device, num, self->num_segments, num_sets, flops_per_pair * pairs, 0);
     range.offset[0] = first;
     PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error, PS_BUFFER(self->points),
                      PS_BUFFER(self->x), PS_BUFFER(self->power), PS_BUFFER(self->partials),
@@ -148,7 +188,7 @@ static pspec_status launch_all(ps_kernel_product *self, const ps_watch *watch, p
         const size_t left = num_vectors - first;
         const double begin = ps_clock_seconds();
         PS_TRY(ps_watch_tell(watch, "points", first * self->lanes, self->num_points, NULL, error));
-        PS_TRY(launch(self, first, num < left ? num : left, error));
+        PS_TRY(launch(self, first, num < left ? num : left, 1, error));
         first += num < left ? num : left;
         num *= ps_clock_seconds() - begin < enough ? 2 : 1;
     }
@@ -165,6 +205,42 @@ pspec_status ps_kernel_product_apply(ps_kernel_product *self, const double *x, d
     PS_TRY(launch_all(self, watch, error));
     PS_TRY(ps_buffer_read(self->device, &self->partials, 0, self->host,
                           self->num_segments * PARTS * bytes, error));
-    add_up(self, out);
+    for (size_t i = 0; i < self->num_points; i++) {
+        out[i] = (double)add_up(self, 0, i);
+    }
+    return PSPEC_OK;
+}
+
+/* ---- distances ----------------------------------------------------------------------------- */
+
+static pspec_status write_rules(ps_kernel_product *self, const ps_rule *rules, size_t num,
+                                ps_error *error) {
+    const size_t row = num * self->stride;
+    for (size_t r = 0; r < num; r++) {
+        pad_points(self, r, rules[r].num_points, rules[r].points);
+    }
+    PS_TRY(write_points(self, num, error));
+    memset(self->padded, 0, row * sizeof *self->padded);
+    for (size_t r = 0; r < num; r++) {
+        memcpy(self->padded + r * self->stride, rules[r].weights,
+               rules[r].num_points * sizeof *self->padded);
+    }
+    return ps_buffer_write(self->device, &self->x, 0, self->padded, row * sizeof(double), error);
+}
+
+pspec_status ps_kernel_distances_sum(ps_kernel_product *self, const ps_rule *rules, size_t num,
+                                     double *sums, ps_error *error) {
+    const size_t numbers = num * self->num_segments * PARTS * self->stride;
+    PS_TRY(write_rules(self, rules, num, error));
+    PS_TRY(launch(self, 0, self->stride / self->lanes, num, error));
+    PS_TRY(ps_buffer_read(self->device, &self->partials, 0, self->host, numbers * sizeof(double),
+                          error));
+    for (size_t r = 0; r < num; r++) {
+        long double sum = 0;
+        for (size_t i = 0; i < rules[r].num_points; i++) {
+            sum += rules[r].weights[i] * add_up(self, r, i);
+        }
+        sums[r] = (double)sum;
+    }
     return PSPEC_OK;
 }

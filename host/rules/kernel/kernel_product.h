@@ -12,6 +12,7 @@
 
 #include "base/watch.h"
 #include "engines/engine.h"
+#include "rules/worst_case_error.h"
 
 typedef struct ps_kernel_product ps_kernel_product;
 
@@ -31,5 +32,21 @@ void ps_kernel_product_destroy(ps_kernel_product *product); /* NULL is allowed *
  * done, or NULL. */
 pspec_status ps_kernel_product_apply(ps_kernel_product *product, const double *x, double *out,
                                      const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+
+/* ---- sums of distances of rules, several at a time ------------------------------------------ */
+
+/* Whether the device is a GPU that has them: on CPUs threads of the host take half the pairs. */
+bool ps_kernel_distances_pay(const ps_device *device, uint64_t num_points);
+/* Rules of so many points that fill a GPU. */
+size_t ps_kernel_distances_at_once(uint64_t num_points);
+/* For up to most_sets rules of up to most_points points. */
+pspec_status ps_kernel_distances_create(ps_kernel_product **out, ps_device *device, double power,
+                                        size_t most_points, size_t most_sets,
+                                        ps_error *error) PS_MUST_CHECK;
+size_t ps_kernel_distances_most_points(const ps_kernel_product *product); /* NULL: 0 */
+/* sums[r] = sum_ij w_i w_j |u_i - u_j|^(2 power), as ps_rule_distance makes it; rules have weights.
+ * The same bits whatever other rules there are. */
+pspec_status ps_kernel_distances_sum(ps_kernel_product *product, const ps_rule *rules, size_t num,
+                                     double *sums, ps_error *error) PS_MUST_CHECK;
 
 #endif
