@@ -4,6 +4,7 @@
 #include "harness_pairs.h"
 
 #include "rules/kernel/kernel_product.h"
+#include "rules/kernel/kernel_system.h"
 #include "math/sobolev.h"
 
 #include <math.h>
@@ -113,10 +114,22 @@ static void distances_of_rules(void **state) {
     ps_kernel_product_destroy(product);
 }
 
+/* GPUs sum distances, and make products rather than factors; CPUs do neither. */
+static void gpus_have_more(void **state) {
+    ps_device *const gpu = test_open_gpu();
+    (void)state;
+    assert_true(ps_kernel_distances_pay(gpu, 32768) && !ps_kernel_distances_pay(gpu, 32769));
+    assert_true(!ps_kernel_distances_pay(device, 1) || ps_device_get_limits(device)->is_gpu);
+    assert_int_equal(ps_kernel_most_dense(gpu), PS_KERNEL_MOST_DENSE_ON_GPU);
+    assert_int_equal(ps_kernel_most_dense(NULL), PS_KERNEL_MOST_DENSE);
+    ps_device_close(gpu);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(against_long_double),
                                        cmocka_unit_test(segments),
-                                       cmocka_unit_test(distances_of_rules)};
+                                       cmocka_unit_test(distances_of_rules),
+                                       cmocka_unit_test(gpus_have_more)};
     device = test_open_device();
     if (!ps_kernel_product_is_possible(device)) {
         print_message("no double precision: skipped\n");

@@ -54,7 +54,8 @@ void ps_interpolation_job_phases(const ps_interpolation_job *job, ps_phases *pha
     for (size_t i = 0; i < question->num_smoothness; i++) {
         const double s = question->smoothness[i];
         ps_phases_kernel_system(phases, kernel, s, points, num,
-                                ps_interpolation_is_dense(question, job->first_points), sets);
+                                ps_interpolation_is_dense(question, job->first_points), job->device,
+                                sets);
         ps_phases_distances(phases, pixels, s, each * (1 + beside * (num - 1)), sets);
     }
     ps_phases_say(phases, pixels, "%.4g pixels and points from %.6g points", each / points, points);

@@ -131,6 +131,6 @@ void ps_phases_distances(ps_phases *phases, const char *name, double smoothness,
                          double sets);
 /* Adds so many solutions with the kernel matrix of each set, by a factor or without. */
 void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothness, double points,
-                             double solutions, bool is_dense, double sets);
+                             double solutions, bool is_dense, const ps_device *device, double sets);
 
 #endif

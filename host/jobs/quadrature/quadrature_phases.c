@@ -59,11 +59,13 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
 /* The factor of the kernel matrix and its entries; or conjugate gradients, where one step is a
  * product, and so are the condition, the residual and what the kernel form does. */
 void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothness, double points,
-                             double solutions, bool is_dense, double sets) {
+                             double solutions, bool is_dense, const ps_device *device,
+                             double sets) {
     const double operation_seconds = 1.25e-11; /* of the factor */
     const double entry_seconds = 25e-9;        /* made, summed, and solved with */
     const double product_seconds = 0.8e-9;     /* a pair, in a product by the device */
     const double others = 3;                   /* products */
+    const double factor_seconds = 6e-9;        /* a pair, in what makes steps few, by the host */
     const bool powers = needs_powers(smoothness);
     const double square = points * points;
     if (is_dense) {
@@ -72,8 +74,13 @@ void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothn
         ps_phases_say(phases, name, "Cholesky of %.6g x %.6g", points, points);
     } else {
         const double steps = powers ? most_steps_of_powers : most_steps;
-        ps_phases_share(phases, name, (solutions * steps + others) * square,
-                        powers ? power_seconds : product_seconds, sets);
+        const double products = (solutions * steps + others) * square;
+        if (ps_kernel_distances_pay(device, 1)) {
+            ps_phases_add(phases, name, sets * products * gpu_pair_seconds);
+            ps_phases_share(phases, name, square, factor_seconds, sets);
+        } else {
+            ps_phases_share(phases, name, products, powers ? power_seconds : product_seconds, sets);
+        }
         ps_phases_say(phases, name, "conjugate gradients, %g steps", steps);
         ps_phases_limit(phases, name);
     }
@@ -81,11 +88,12 @@ void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothn
 
 /* The sum of the weights is imposed by a second system of equations. */
 static void add_weights(const ps_quadrature_question *question, double points, double sets,
-                        ps_phases *phases) {
+                        const ps_device *device, ps_phases *phases) {
     const bool is_dense =
+        points <= (double)ps_kernel_most_dense(device) &&
         ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit);
     ps_phases_kernel_system(phases, "weights", question->smoothness, points,
-                            question->weights.sum_to_one ? 2 : 1, is_dense, sets);
+                            question->weights.sum_to_one ? 2 : 1, is_dense, device, sets);
 }
 
 static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_question *question,
@@ -95,7 +103,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
     ps_phases_kappa(phases, "kappa", points, terms, sets);
     ps_phases_say(phases, "kappa", "%.4g points, %.4g terms", sets * points, terms);
     if (question->weights.kind == PS_WEIGHTS_OPTIMAL) {
-        add_weights(question, points, sets, phases);
+        add_weights(question, points, sets, setup->device, phases);
     }
     const double distances =
         setup->num_distances > 0 ? setup->num_distances : ps_distance_count(points);

@@ -213,6 +213,7 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
     const ps_kernel_options options = {.watch = &watch,
                                        .memory_limit =
                                            rules->question->limits.constraints.memory_limit,
+                                       .most_dense = ps_kernel_most_dense(rules->device),
                                        .device = rules->device};
     PS_TRY(ps_optimal_weights_find(representer, set->num_points, set->points, rule->kappa,
                                    rules->question->weights.sum_to_one, &options, rule->weights,

@@ -312,7 +312,8 @@ static void describe_weights(const ps_quadrature_question *question, size_t num_
     if (question->weights.kind != PS_WEIGHTS_OPTIMAL) {
         return;
     }
-    if (ps_kernel_system_is_dense(num_points, limit)) {
+    const size_t most_dense = ps_kernel_most_dense(device);
+    if (num_points <= most_dense && ps_kernel_system_is_dense(num_points, limit)) {
         snprintf(text, size, "optimal, by Cholesky; a matrix of %zu x %zu, %.4g bytes", num_points,
                  num_points, dense);
         return;
@@ -321,8 +322,10 @@ static void describe_weights(const ps_quadrature_question *question, size_t num_
              "optimal, by conjugate gradients with products %s, %.4g bytes; a matrix would take "
              "%.4g bytes, and %s",
              ps_kernel_product_is_possible(device) ? "on the device" : "in threads", sparse, dense,
-             num_points > PS_KERNEL_MOST_DENSE ? "matrices are made for 20000 points and fewer"
-                                               : "--memory is less");
+             num_points <= most_dense ? "--memory is less"
+             : most_dense < PS_KERNEL_MOST_DENSE
+                 ? "on GPUs matrices are made for 4096 points and fewer"
+                 : "matrices are made for 20000 points and fewer");
 }
 
 pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
