@@ -1,6 +1,7 @@
 #include "engines/engine.h"
 
 #include "base/memory.h"
+#include "device/kind.h"
 #include "device/reals.h"
 
 #include <math.h>
@@ -35,6 +36,11 @@ bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
         return true;
     }
     return false;
+}
+
+double ps_engine_idle_factor(double groups, const ps_device_limits *limits) {
+    const double units = ps_device_typical(limits).single_items;
+    return ceil(groups / units) * units / groups;
 }
 
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {

@@ -224,6 +224,10 @@ extern const ps_engine ps_torus_nufft, ps_torus_direct, ps_sphere_grid, ps_spher
 /* All of them, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];
 
+/* How much longer a device takes because small work-groups are not shared out evenly: a few of them
+ * leave units idle. */
+double ps_engine_idle_factor(double groups, const ps_device_limits *limits);
+
 /* Part of survey of every engine whose kernels know single and double precision: is there a device
  * that has this one? */
 bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,

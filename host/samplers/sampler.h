@@ -106,9 +106,9 @@ typedef struct ps_sampler_by_index {
     /* The same function, for the host. */
     void (*places)(const sampler_numbers *, const uint32_t *table, uint32_t dimension,
                    uint64_t realization, uint64_t j, uint64_t *places);
-    /* The same in the plane, NAME_coordinates, from which points of the sphere are lifted; NULL:
-     * the host makes them. */
-    void (*coordinates)(const sampler_numbers *, uint64_t realization, uint64_t j, double *x);
+    /* NAME_point: those of the sphere, and of lifts, exactly; NULL: the host makes them. */
+    void (*point)(const sampler_numbers *, bool on_hemisphere, uint64_t realization, uint64_t j,
+                  double *point);
 } ps_sampler_by_index;
 
 struct ps_sampler {

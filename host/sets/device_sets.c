@@ -1,7 +1,6 @@
 #include "sets/device_sets.h"
 
 #include "base/memory.h"
-#include "shared/sphere_point.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +17,7 @@ struct ps_device_sets {
 static bool is_known(const ps_sampler_request *request, bool has_doubles) {
     const ps_sampler_by_index *const by_index = &request->sampler->by_index;
     if (ps_sampler_is_on_sphere(request)) {
-        return by_index->coordinates != NULL && request->morph.kind == PS_MORPH_NONE && has_doubles;
+        return by_index->point != NULL && request->morph.kind == PS_MORPH_NONE && has_doubles;
     }
     return by_index->places != NULL && (has_doubles || !by_index->needs_doubles);
 }
@@ -97,10 +96,9 @@ static void make_point(const ps_device_sets *self, uint64_t realization, size_t 
     const ps_sampler_by_index *const by_index = &self->request.sampler->by_index;
     const sampler_numbers *const numbers = &self->places.numbers;
     uint64_t places[PS_MAX_DIMENSION];
-    double x[SAMPLER_PLANE];
     if (self->is_on_sphere) {
-        by_index->coordinates(numbers, realization, j, x);
-        ps_sphere_point_of_area(ps_sampler_is_on_hemisphere(&self->request), x[0], x[1], point);
+        by_index->point(numbers, ps_sampler_is_on_hemisphere(&self->request), realization, j,
+                        point);
         return;
     }
     by_index->places(numbers, self->places.table[0], self->request.dimension, realization, j,

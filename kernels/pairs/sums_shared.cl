@@ -11,7 +11,9 @@
  * A degree and a pair are 6 operations in 4 instructions, of OWN * LANES pairs of an item; sums
  * over the group take some 60 more for DEGREES degrees of them all: 60 % of the peak, counted.
  */
+#ifndef JOBS
 #define JOBS 64
+#endif
 #include "shared/group_sums.h"
 #include "pairs/layout.h"
 #include "pairs/walk.h"

@@ -1,6 +1,6 @@
-/* Points of realizations on the sphere, made where engines read them: POINTS=white lifts
- * white_coordinates of samplers/white.h, to the hemisphere with ON_HEMISPHERE=1. The bits are those
- * of the host. Launch: one work-item for each point, rounded up at will.
+/* Points of realizations on the sphere, made where engines read them: POINTS=white has white_point
+ * of samplers/lifted.h, which lifts to the hemisphere with ON_HEMISPHERE=1. The bits are those of
+ * the host. Launch: one work-item for each point, rounded up at will.
  *
  *   numbers, range  of samplers/numbers.h
  *   table    anything: no sampler of the sphere has one
@@ -8,9 +8,9 @@
  */
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
-#include "samplers/strata.h"
-#include "samplers/white.h"
-#include "shared/sphere_point.h"
+#include "samplers/fibonacci.h"
+#include "samplers/healpix.h"
+#include "samplers/lifted.h"
 
 #ifndef POINTS
 #define POINTS white
@@ -21,7 +21,7 @@
 
 #define POINTS_JOIN_(a, b) a##b
 #define POINTS_JOIN(a, b) POINTS_JOIN_(a, b)
-#define COORDINATES POINTS_JOIN(POINTS, _coordinates)
+#define POINT POINTS_JOIN(POINTS, _point)
 
 __kernel void sampler_sphere_points(const sampler_numbers numbers, const sampler_range range,
                                     __global const uint *restrict table,
@@ -34,9 +34,7 @@ __kernel void sampler_sphere_points(const sampler_numbers numbers, const sampler
     const ulong realization = i / range.count;
     const ulong number = i - realization * range.count;
     const ulong j = (range.begin + number * range.step) % numbers.num_points;
-    double x[SAMPLER_PLANE];
     double point[3];
-    COORDINATES(&numbers, range.realization + realization, j, x);
-    ps_sphere_point_of_area(ON_HEMISPHERE, x[0], x[1], point);
+    POINT(&numbers, ON_HEMISPHERE, range.realization + realization, j, point);
     vstore3((double3)(point[0], point[1], point[2]), i, points);
 }

@@ -8,10 +8,12 @@
 #ifdef __OPENCL_C_VERSION__
 typedef uint ps_u32;
 typedef ulong ps_u64;
+typedef long ps_i64;
 #else
 #include <stdint.h>
 typedef uint32_t ps_u32;
 typedef uint64_t ps_u64;
+typedef int64_t ps_i64;
 #endif
 
 /* Compiles where the type has so many bytes. */

@@ -4,7 +4,11 @@
 #ifndef PS_SHARED_SPHERE_POINT_H
 #define PS_SHARED_SPHERE_POINT_H
 
-#ifndef __OPENCL_C_VERSION__
+#include "shared/fixed.h"
+
+#ifdef __OPENCL_C_VERSION__
+#pragma OPENCL FP_CONTRACT OFF
+#else
 #include <math.h>
 #include <stdbool.h>
 #endif
@@ -57,6 +61,24 @@ static inline void ps_turn_cosine_sine(const double quarters, const double rest,
     const double sign = 1 - 2 * (halves - 2 * ps_turn_whole(0.5 * halves - 0.25));
     *cosine = sign * (c * (1 - odd) - s * odd);
     *sine = sign * (s * (1 - odd) + c * odd);
+}
+
+/* fraction/2^64 of a turn as quarters/4 + rest, |rest| <= 1/8, to the last place. */
+static inline void ps_turn_of_fraction(const ps_u64 fraction, ps_u32 *quarters, double *rest) {
+    const ps_u64 eighth = (ps_u64)1 << 61;
+    const ps_u64 whole = (fraction + eighth) >> 62;         /* 0 again for the last eighth */
+    const ps_u64 above = fraction - (whole << 62) + eighth; /* 0 .. 2 eighths */
+    *quarters = (ps_u32)whole;
+    *rest = (double)((ps_i64)above - (ps_i64)eighth) * 0x1p-64;
+}
+
+/* Of |rest| <= 1/4 and any number of quarters. */
+static inline void ps_turn_any_cosine_sine(const ps_u32 quarters, const double rest, double *cosine,
+                                           double *sine) {
+    const bool is_far = fabs(rest) > 0.125; /* between 1/8 and 1/4 the difference is exact */
+    const ps_u32 more = !is_far ? 0 : rest > 0 ? 1 : 3;
+    const double near = !is_far ? rest : rest > 0 ? rest - 0.25 : rest + 0.25;
+    ps_turn_cosine_sine((double)((quarters + more) % 4), near, cosine, sine);
 }
 
 /* z, with t = 1 - |z|. No coordinate is -0. */

@@ -126,10 +126,9 @@ static void gpus_have_more(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(against_long_double),
-                                       cmocka_unit_test(segments),
-                                       cmocka_unit_test(distances_of_rules),
-                                       cmocka_unit_test(gpus_have_more)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_long_double), cmocka_unit_test(segments),
+        cmocka_unit_test(distances_of_rules), cmocka_unit_test(gpus_have_more)};
     device = test_open_device();
     if (!ps_kernel_product_is_possible(device)) {
         print_message("no double precision: skipped\n");

@@ -2,7 +2,6 @@
  * the slabs before. */
 #include "engines/engine.h"
 
-#include "device/kind.h"
 #include "device/reals.h"
 #include "engines/error_units.h"
 #include "engines/pairs/pairs_state.h"
@@ -37,12 +36,6 @@ static double largest_buffer(const ps_pairs_layout *layout) {
     return fmax((double)layout->slab * layout->row_bytes, layout->points_bytes);
 }
 
-/* How much longer a GPU takes because few runs leave units idle. */
-static double idle_factor(double runs, const ps_device_limits *limits) {
-    const double units = ps_device_typical(limits).single_items;
-    return limits->has_dedicated_local_memory ? fmax(1, units / runs) : 1;
-}
-
 static ps_work work_of(const ps_pairs_layout *layout, const ps_problem *problem,
                        const ps_device_limits *limits) {
     const double realizations =
@@ -51,7 +44,9 @@ static ps_work work_of(const ps_pairs_layout *layout, const ps_problem *problem,
         (double)ps_pairs_vectors(problem->num_points, layout->lanes) * layout->lanes * realizations;
     const double slabs = ceil((double)layout->num_runs / (double)layout->slab);
     const double kernels = 2; /* sums, and their sum */
-    const double idle = idle_factor((double)layout->num_runs * realizations, limits);
+    const double idle = limits->has_dedicated_local_memory
+                            ? ps_engine_idle_factor((double)layout->num_runs * realizations, limits)
+                            : 1; /* whose runs are many */
     return (ps_work){
         .kernels = kernels,
         .pair_degrees = pairs * ((double)layout->num_degrees + PS_PAIR_BEGIN_DEGREES) * idle,
@@ -97,10 +92,13 @@ static pspec_status create(void *state, const ps_problem *problem, ps_precision 
     const ps_pairs_layout layout = make_layout(problem, limits, precision);
     self->is_shared = limits->has_dedicated_local_memory;
     PS_TRY(ps_pairs_create(&self->pairs, problem, precision, &layout, batch, device, error));
-    PS_TRY(ps_kernel_get(device, &self->kernel,
-                         self->is_shared ? "pairs/sums_shared.cl" : "pairs/sums.cl",
-                         self->is_shared ? "pairs_sums_shared" : "pairs_sums",
-                         ps_pairs_defines(&self->pairs).text, error));
+    ps_defines defines = ps_pairs_defines(&self->pairs);
+    if (self->is_shared) {
+        ps_defines_add(&defines, "-DJOBS=%d", GPU_ITEMS);
+    }
+    PS_TRY(ps_kernel_get(
+        device, &self->kernel, self->is_shared ? "pairs/sums_shared.cl" : "pairs/sums.cl",
+        self->is_shared ? "pairs_sums_shared" : "pairs_sums", defines.text, error));
     return ps_buffer_create(device, &self->pairs.partials,
                             batch * layout.slab * (size_t)layout.row_bytes, "sums of runs of pairs",
                             error);

@@ -1,7 +1,6 @@
 #include "engines/sphere/sphere_layout.h"
 
 #include "base/round.h"
-#include "device/kind.h"
 
 #include <math.h>
 
@@ -13,13 +12,6 @@
 static const struct {
     double order, point, block, table;
 } costs[2] = {[PS_SINGLE] = {7, 260, 300, 1300}, [PS_DOUBLE] = {9, 110, 130, 400}};
-
-/* How much longer the device takes because work-items are not shared out evenly: one realization of
- * few orders has one, which has one core. */
-static double idle_factor(double items, const ps_device_limits *limits) {
-    const double units = ps_device_typical(limits).single_items;
-    return ceil(items / units) * units / items;
-}
 
 double ps_sphere_harmonics(const ps_sphere_layout *layout, const ps_problem *problem,
                            const ps_device_limits *limits) {
@@ -33,7 +25,7 @@ double ps_sphere_harmonics(const ps_sphere_layout *layout, const ps_problem *pro
     const double sums =
         points * (PS_SPHERE_DEGREES * blocks + costs[layout->precision].order * (double)orders) +
         costs[layout->precision].block * blocks;
-    return realizations * (sums * idle_factor(items, limits) +
+    return realizations * (sums * ps_engine_idle_factor(items, limits) +
                            costs[layout->precision].point * (double)problem->num_points) +
            tables * costs[layout->precision].table * blocks;
 }

@@ -2,6 +2,7 @@
  * Purser 2006; R. Marques et al. 2013). */
 #include "samplers/list.h"
 
+#include "samplers/fibonacci.h"
 #include "samplers/sphere/spherical_fibonacci.h"
 #include "samplers/values.h"
 
@@ -9,6 +10,13 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
                              double *points, ps_error *error) {
     (void)realization;
     return ps_fibonacci_generate(request, request->num_points, points, error);
+}
+
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    (void)error;
+    out->numbers.counts[0] = request->num_points;
+    return PSPEC_OK;
 }
 
 const ps_sampler ps_sampler_fibonacci = {
@@ -19,4 +27,5 @@ const ps_sampler ps_sampler_fibonacci = {
     .nanoseconds = 15,
     .is_deterministic = ps_sampler_always,
     .generate = generate,
+    .by_index = {.name = "fibonacci", .fill = fill, .point = fibonacci_point},
 };

@@ -2,6 +2,7 @@
  * the northern half of the 2N points of the sphere (R. Marques et al. 2013). */
 #include "samplers/list.h"
 
+#include "samplers/fibonacci.h"
 #include "samplers/sphere/spherical_fibonacci.h"
 #include "samplers/values.h"
 
@@ -11,6 +12,13 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return ps_fibonacci_generate(request, 2 * (uint64_t)request->num_points, points, error);
 }
 
+static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *out,
+                         ps_error *error) {
+    (void)error;
+    out->numbers.counts[0] = 2 * (uint64_t)request->num_points;
+    return PSPEC_OK;
+}
+
 const ps_sampler ps_sampler_fibonacci_hemisphere = {
     .name = "fibonacci-hemisphere",
     .summary = "northern half of 2N spherical Fibonacci points",
@@ -18,4 +26,5 @@ const ps_sampler ps_sampler_fibonacci_hemisphere = {
     .nanoseconds = 15,
     .is_deterministic = ps_sampler_always,
     .generate = generate,
+    .by_index = {.name = "fibonacci", .fill = fill, .point = fibonacci_point},
 };

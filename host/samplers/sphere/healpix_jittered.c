@@ -3,6 +3,7 @@
  * small l. */
 #include "samplers/list.h"
 
+#include "samplers/healpix.h"
 #include "samplers/pace.h"
 #include "samplers/sphere/healpix_pixels.h"
 #include "samplers/values.h"
@@ -27,4 +28,7 @@ const ps_sampler ps_sampler_healpix_jittered = {
     .open_points = ps_healpix_open_points,
     .check = ps_healpix_check,
     .generate = generate,
+    .by_index = {.name = "healpix_jittered",
+                 .fill = ps_healpix_fill,
+                 .point = healpix_jittered_point},
 };

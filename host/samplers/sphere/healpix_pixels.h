@@ -17,6 +17,9 @@ pspec_status ps_healpix_nside(const ps_sampler_request *request, uint64_t *nside
 pspec_status ps_healpix_open_points(const ps_sampler_request *request, size_t *num_points,
                                     ps_error *error) PS_MUST_CHECK;
 pspec_status ps_healpix_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
+/* Its by_index.fill. */
+pspec_status ps_healpix_fill(const ps_sampler_request *request, ps_sampler_places *out,
+                             ps_error *error) PS_MUST_CHECK;
 
 /* Turns offsets in the pixels, [num_points][2] in [0,1) at the beginning of the array, into unit
  * vectors [num_points][3]. The map from offsets to the sphere preserves area, (1/2, 1/2) is the

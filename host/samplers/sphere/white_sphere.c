@@ -4,7 +4,7 @@
 
 #include "samplers/pace.h"
 #include "samplers/values.h"
-#include "samplers/white.h"
+#include "samplers/lifted.h"
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
@@ -21,5 +21,5 @@ const ps_sampler ps_sampler_white_sphere = {
     .is_deterministic = ps_sampler_never,
     .most_power = ps_sampler_white_power,
     .generate = generate,
-    .by_index = {.name = "white", .coordinates = white_coordinates},
+    .by_index = {.name = "white", .point = white_point},
 };

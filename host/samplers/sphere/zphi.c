@@ -6,7 +6,7 @@
 
 #include "math/pi.h"
 #include "samplers/pace.h"
-#include "samplers/strata.h"
+#include "samplers/lifted.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -113,5 +113,5 @@ const ps_sampler ps_sampler_zphi = {
     .most_power = ps_sampler_white_power,
     .check = check,
     .generate = generate,
-    .by_index = {.name = "jittered", .fill = fill, .coordinates = jittered_coordinates},
+    .by_index = {.name = "jittered", .fill = fill, .point = jittered_point},
 };

@@ -3,7 +3,7 @@
 #include "samplers/list.h"
 
 #include "samplers/pace.h"
-#include "samplers/strata.h"
+#include "samplers/lifted.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -44,5 +44,5 @@ const ps_sampler ps_sampler_jittered = {
                  .needs_doubles = true,
                  .fill = fill,
                  .places = jittered_places,
-                 .coordinates = jittered_coordinates},
+                 .point = jittered_point},
 };

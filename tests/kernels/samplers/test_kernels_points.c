@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { MOST_POINTS = 96, REALIZATIONS = 3 };
+enum { MOST_POINTS = 108, REALIZATIONS = 3 }; /* with rings of HEALPix in both caps */
 
 static ps_device *device;
 
@@ -81,7 +81,7 @@ static void check_request(const ps_sampler_request *request) {
 }
 
 static void check_text(const char *text, unsigned dimension) {
-    static const size_t numbers[] = {1, 2, 7, 12, 64, MOST_POINTS - 1, MOST_POINTS};
+    static const size_t numbers[] = {1, 2, 7, 12, 48, 64, MOST_POINTS - 1, MOST_POINTS};
     size_t num_checked = 0;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         ps_sampler_request request = parse_request(text, numbers[i], dimension);
@@ -118,6 +118,9 @@ static void points_of_the_sphere_have_them_too(void **state) {
     static const char *const texts[] = {"white-sphere",
                                         "white-hemisphere",
                                         "zphi",
+                                        "fibonacci",
+                                        "fibonacci-hemisphere",
+                                        "healpix-jittered",
                                         "white:lift=sphere",
                                         "white:lift=hemisphere",
                                         "jittered:lift=sphere",
@@ -132,8 +135,9 @@ static void points_of_the_sphere_have_them_too(void **state) {
 static void beginnings_are_those_of_the_host(void **state) {
     (void)state;
     enum { D = 3, FEW = 20 };
-    static const char *const texts[] = {"white", "jittered",     "halton", "hammersley",
-                                        "sobol", "white-sphere", "zphi"};
+    static const char *const texts[] = {"white",      "jittered",  "halton",
+                                        "hammersley", "sobol",     "white-sphere",
+                                        "zphi",       "fibonacci", "healpix-jittered"};
     for (size_t s = 0; s < sizeof texts / sizeof texts[0]; s++) {
         ps_sampler_request request = make_request(texts[s], s < 5 ? 64 : 48, D);
         request.seed = seed;
