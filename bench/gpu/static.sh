@@ -38,8 +38,6 @@ list_lines() { # CAPABILITY WORD...; that of cards without matrix units is 0
     grep -E '^(power|angular|pairs|variance) ' "$lines" | sed 's/--precision [a-z]*//; s/.*/9 & --precision auto\n9 & --precision double/'
     grep -E '^(quadrature|sample) ' "$lines" | sed 's/^/9 /'
     cat <<'END'
-9 angular --sampler white-sphere -n 1024 -l 64 -m 400 --engine sphere_grid --precision single
-9 angular --sampler white-sphere -n 1024 -l 64 -m 400 --engine sphere_grid --precision double
 9 sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0
 9 bench --quick --case list --engine torus_direct --precision single
 9 occlusion --mesh quad.obj --image 16x16 --reference 64 --sampler white-sphere -n 64

@@ -1,7 +1,7 @@
 /* What makes the points of samplers whose points are known by their index alone, for host and
  * device: NAME_places of samplers/NAME.h writes the coordinates of point j of a realization as
  * multiples of 2^-64, the bits of ps_fixed_point of what the sampler makes on the host. For points
- * of the sphere NAME_coordinates has those of the plane as doubles, on devices that have such.
+ * of the sphere NAME_point has them as doubles, on devices that have such.
  */
 #ifndef PS_SAMPLERS_NUMBERS_H
 #define PS_SAMPLERS_NUMBERS_H
@@ -29,7 +29,7 @@ typedef struct sampler_numbers {
     ps_u64 seed;
     ps_u64 num_points;           /* of a realization */
     ps_u64 start;                /* index of point 0 */
-    ps_u64 counts[SAMPLER_AXES]; /* of strata */
+    ps_u64 counts[SAMPLER_AXES]; /* of strata; of heights, or nside */
     ps_u32 origin[SAMPLER_AXES]; /* point 0 of a net */
     ps_u32 scramble;             /* ps_net_scramble */
     ps_u32 unused;               /* fills the size up to whole numbers of eight bytes */

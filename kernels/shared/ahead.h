@@ -10,7 +10,7 @@
 
 #ifdef __OPENCL_C_VERSION__
 
-#if ALONE && defined(__has_builtin)
+#if ALONE && !defined(PS_NO_PREFETCH) && defined(__has_builtin)
 #if __has_builtin(__builtin_prefetch)
 #define PS_PREFETCH(address, is_write) __builtin_prefetch((const void *)(size_t)(address), is_write)
 #endif

@@ -1,5 +1,5 @@
 /* The order of the points of sets by keys on GPUs (kernels/nufft/order.cl): stable, so that it is
- * the order of the sorts of CPUs (nufft/sort.cl, sphere/nufft/orders_sort.cl), whatever the sizes.
+ * the order of the sort of CPUs (nufft/sort.cl), whatever the sizes.
  * Owns the keys, which the caller's kernel makes, and all that is between them and sorted points.
  */
 #ifndef PS_ENGINES_NUFFT_ORDER_H

@@ -75,7 +75,7 @@ void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothn
     } else {
         const double steps = powers ? most_steps_of_powers : most_steps;
         const double products = (solutions * steps + others) * square;
-        if (ps_kernel_distances_pay(device, 1)) {
+        if (ps_kernel_product_is_on_gpu(device)) {
             ps_phases_add(phases, name, sets * products * gpu_pair_seconds);
             ps_phases_share(phases, name, square, factor_seconds, sets);
         } else {

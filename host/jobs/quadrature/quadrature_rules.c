@@ -202,23 +202,37 @@ static void take_facts(ps_rule_facts *facts, const ps_kernel_facts *found, size_
     facts->num_duplicates = num_points - found->num_distinct;
 }
 
-/* Rule r of the batch. */
-static pspec_status find_optimal(ps_rules *rules, const ps_representer *representer, size_t r,
-                                 ps_error *error) {
-    ps_optimal_weights found;
+/* Of rule r of the batch, with a matrix for so many points at most. */
+static pspec_status find_weights(ps_rules *rules, const ps_representer *representer, size_t r,
+                                 size_t most_dense, ps_optimal_weights *found, ps_error *error) {
     const ps_point_set *const set = &rules->sets.sets[r];
-    ps_weighted_rule *const rule = &rules->batch[r];
+    const ps_weighted_rule *const rule = &rules->batch[r];
     const phase weights = {&rules->question->watch, "weights"};
     const ps_watch watch = watch_phase(&weights);
     const ps_kernel_options options = {.watch = &watch,
                                        .memory_limit =
                                            rules->question->limits.constraints.memory_limit,
-                                       .most_dense = ps_kernel_most_dense(rules->device),
+                                       .most_dense = most_dense,
                                        .device = rules->device};
-    PS_TRY(ps_optimal_weights_find(representer, set->num_points, set->points, rule->kappa,
+    return ps_optimal_weights_find(representer, set->num_points, set->points, rule->kappa,
                                    rules->question->weights.sum_to_one, &options, rule->weights,
-                                   &found, error));
-    take_facts(&rule->facts, &found.facts, set->num_points);
+                                   found, error);
+}
+
+/* Rule r of the batch. A factor is exact in more cases than the iteration that GPUs begin with. */
+static pspec_status find_optimal(ps_rules *rules, const ps_representer *representer, size_t r,
+                                 ps_error *error) {
+    const size_t num = rules->sets.sets[r].num_points;
+    const size_t most_dense = ps_kernel_most_dense(rules->device);
+    ps_optimal_weights found;
+    ps_error own = {0};
+    pspec_status status = find_weights(rules, representer, r, most_dense, &found, &own);
+    if (status == PSPEC_ERROR_TOLERANCE && num > most_dense && num <= PS_KERNEL_MOST_DENSE) {
+        own = (ps_error){0};
+        status = find_weights(rules, representer, r, PS_KERNEL_MOST_DENSE, &found, &own);
+    }
+    PS_TRY(status == PSPEC_OK ? PSPEC_OK : ps_fail(error, status, "%s", own.message));
+    take_facts(&rules->batch[r].facts, &found.facts, num);
     return PSPEC_OK;
 }
 
@@ -332,7 +346,7 @@ static pspec_status complete(ps_rules *rules, const ps_representer *representer,
         most = num > most ? num : most;
         num_pairs += num * (num / 2 + 1);
     }
-    PS_TRY(ps_rules_sum_distances(rules, representer->smoothness, most, error));
+    PS_TRY(ps_rules_sum_distances(rules, representer->smoothness, error));
     if (most <= SMALL) {
         PS_TRY(
             ps_pieces_share(watch, "rules", num_pairs, rules->num, do_small, (void *)&all, error));

@@ -55,9 +55,8 @@ pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error
  * the last. */
 pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
-/* On a GPU sums the distances of the batch, whose largest rule has so many points
- * (quadrature_distances.c). */
-pspec_status ps_rules_sum_distances(ps_rules *rules, double smoothness, size_t most_points,
+/* On a GPU sums the distances of rules of the batch (quadrature_distances.c). */
+pspec_status ps_rules_sum_distances(ps_rules *rules, double smoothness,
                                     ps_error *error) PS_MUST_CHECK;
 /* Adds those of a rule to those of the rules before; {0} before the first. */
 void ps_rule_facts_join(ps_rule_facts *facts, const ps_rule_facts *rule);

@@ -245,9 +245,10 @@ static double bytes_of_distances(const ps_quadrature_setup *setup,
                                  const ps_quadrature_question *question, uint64_t num_points) {
     const bool are_summed = question->weights.kind != PS_WEIGHTS_OPTIMAL &&
                             ps_kernel_distances_pay(setup->device, num_points);
-    return are_summed ? (double)ps_kernel_product_bytes(num_points) *
-                            (double)ps_kernel_distances_at_once(num_points)
-                      : 0;
+    return are_summed
+               ? (double)ps_kernel_product_bytes(num_points) *
+                     (double)ps_kernel_distances_at_once(num_points, setup->planned_realizations)
+               : 0;
 }
 
 static ps_problem make_problem(const ps_quadrature_setup *setup,

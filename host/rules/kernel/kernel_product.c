@@ -6,6 +6,7 @@
 #include "device/reals.h"
 #include "rules/distance_split.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,15 +47,21 @@ uint64_t ps_kernel_product_bytes(uint64_t num_points) {
     return columns * stride * sizeof(double);
 }
 
-bool ps_kernel_distances_pay(const ps_device *device, uint64_t num_points) {
-    return ps_kernel_product_is_possible(device) && num_points <= PS_DISTANCE_MOST_WHOLE &&
+bool ps_kernel_product_is_on_gpu(const ps_device *device) {
+    return ps_kernel_product_is_possible(device) &&
            ps_device_get_limits(device)->has_dedicated_local_memory;
 }
 
-size_t ps_kernel_distances_at_once(uint64_t num_points) {
-    enum { POINTS = 1 << 18 };
-    const uint64_t fitting = POINTS / (num_points > 0 ? num_points : 1);
-    return fitting > 0 ? (size_t)fitting : 1;
+bool ps_kernel_distances_pay(const ps_device *device, uint64_t num_points) {
+    return ps_kernel_product_is_on_gpu(device) && num_points <= PS_DISTANCE_MOST_WHOLE;
+}
+
+size_t ps_kernel_distances_at_once(uint64_t num_points, uint64_t num_rules) {
+    const double points = 1 << 18, pairs = 1 << 30; /* nothing stops a kernel */
+    const double num = num_points > 0 ? (double)num_points : 1;
+    const double fitting =
+        fmin(fmin(points / num, pairs / num / num), num_rules > 0 ? (double)num_rules : points);
+    return fitting > 1 ? (size_t)fitting : 1;
 }
 
 static pspec_status create_kernel(ps_kernel_product *self, double power, ps_error *error) {
@@ -150,6 +157,10 @@ void ps_kernel_product_destroy(ps_kernel_product *self) {
     free(self->host);
     free(self->padded);
     free(self);
+}
+
+size_t ps_kernel_distances_most_rules(const ps_kernel_product *product) {
+    return product->most_sets;
 }
 
 /* Point i of a set: segment after segment, high parts first where both are of one segment. */

@@ -42,9 +42,7 @@ uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense) {
 }
 
 size_t ps_kernel_most_dense(const ps_device *device) {
-    const bool on_gpu = ps_kernel_product_is_possible(device) &&
-                        ps_device_get_limits(device)->has_dedicated_local_memory;
-    return on_gpu ? PS_KERNEL_MOST_DENSE_ON_GPU : PS_KERNEL_MOST_DENSE;
+    return ps_kernel_product_is_on_gpu(device) ? PS_KERNEL_MOST_DENSE_ON_GPU : PS_KERNEL_MOST_DENSE;
 }
 
 bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit) {

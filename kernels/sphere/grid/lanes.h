@@ -1,11 +1,10 @@
-/* Sums of an order and parity by work-items that have two realizations each: lanes are degrees, so
- * that a vector of the table serves all realizations. Device only.
+/* Sums of an order and parity, of two realizations at a time: lanes are degrees, so that a vector
+ * of the table serves all realizations. Device only.
  */
 #ifndef PS_SPHERE_GRID_LANES_H
 #define PS_SPHERE_GRID_LANES_H
 
 #include "shared/ahead.h"
-#include "shared/group.h"
 #include "shared/lanes.h"
 #include "sphere/grid/table.h"
 #include "sphere/nufft/orders_finish.h"
@@ -112,7 +111,7 @@ static inline void product_of_two(const table_rows rows, __global const real *va
 /* One run of `here` vectors, pairs of realizations by turns. */
 static inline void sum_run(const table_rows rows, const uint here, const set_values from,
                            __global double *powers, const size_t powers_apart) {
-    for (uint r = 2 * own_item(); r < from.num; r += 2 * num_items()) {
+    for (uint r = 0; r < from.num; r += 2) {
         __global const real *values = from.values + r * from.apart;
         __global double *to = powers + (KEEP ? 0 : r * powers_apart);
         if (r + 1 < from.num) {

@@ -1,7 +1,7 @@
 /* From values on angles to sum_m |c_lm|^2, by the table of table.cl: lanes are degrees of one
  * parity, so that a vector of the table serves all realizations. A work-group has the orders that
  * are its number modulo the number of groups, so that what it adds up does not depend on the
- * device. Launch: (work-items of one group, groups).
+ * device. Launch: (1, groups) in work-groups of one item.
  *
  *   values   [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] of values.cl
  *   table    [order][even, odd l - m][run][angle][vector of degrees][LANES] (table.h)
@@ -12,6 +12,7 @@
  *            for RUN_VECTORS vectors behind degree L / 2. With KEEP
  *            coefficients of one realization, [order][even, odd l - m][re, im][half_pitch]
  */
+#define ALONE 1 /* CPUs alone have this kernel */
 #include "sphere/grid/lanes.h"
 #include "sphere/values.h"
 
@@ -58,6 +59,5 @@ __kernel void sphere_grid_sums(__global const real *restrict values, const uint 
                          table_vectors(m, odd, L, LANES), from, powers, ends_apart);
             }
         }
-        barrier_everywhere();
     }
 }

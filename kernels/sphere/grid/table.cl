@@ -3,7 +3,7 @@
  * which undo the window. In double precision whatever the precision of the table, so that its
  * numbers are rounded once, or once for each block of rings.
  *
- * Launch: (work-items of one group, groups). A work-group has the orders that are its number modulo
+ * Launch: (1, groups) in work-groups of one item, which has the orders that are its number modulo
  * the number of groups.
  *
  *   numbers  of numbers.h; their names are used here
@@ -88,7 +88,7 @@ typedef struct make_target {
 static inline void make_run_of_table(const make_rows from, const make_target to,
                                      const uint vectors) {
     const uint groups = (from.num_angles + ANGLES - 1) / ANGLES;
-    for (uint job = own_item(); job < vectors * groups; job += num_items()) {
+    for (uint job = 0; job < vectors * groups; job++) {
         const uint v = job % vectors, angle = job / vectors * ANGLES;
         const uint degree = to.first * TARGET_LANES + v * LANES;
         const uint vector = degree / TARGET_LANES;
@@ -133,7 +133,6 @@ __kernel void sphere_grid_table(
             const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
             const uint whole = (degrees + 2 * TARGET_LANES - 1) / (2 * TARGET_LANES);
             const uint vectors = whole * TARGET_LANES / LANES;
-            barrier_everywhere();
             make_coefficients(coefficients, first, m, 2 * LANES * vectors);
             for (uint ring = 0; ring < num_rings; ring += block) {
                 const uint here = min(num_rings - ring, block);
@@ -161,7 +160,6 @@ __kernel void sphere_grid_table(
                             min(vectors, (to.vectors - to.first) * (TARGET_LANES / LANES)));
                     }
                 }
-                barrier_everywhere();
             }
         }
     }

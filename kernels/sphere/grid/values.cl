@@ -3,8 +3,8 @@
  * (docs/engines/sphere_grid.md). Points are spread on a grid of real numbers, longitude across
  * rows, theta along them.
  *
- * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations slot,
- * slot + slots, ...
+ * Launch: (1, slots) in work-groups of one item. LANES is 2 at least. A slot does the realizations
+ * slot, slot + slots, ...
  *
  *   numbers    of numbers.h; their names are used here
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
@@ -19,6 +19,7 @@
  *   scratch    [slot][2][n / 2][re, im][LANES]
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
+#define ALONE 1 /* CPUs alone have this kernel */
 #include "shared/ahead.h"
 #include "sphere/grid/table.h"
 #include "sphere/nufft/numbers.h"
@@ -79,7 +80,7 @@ static inline void load_ends(both_ends *to, const orders_grid grid, const uint p
 static inline void load_angles(__global real *data, const orders_grid grid, const uint pole,
                                const uint n, const uint width, const uint first,
                                const uint only_even) {
-    for (uint row = own_item(); row < n; row += num_items()) {
+    for (uint row = 0; row < n; row++) {
         both_ends ends, opposite;
         load_ends(&ends, grid, pole, row, n, width, first);
         if (only_even != 0) {
@@ -112,7 +113,7 @@ static inline void write_orders(__global real *to, const size_t order_apart,
                                 __global const uint *begins, const uint most_runs, const uint odd,
                                 const uint end) {
     const uint ahead = 4; /* orders; 12 are as good */
-    for (uint m = first_order + step * own_item(); m <= L; m += step * num_items()) {
+    for (uint m = first_order; m <= L; m += step) {
         if (is_wanted(begins + (2 * m + odd) * most_runs, most_runs, end)) {
             will_write(to + (m + ahead * step) * order_apart);
             will_write(to + (m + ahead * step) * order_apart + LANES);
@@ -160,7 +161,6 @@ sphere_grid_values(const grid_values_numbers numbers, __global const ulong *rest
             __global real *to = of_set + group * 2 * LANES + odd * parity_apart;
             if (odd == 0) {
                 load_angles(data, grid, pole, n, width, group * LANES, only_even);
-                barrier_everywhere();
             }
             fft_transform(own, 2 * LANES, n / 2, radices, twiddles);
             if (only_even != 0) {
@@ -172,7 +172,6 @@ sphere_grid_values(const grid_values_numbers numbers, __global const ulong *rest
                 write_orders(to, order_apart, own, position, n / 2, L, gains, 0, 1, begins,
                              most_runs, odd, end);
             }
-            barrier_everywhere();
         }
     }
 }

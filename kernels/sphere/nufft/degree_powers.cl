@@ -7,7 +7,6 @@
  *           [order][even, odd l - m][re, im][half_pitch]
  *   step    2: even degrees only
  */
-#define LANES 1
 #include "shared/real.h"
 #include "sphere/nufft/degrees.h"
 

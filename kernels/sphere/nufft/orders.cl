@@ -5,9 +5,10 @@
  * orders_rings.h does the rest. For CPUs: one work-group can do a realization whole, in the cache
  * of its core.
  *
- * Launch: (work-items of one group, slots * shares). LANES is 2 at least. A slot does realizations
- * first_realization + slot, + slots more, ... before end_realization; where shares is more than 1,
- * each share does some columns or tiles of it, and steps come in launches of their own.
+ * Launch: (1, slots * shares) in work-groups of one item. LANES is 2 at least. A slot does
+ * realizations first_realization + slot, + slots more, ... before end_realization; where shares is
+ * more than 1, each share does some columns or tiles of it, and steps come in launches of their
+ * own.
  *
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   numbers    of orders.h; their names are used here
@@ -27,6 +28,7 @@
  *   scratch    [group][n + rings / 2][re, im][LANES]
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
+#define ALONE 1 /* CPUs alone have this kernel */
 #include "sphere/nufft/orders.h"
 #include "sphere/nufft/orders_rings.h"
 #include "sphere/nufft/orders_strips.h"
@@ -124,7 +126,7 @@ typedef struct order_tiles {
 static inline void write_orders(const order_tiles tiles, __global const real *data,
                                 const half_plan around, const uint L, __global const real *gains,
                                 const uint column) {
-    for (uint tile = own_item(); tile < tiles.num; tile += num_items()) {
+    for (uint tile = 0; tile < tiles.num; tile++) {
         turn_orders(data, around.position, around.length, L, gains, tile / 2 * 2 * LANES + tile % 2,
                     tiles.rows + tile * tiles.row_reals + (size_t)column * 2 * LANES);
     }
@@ -134,7 +136,7 @@ static inline void write_rings(const ring_target target, __global const real *sp
                                const half_plan to_rings, const uint num_rings,
                                const uint ring_pitch, const uint parity,
                                __global const real *ring_turns, const uint first_order) {
-    for (uint block = own_item(); block < ring_pitch / (LANES / 2); block += num_items()) {
+    for (uint block = 0; block < ring_pitch / (LANES / 2); block++) {
         write_some_rings(spectrum, to_rings.position, to_rings.length, num_rings,
                          block * (LANES / 2), parity, ring_turns, target, first_order);
     }
@@ -199,11 +201,10 @@ __kernel void sphere_orders(
         const ring_target target = {values + (first_value + r) * 4 * (size_t)ring_pitch,
                                     order_pitch(value_sets, 2 * (size_t)ring_pitch),
                                     2 * (size_t)ring_pitch, L};
-        if (work.is_spread && !work.is_whole && own_item() == 0) {
+        if (work.is_spread && !work.is_whole) {
             sort_by_strips(sorting, points + offsets[r] * 2, weights + offsets[r],
                            offsets[r + 1] - offsets[r], along, strip, work.lead, work.end_strip);
         }
-        barrier_everywhere();
         /* Groups of columns, then to and fro for each pair of tiles, even frequencies and odd ones:
          * one loop, since a second copy of all transforms takes the compiler seconds. */
         for (uint step = 0; step < last_step; step++) {
@@ -222,7 +223,6 @@ __kernel void sphere_orders(
             } else if (phase == 0 && !is_idle) {
                 load_meridians(data, even, even + row_reals, pole, n, turns);
             }
-            barrier_everywhere();
             fft_transform(is_last ? spectrum : own, 2 * LANES, plan.length, plan.radices,
                           plan.twiddles);
             if (is_around) {
@@ -234,7 +234,6 @@ __kernel void sphere_orders(
                 copy_spectrum(spectrum, to_rings.length, own, position, around.length, L, parity,
                               along_gains);
             }
-            barrier_everywhere();
         }
     }
 }

@@ -1,8 +1,8 @@
 /* Sorted points of a large set spread on the fine grid, a band of longitudes by each work-group:
  * tile by tile, and within one part by part, so that every cell adds the same numbers in the same
  * order. A part has some ten points in a tile, all parts together so many that the cells stay in
- * the nearest cache meanwhile: they are brought together first. Launch: (work-items of one group,
- * bands).
+ * the nearest cache meanwhile: they are brought together first. Launch: (1, bands) in
+ * work-groups of one item.
  *
  *   numbers    of numbers.h; their names are used here
  *   sorted, heights, starts  of orders_sort.cl, in parts of part_points
@@ -11,6 +11,7 @@
  *   staged, staged_heights  [band][STAGED_POINTS][2], [band][STAGED_POINTS]: scratch
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
+#define ALONE 1 /* CPUs alone have this kernel */
 #include "sphere/bands.h"
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_grid.h"
@@ -25,7 +26,7 @@ typedef struct staged_points {
 static inline void stage_points(const staged_points to, __global const ulong *turns,
                                 __global const real *heights, const size_t from, const uint num,
                                 const bool has_weights) {
-    for (uint i = own_item(); i < num; i += num_items()) {
+    for (uint i = 0; i < num; i++) {
         to.turns[2 * (to.num + i)] = turns[2 * (from + i)];
         to.turns[2 * (to.num + i) + 1] = turns[2 * (from + i) + 1];
         to.heights[to.num + i] = has_weights ? heights[from + i] : (real)1;
@@ -34,7 +35,6 @@ static inline void stage_points(const staged_points to, __global const ulong *tu
 
 static inline void spread_staged(staged_points *from, const orders_grid to, const chunk chunk,
                                  const chunk_axes axes) {
-    barrier_everywhere();
     spread_points(to, chunk, from->turns, from->heights, 0, from->num, axes);
     from->num = 0;
 }

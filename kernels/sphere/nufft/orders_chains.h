@@ -22,7 +22,6 @@
 #ifndef PS_SPHERE_ORDERS_CHAINS_H
 #define PS_SPHERE_ORDERS_CHAINS_H
 
-#include "shared/group.h"
 #include "shared/lanes.h"
 #include "shared/transpose.h"
 #include "sphere/doubles.h"
@@ -100,7 +99,7 @@ static inline doublev squared_ratio(const doublev l, const doublev m) {
 static inline void make_alpha_ratios(__local double *chain, const uint first, const uint m,
                                      const uint num) {
     const doublev order = (doublev)(double)m, one = (doublev)1;
-    for (uint i = own_item() * LANES; i < num; i += num_items() * LANES) {
+    for (uint i = 0; i < num; i += LANES) {
         const doublev l = degrees_from(first + 2 + i);
         const doublev here = squared_ratio(l, order) * squared_ratio(l - one, order);
         const doublev below =
@@ -110,7 +109,7 @@ static inline void make_alpha_ratios(__local double *chain, const uint first, co
     }
 }
 
-/* Along the chain, by one work-item. */
+/* Along the chain. */
 static inline void multiply_alphas(__local double *chain, const uint num) {
     double last[CHAIN_AHEAD];
     for (uint j = 0; j < CHAIN_AHEAD; j++) {
@@ -128,7 +127,7 @@ static inline void multiply_alphas(__local double *chain, const uint num) {
 static inline void make_steps(__local double *to, const uint first, const uint m, const uint num) {
     const doublev order = (doublev)(double)m, one = (doublev)1, two = (doublev)2;
     __local const double *alpha = to + OF_CHAIN + 2;
-    for (uint i = own_item() * LANES; i < num; i += num_items() * LANES) {
+    for (uint i = 0; i < num; i += LANES) {
         const doublev l = degrees_from(first + i), next = l + one;
         const doublev above = squared_ratio(next, order);
         const doublev diagonal = above + squared_ratio(l, order);
@@ -150,24 +149,15 @@ static inline void make_steps(__local double *to, const uint first, const uint m
     }
 }
 
-/* Makes those of `num` degrees, a multiple of 2 LANES, from `first` on. All work-items call it, and
- * see them when it returns. */
+/* Makes those of `num` degrees, a multiple of 2 LANES, from `first` on. */
 static inline void make_coefficients(__local double *to, const uint first, const uint m,
                                      const uint num) {
-    if (own_item() == 0) {
-        for (uint j = 0; j < CHAIN_AHEAD; j++) {
-            to[OF_CHAIN + j] = first == m ? 1 : to[OF_CHAIN + RUN_DEGREES + j];
-        }
+    for (uint j = 0; j < CHAIN_AHEAD; j++) {
+        to[OF_CHAIN + j] = first == m ? 1 : to[OF_CHAIN + RUN_DEGREES + j];
     }
-    GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
     make_alpha_ratios(to + OF_CHAIN, first, m, num);
-    GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
-    if (own_item() == 0) {
-        multiply_alphas(to + OF_CHAIN, num);
-    }
-    GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
+    multiply_alphas(to + OF_CHAIN, num);
     make_steps(to, first, m, num);
-    GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
 }
 
 #endif

@@ -23,27 +23,11 @@ typedef struct orders_grid {
 
 /* ---- spreading ------------------------------------------------------------------------------ */
 
-/* A chunk by one work-item. (nufft/whole.cl says why not just as many points as there are.) */
+/* A chunk. (nufft/whole.cl says why not just as many points as there are.) */
 static inline void scatter(const orders_grid grid, const chunk from, const chunk_axes axes) {
     for (uint i = 0; i < CHUNK; i++) {
         add_global_rows(grid.cells + (from.cells[i] - grid.origin), grid.pitch, from.across + i,
                         from.along + i * axes.along.bins, axes.across.width, axes.along.width);
-    }
-}
-
-/* The same by all: each has the cells of a row that are its number modulo their number. */
-static inline void scatter_together(const orders_grid grid, const chunk from,
-                                    const chunk_axes axes) {
-    const uint size = num_items();
-    for (uint i = 0; i < CHUNK; i++) {
-        const uint own = (own_item() + size - from.columns[i] % size) % size;
-        for (uint bin = own; bin < axes.along.bins; bin += size) {
-            for (uint row = 0; row < axes.across.width; row++) {
-                __global real *to =
-                    grid.cells + (from.cells[i] - grid.origin) + row * grid.pitch + bin;
-                *to = fma(from.across[row * CHUNK + i], from.along[i * axes.along.bins + bin], *to);
-            }
-        }
     }
 }
 
@@ -54,21 +38,15 @@ static inline void spread_points(const orders_grid to, const chunk chunk,
     for (ulong place = begin; place < end; place += CHUNK) {
         const uint count = (uint)min((ulong)CHUNK, end - place);
         fill_chunk(chunk, points + place * 2, weights + place, count, CHUNK, to.pitch, axes);
-        if (num_items() == 1) {
-            scatter(to, chunk, axes);
-        } else {
-            scatter_together(to, chunk, axes);
-        }
-        barrier_everywhere();
+        scatter(to, chunk, axes);
     }
 }
 
 /* `num` cells; none: nothing is done. */
 static inline void clear_cells(__global real *cells, const size_t num) {
-    for (size_t i = own_item(); i < num / LANES; i += num_items()) {
+    for (size_t i = 0; i < num / LANES; i++) {
         store_global(cells, i, (realv)0);
     }
-    barrier_everywhere();
 }
 
 /* ---- around the axis ------------------------------------------------------------------------ */
@@ -87,12 +65,12 @@ static inline void load_columns(__global real *data, const orders_grid grid,
         __global const real *own = grid.cells + band * band_reals + first_column;
         __global const real *other =
             grid.cells + before * band_reals + behind * (size_t)grid.pitch + first_column;
-        for (uint i = own_item(); i < width; i += num_items()) {
+        for (uint i = 0; i < width; i++) {
             store_global(data, start + i,
                          load_global(own + i * (size_t)grid.pitch, 0) +
                              load_global(other + i * (size_t)grid.pitch, 0));
         }
-        for (uint i = width + own_item(); i < num; i += num_items()) {
+        for (uint i = width; i < num; i++) {
             store_global(data, start + i, load_global(own + i * (size_t)grid.pitch, 0));
         }
     }

@@ -41,7 +41,7 @@ static inline void load_meridians(__global real *data, __global const real *even
                                   __global const real *odd, const uint pole, const uint n,
                                   __global const real *turns) {
     const uint middle = n / 2;
-    for (uint i = own_item(); i <= middle / 2; i += num_items()) {
+    for (uint i = 0; i <= middle / 2; i++) {
         const uint j = middle - i;
         const complexv a = continued(even, pole, n, i, 1), far_a = continued(even, pole, n, j, 1);
         const complexv b = continued(odd, pole, n, i, -1), far_b = continued(odd, pole, n, j, -1);
@@ -67,7 +67,7 @@ static inline void copy_spectrum(__global real *to, const uint half_rings,
                                  const uint middle, const uint L, const uint parity,
                                  __global const real *gains) {
     const uint num = (L - parity) / 2 + 1;
-    for (uint q = own_item(); q < num; q += num_items()) {
+    for (uint q = 0; q < num; q++) {
         const uint back = q + parity; /* -k is number -back */
         const complexv north = load_complex(from, position[q]);
         const complexv south = load_complex(from, position[back == 0 ? 0 : middle - back]);
@@ -76,7 +76,7 @@ static inline void copy_spectrum(__global real *to, const uint half_rings,
         store_complex(to, back == 0 ? 0 : half_rings - back,
                       (complexv){south.re * gain, south.im * gain});
     }
-    for (uint q = num + own_item(); q + num + parity <= half_rings; q += num_items()) {
+    for (uint q = num; q + num + parity <= half_rings; q++) {
         store_complex(to, q, (complexv){(realv)0, (realv)0});
     }
 }

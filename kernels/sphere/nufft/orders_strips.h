@@ -70,7 +70,7 @@ static inline void sort_by_strips(const strip_points to, __global const ulong *t
  * pitch: all are. */
 static inline void carry_cells(const orders_grid grid, const uint strip) {
     const uint kept = grid.pitch - strip;
-    for (uint row = own_item(); row < grid.rows; row += num_items()) {
+    for (uint row = 0; row < grid.rows; row++) {
         __global real *cells = grid.cells + row * (size_t)grid.pitch;
         uint i = 0;
         for (; i < kept; i += LANES) {
@@ -80,7 +80,6 @@ static inline void carry_cells(const orders_grid grid, const uint strip) {
             store_global(cells + i, 0, (realv)0);
         }
     }
-    barrier_everywhere();
 }
 
 #endif

@@ -1,8 +1,7 @@
 /* From values on rings to sum_m |c_lm|^2, as CPUs want it (GPUs: degrees.cl). A work-group has the
  * orders that are its number modulo the number of groups, so that what it adds up does not depend
  * on the device. For each order, Lambda_lm is made for a run of degrees and a block of rings at a
- * time, and used by all realizations: a work-item has two of them. Launch: (work-items of one
- * group, groups).
+ * time, and used by all realizations, two by two. Launch: (1, groups) in work-groups of one item.
  *
  *   numbers    of numbers.h; their names are used here
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
@@ -109,7 +108,6 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
         for (uint first = m; first <= L; first += RUN_DEGREES) {
             const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
             const uint vectors = (degrees + 2 * LANES - 1) / (2 * LANES);
-            barrier_everywhere();
             make_coefficients(coefficients, first, m, 2 * LANES * vectors);
             for (uint ring = start; ring < num_rings; ring += block) {
                 const uint here = min(num_rings - ring, block);
@@ -128,13 +126,12 @@ sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restric
                     first,
                     degrees,
                     num_realizations};
-                for (uint job = own_item(); job < num_realizations + 1; job += num_items()) {
+                for (uint job = 0; job < num_realizations + 1; job++) {
                     const uint odd = job % 2;
                     if (only_even == 0 || (m + odd) % 2 == 0) {
                         add_products(run, job / 2 * 2, odd);
                     }
                 }
-                barrier_everywhere();
             }
         }
         work.alive = dead / RING_UNIT * RING_UNIT;

@@ -6,8 +6,7 @@
  *   num_realizations, sums, begins  not looked at
  *   table      local, SUM_NUMBERS of orders_one.h: sums over rings
  *
- * PRECISION is 64 and LANES is 2 at least; PARITIES is 1 where only even degrees are wanted. One
- * work-item of a group goes through the rings.
+ * PRECISION is 64 and LANES is 2 at least; PARITIES is 1 where only even degrees are wanted.
  */
 #ifndef PRECISION
 #define PRECISION 64
@@ -132,7 +131,7 @@ __kernel void sphere_orders_sum_one(
         0};
     const order_starts from_order = {starts, start_scales, steps, step_scales, ratios, cosines};
     (void)unused_sums, (void)unused_begins;
-    for (uint m = group; own_item() == 0 && m <= L; m += groups) {
+    for (uint m = group; m <= L; m += groups) {
         const uint even = m % 2; /* parity of l - m of even degrees */
         const order_values from = {values + m * order_pitch(numbers.value_sets, parity_apart),
                                    parity_apart, cosines, even, rings.lead};

@@ -21,7 +21,7 @@ static inline void begin_ring(const ring_work work, const uint i, const double v
 static inline void begin_order(const ring_work work, const order_starts from, const uint m,
                                const uint group, const uint ring_pitch) {
     const double second = sqrt(2 * (double)m + 3);
-    for (uint i = work.alive + own_item(); i < ring_pitch; i += num_items()) {
+    for (uint i = work.alive; i < ring_pitch; i++) {
         double value = m == group ? from.starts[group * ring_pitch + i]
                                   : work.diagonal[i] * from.steps[i] * from.ratios[m];
         int scale = m == group ? from.start_scales[group * ring_pitch + i]
@@ -38,14 +38,13 @@ static inline uint make_block(const ring_work work, const uint ring, const uint 
                               __local uint *begins, const uint vectors) {
     const uint from = work.alive > ring ? work.alive - ring : 0;
     uint begin = here;
-    for (uint i = from + own_item() * RING_UNIT; i < here; i += num_items() * RING_UNIT) {
+    for (uint i = from; i < here; i += RING_UNIT) {
         begins[i / RING_UNIT] =
             make_run(work.states, work.angles, ring + i, coefficients, table + i * TABLE_ROW,
                      table + (work.block + i) * TABLE_ROW, vectors)
                 ? i
                 : here;
     }
-    barrier_everywhere();
     for (uint i = from; i < here; i += RING_UNIT) {
         begin = min(begin, begins[i / RING_UNIT]);
     }

@@ -105,8 +105,53 @@ static void large_sets_come_in_chunks(void **state) {
     free(found);
 }
 
+/* Of degrees that the grid has no room for. */
+static void high_degrees_are_refused(void **state) {
+    static const int32_t degrees[] = {4000, 8192, 9000, 11519, 20000, 32768};
+    (void)state;
+    for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++) {
+        for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
+            ps_frequencies set = {0};
+            assert_ok(ps_frequencies_degrees(&set, degrees[i], false, error));
+            const ps_problem problem = {.frequencies = &set,
+                                        .num_points = 5000000,
+                                        .num_realizations = 1,
+                                        .tolerance = 1e-6};
+            const ps_survey survey = ps_sphere_nufft.survey(&problem, ps_device_get_limits(device),
+                                                            (ps_precision)precision);
+            assert_true(survey.why_not != NULL || survey.work.fixed_bytes > 0);
+            assert_true(survey.why_not != NULL || degrees[i] < 20000);
+            ps_frequencies_free(&set);
+        }
+    }
+}
+
+/* The variant is that of the points that were planned: bits do not change with a longer set. */
+static void growth_keeps_the_variant(void **state) {
+    ps_frequencies set = {0};
+    (void)state;
+    assert_ok(ps_frequencies_degrees(&set, LOW, false, error));
+    ps_problem problem = {.frequencies = &set,
+                          .num_points = 1 << 21,
+                          .planned_points = 1 << 21,
+                          .num_realizations = 2,
+                          .tolerance = 1e-6};
+    const ps_device_limits *const limits = ps_device_get_limits(device);
+    const ps_sphere_shape planned =
+        ps_sphere_shape_make(&problem, limits, PS_DOUBLE, PS_SPHERE_ON_GPU);
+    problem.num_points = (1 << 21) + 5;
+    const ps_sphere_shape grown =
+        ps_sphere_shape_make(&problem, limits, PS_DOUBLE, PS_SPHERE_ON_GPU);
+    assert_ptr_equal(planned.plane.choice.variant, grown.plane.choice.variant);
+    assert_int_equal(planned.axis.n, grown.axis.n);
+    assert_true(grown.plane.part_points >= problem.num_points);
+    ps_frequencies_free(&set);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(high_degrees_are_refused),
+        cmocka_unit_test(growth_keeps_the_variant),
         cmocka_unit_test(large_sets_come_in_chunks),
         cmocka_unit_test(sets_have_the_bits_that_they_have_alone),
     };

@@ -14,7 +14,7 @@ static const double largest_sigma = 4;
 /* Windows in front of a pole and behind it must not meet. */
 enum { LEAST_CELLS = 4 * PS_NUFFT_MAX_WIDTH };
 
-/* A grid of all cells has 32-bit indices. */
+/* A grid of all cells has 32-bit indices, and on GPUs their number, too, has 32 bits. */
 enum { MOST_CELLS = 1 << 16 };
 
 /* Each candidate is longer than the one before by this part at least. */
@@ -24,10 +24,10 @@ enum { NEXT_LENGTH = 32 };
  * part. Cells are a multiple of a unit: even, on GPUs whole boxes. */
 static const struct {
     uint32_t (*length)(uint64_t least);
-    uint32_t unit;
-} lengths[] = {[PS_SPHERE_BY_RINGS] = {ps_fft_good_length, 2},
-               [PS_SPHERE_BY_CELLS] = {ps_fft_length, 2},
-               [PS_SPHERE_ON_GPU] = {ps_fft_good_length, 32}};
+    uint32_t unit, most;
+} lengths[] = {[PS_SPHERE_BY_RINGS] = {ps_fft_good_length, 2, MOST_CELLS},
+               [PS_SPHERE_BY_CELLS] = {ps_fft_length, 2, MOST_CELLS},
+               [PS_SPHERE_ON_GPU] = {ps_fft_good_length, 32, MOST_CELLS - 1}};
 
 /* A length from `least` on; 0: beyond 32 bits. */
 static uint32_t next_length(uint64_t least, ps_sphere_route route) {
@@ -109,7 +109,7 @@ ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision prec
     double best_cycles = HUGE_VAL;
     for (uint32_t n =
              next_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)), route);
-         n != 0 && n <= MOST_CELLS && (best.n == 0 || n <= last);
+         n != 0 && n <= lengths[route].most && (best.n == 0 || n <= last);
          n = next_length((uint64_t)n + 1 + n / NEXT_LENGTH, route)) {
         double error = 0;
         const ps_nufft_axis least = {.max_frequency = problem->frequencies->max_frequency,

@@ -56,8 +56,7 @@ static pspec_status make_values(ps_sphere_state *self, size_t first_value, const
     PS_TRY(ps_sphere_places_make(&self->points, some, error));
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->num_angles * 2;
-    const ps_range range = ps_sphere_group_range(self->device, self->is_alone, slots,
-                                                 transforms * ps_fft_flops(plan->axis.n / 2));
+    const ps_range range = ps_range_alone(slots, transforms * ps_fft_flops(plan->axis.n / 2));
     return PS_LAUNCH(self->device, of(self)->make, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(self->points.turns), PS_BUFFER(self->points.weights),
                      PS_BUFFER(self->points.offsets), PS_BUFFER(plan->coefficients),
@@ -72,8 +71,7 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_grid_table *table = &of(self)->table;
     const double flops = 4 * (double)shape->table_reals * (double)num;
-    const ps_range range =
-        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
+    const ps_range range = ps_range_alone(PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
                      PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
                      PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),

@@ -89,7 +89,7 @@ static double no_more_cycles(const ps_sphere_shape *shape, double lanes, double 
 
 /* Behind the grid, in nominal cycles of a picosecond (engines/nufft/cycles.c), of a device with an
  * H200's bandwidth and peaks: transforms to rings as those of the grid; numbers of sums, values and
- * coefficients written once and read once, coefficients once more for each block of rings. A
+ * coefficients written once and read once. A
  * product of sums is four operations, a step of the recurrence six in double precision, both at a
  * third of the peak, as plain sums of the torus were measured; prototypes with matrix units did
  * half of it. Counted, not measured. */
@@ -141,8 +141,12 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, const ps_problem *pro
                              ps_precision precision, double num_realizations) {
     const double flops_per_lane = 4; /* two fused operations in a cycle */
     const double lanes = ps_nufft_nominal_lanes(precision);
-    const double cycles =
-        ps_sphere_grid_cycles(&shape->axis, problem, precision, shape->route) +
-        routes[shape->route].more(shape, lanes, ps_planned_points(problem), num_realizations);
-    return cycles * lanes * flops_per_lane;
+    const double num_points = ps_planned_points(problem);
+    const double cycles = routes[shape->route].more(shape, lanes, num_points, num_realizations);
+    const double grid =
+        shape->route == PS_SPHERE_ON_GPU /* with what idles where boxes are few */
+            ? ps_nufft_flops_of_layout(&shape->plane, precision, num_points)
+            : ps_sphere_grid_cycles(&shape->axis, problem, precision, shape->route) * lanes *
+                  flops_per_lane;
+    return grid + cycles * lanes * flops_per_lane;
 }

@@ -14,7 +14,7 @@
 typedef struct making {
     const ps_sphere_shape *shape; /* of the table */
     ps_sphere_shape rings;        /* where Lambda_lm is made, in double precision */
-    bool only_even, is_alone;
+    bool only_even;
     ps_precision precision;
     ps_device *device;
     uint32_t angle_pitch;
@@ -198,8 +198,8 @@ static pspec_status create_kernels(making *self, ps_error *error) {
     const size_t target_bytes = ps_real_bytes(self->precision);
     ps_defines making_defines = ps_defines_of(sizeof(double), self->rings.lanes);
     ps_defines target = ps_defines_of(target_bytes, self->shape->lanes);
-    ps_defines_add(&making_defines, "-DRUN_VECTORS=%u -DALONE=%u -DTARGET_PRECISION=%zu",
-                   self->rings.run_vectors, self->is_alone ? 1u : 0u, 8 * target_bytes);
+    ps_defines_add(&making_defines, "-DRUN_VECTORS=%u -DTARGET_PRECISION=%zu",
+                   self->rings.run_vectors, 8 * target_bytes);
     ps_defines_add(&making_defines, "-DTARGET_LANES=%u -DTARGET_VECTORS=%u", self->shape->lanes,
                    self->shape->run_vectors);
     ps_defines_add(&target, "-DRUN_VECTORS=%u", self->shape->run_vectors);
@@ -218,8 +218,7 @@ static pspec_status make_numbers(const ps_sphere_grid_table *table, const making
     const grid_table_numbers numbers = {.rings = ps_sphere_ring_numbers(rings, self->only_even),
                                         .num_angles = self->shape->num_angles,
                                         .angle_pitch = self->angle_pitch};
-    const ps_range range =
-        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
+    const ps_range range = ps_range_alone(PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(
         self->device, self->make, &range, error, PS_STRUCT(numbers), PS_BUFFER(starts->starts),
         PS_BUFFER(starts->start_scales), PS_BUFFER(starts->steps), PS_BUFFER(starts->step_scales),
@@ -281,7 +280,6 @@ pspec_status ps_sphere_grid_table_create(ps_sphere_grid_table *out, const ps_sph
     making self = {.shape = shape,
                    .rings = choose_rings(shape->max_degree, ps_device_get_limits(device)),
                    .only_even = only_even,
-                   .is_alone = ps_range_is_alone(device),
                    .precision = precision,
                    .device = device,
                    .angle_pitch = (uint32_t)ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES)};

@@ -75,9 +75,9 @@ static const double value_budget = 768 << 20;
 enum { GROUPS_PER_CORE = 4 };
 
 /* GPUs have work-groups side by side instead, and each launch costs the time of some hundred sets
- * of 1024 points: as many realizations as fill the card with a group for each. Counted, not
- * measured: 20000 sets of (1024, 64) take 55 rounds of launches instead of the 313 of 64 sets each.
- */
+ * of 1024 points: four realizations for each unit, as far as the grid has room for them. Counted,
+ * not measured: 20000 sets of (1024, 64) take 63 rounds of launches instead of the 313 of 64 sets
+ * each. */
 enum { SETS_PER_UNIT = 4 };
 
 static size_t fitting(double budget, uint64_t bytes, size_t most) {
@@ -90,7 +90,7 @@ static uint64_t gap_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     return ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes;
 }
 
-/* The grid on GPUs: as many realizations as its boxes and lines have room for. */
+/* The grid on GPUs: as many realizations as its boxes and lines have room for go all the way. */
 static void choose_plane(ps_sphere_shape *shape, const ps_problem *problem,
                          const ps_device_limits *limits, size_t real_bytes) {
     const ps_precision precision = real_bytes == sizeof(float) ? PS_SINGLE : PS_DOUBLE;
@@ -99,7 +99,7 @@ static void choose_plane(ps_sphere_shape *shape, const ps_problem *problem,
         shape->lanes = 0;
         return;
     }
-    shape->together = shape->plane.parts;
+    shape->at_once = shape->together = shape->plane.parts; /* memory is in proportion to it */
     shape->most_points = shape->together * shape->plane.part_points;
     shape->plane_bytes = ps_divide_up(shape->plane.fixed_bytes, shape->plane.parts);
 }
@@ -225,7 +225,7 @@ static void add_up(ps_sphere_shape *shape, size_t real_bytes) {
                                 bytes.rows,
                                 shape->at_once * bytes.values + bytes.gaps,
                                 shape->at_once * bytes.powers,
-                                shape->at_once * bytes.sums,
+                                (shape->at_once + 1) * bytes.sums,
                                 bytes.vectors};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         shape->largest_buffer =
@@ -250,6 +250,9 @@ static void spread_over_sets(ps_sphere_shape *shape, size_t real_bytes) {
 void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                             const ps_device_limits *limits, size_t real_bytes) {
     choose_at_once(shape, problem, limits, real_bytes);
+    if (shape->lanes == 0) {
+        return; /* the grid has no such sizes */
+    }
     add_up(shape, real_bytes);
     if (shape->route == PS_SPHERE_ON_GPU) {
         spread_over_sets(shape, real_bytes);

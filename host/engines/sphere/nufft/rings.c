@@ -110,8 +110,7 @@ static pspec_status run_steps(ps_sphere_state *self, some_realizations some, uns
     const size_t num = some.end - some.first;
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->pairs * 4.0 * shape->lanes;
-    const ps_range range = ps_sphere_group_range(self->device, self->is_alone, slots * shares,
-                                                 transforms * ps_fft_flops(shape->axis.n));
+    const ps_range range = ps_range_alone(slots * shares, transforms * ps_fft_flops(shape->axis.n));
     return PS_LAUNCH(self->device, own->orders, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(self->points.turns), PS_BUFFER(self->points.weights),
                      PS_BUFFER(self->points.offsets), PS_BUFFER(tables->plan.coefficients),
@@ -165,8 +164,8 @@ static pspec_status add_sorted(ps_sphere_state *self, bool is_first, ps_error *e
         .band_rows = shape->band_rows,
         .pitch = shape->pitch,
         .has_weights = !points->has_unit_weights};
-    const ps_range range = ps_sphere_group_range(self->device, self->is_alone, shape->bands,
-                                                 flops_per_point * (double)points->num_points);
+    const ps_range range =
+        ps_range_alone(shape->bands, flops_per_point * (double)points->num_points);
     return PS_LAUNCH(
         self->device, of(self)->bands, &range, error, PS_STRUCT(numbers), PS_BUFFER(points->sorted),
         PS_BUFFER(points->heights), PS_BUFFER(points->starts), PS_BUFFER(plan->coefficients),
@@ -218,8 +217,7 @@ static pspec_status launch_sums(ps_sphere_state *self, ps_kernel *kernel, const 
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
-    const ps_range range =
-        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
+    const ps_range range = ps_range_alone(PS_SPHERE_GROUPS, flops);
     const orders_sum_numbers numbers = {.rings = ps_sphere_ring_numbers(shape, self->only_even),
                                         .value_sets = (uint32_t)shape->at_once,
                                         .num_realizations = (uint32_t)num,

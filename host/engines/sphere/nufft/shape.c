@@ -24,10 +24,9 @@ static uint32_t choose_block(const ps_sphere_shape *shape, size_t real_bytes) {
 /* Sums of two realizations, real and imaginary parts of each vector of degrees, stay in 16
  * registers when there are two, in 32 when there are four. With three in 16 they went through
  * memory: 1.1 to 1.2 times the time of all at L = 2000, R = 10 (Zen 3, PoCL 3.1). */
-static uint32_t choose_run_vectors(const ps_sphere_shape *shape, const ps_device_limits *limits,
-                                   size_t real_bytes) {
+static uint32_t choose_run_vectors(const ps_sphere_shape *shape, size_t real_bytes) {
     const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
-    return limits->has_dedicated_local_memory || shape->lanes * real_bytes >= bytes_of_32 ? 4 : 2;
+    return shape->lanes * real_bytes >= bytes_of_32 ? 4 : 2;
 }
 
 /* Bytes of a band of longitudes: with the tiles that its points are sorted by, the second cache
@@ -262,7 +261,7 @@ ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits
     ps_sphere_shape shape = {.max_degree = max_degree, .lanes = lanes > 1 ? lanes : 2};
     shape.rings = ps_sphere_ring_length(shape.max_degree);
     shape.num_rings = shape.rings / 4 + 1;
-    shape.run_vectors = choose_run_vectors(&shape, limits, real_bytes);
+    shape.run_vectors = choose_run_vectors(&shape, real_bytes);
     measure_sums(&shape, real_bytes);
     choose_recurrences(&shape, (precision == PS_DOUBLE ? PS_SPHERE_RING_VECTORS : 1) * shape.lanes);
     return shape;

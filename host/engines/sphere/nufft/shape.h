@@ -9,9 +9,9 @@
 #include "engines/nufft/axis.h"
 #include "engines/torus/nufft/layout.h"
 
-/* Groups of orders in kernels/sphere/grid/ and in orders_sum.cl and orders_sum_one.cl of
- * kernels/sphere/nufft/: each adds up those of its own. There are so many whatever the device,
- * since sums depend on it; enough that all cores have work to the end. */
+/* Groups of orders in kernels/sphere/grid/ and in orders_sum.cl, orders_sum_one.cl and
+ * degree_powers.cl of kernels/sphere/nufft/: each adds up those of its own. There are so many
+ * whatever the device, since sums depend on it; enough that all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
 /* How c_lm is made of the grid. */
@@ -194,7 +194,7 @@ enum {
     PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
     PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: in double precision, with a table */
     PS_SPHERE_ONE_RUN = 8,      /* orders_one.h: RUN_VECTORS, whose sums the nearest cache holds */
-    PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
+    PS_SPHERE_SCALE = 100,      /* scales.h: the exponent of SCALE_UP */
     PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */
     PS_SPHERE_CHAIN_AHEAD = 4,  /* orders_chains.h: and these */
     PS_SPHERE_TABLE_ANGLES = 8  /* grid/table.cl: ANGLES */

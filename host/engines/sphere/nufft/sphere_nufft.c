@@ -42,7 +42,7 @@ static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_li
 static const char *refuse_cells(const ps_problem *problem, const ps_device_limits *limits) {
     const int32_t most_degree = 1024;
     if (limits->has_dedicated_local_memory) {
-        return "its table is for the caches of CPUs; on GPUs sphere_nufft serves all degrees";
+        return "its table is for the caches of CPUs; GPUs have sphere_nufft for these degrees, too";
     }
     if (problem->frequencies->max_frequency > most_degree) {
         return "the table of cells would take more than 64 MiB";
@@ -206,7 +206,6 @@ static pspec_status create_route(ps_sphere_state *self, const ps_problem *proble
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
-    self->is_alone = ps_range_is_alone(device);
     self->only_even = problem->frequencies->degree_step == 2;
     self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision, route);
     ps_sphere_shape_shrink(&self->shape, batch);

@@ -10,9 +10,8 @@ pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
     const size_t value_bytes = ps_real_bytes(self->precision);
     ps_defines defines = source->sums_one ? ps_defines_of(sizeof(double), shape->sum_lanes)
                                           : ps_defines_of(value_bytes, shape->lanes);
-    ps_defines_add(&defines, "-DRUN_VECTORS=%u -DALONE=%u",
-                   source->sums_one ? PS_SPHERE_ONE_RUN : shape->run_vectors,
-                   self->is_alone ? 1u : 0u);
+    ps_defines_add(&defines, "-DRUN_VECTORS=%u",
+                   source->sums_one ? PS_SPHERE_ONE_RUN : shape->run_vectors);
     if (source->sums_one) {
         ps_defines_add(&defines,
                        "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u -DPARITIES=%u "
@@ -38,12 +37,6 @@ pspec_status ps_sphere_powers_create(ps_sphere_state *self, ps_error *error) {
     PS_TRY(ps_sphere_kernel_get(self, &self->sum, source_of_sums(self), false, error));
     return ps_buffer_create(self->device, &self->sums, self->shape.at_once * each,
                             "powers of orders", error);
-}
-
-ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups,
-                               double flops) {
-    return is_alone ? ps_range_alone(groups, flops)
-                    : ps_range_heavy(device, 1, groups, 1, flops, 0);
 }
 
 static pspec_status fold_sums(const ps_sphere_state *self, size_t num, ps_error *error) {

@@ -1,6 +1,7 @@
 /* The variants of sphere_nufft and sphere_grid, and the state that they have in common. Private to
- * sphere_nufft.c, which is both engines, and to rings.c and cells.c, which have what differs: how
- * points on the device become values, and values powers or coefficients.
+ * sphere_nufft.c, which is both engines, and to rings.c, cells.c, and gridded.c with degrees.c,
+ * which have what differs: how points on the device become values, and values powers or
+ * coefficients.
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_VARIANTS_H
 #define PS_ENGINES_SPHERE_NUFFT_VARIANTS_H
@@ -49,9 +50,6 @@ pspec_status ps_sphere_places_lend(ps_sphere_places *points, const pspec_pattern
                                    ps_error *error) PS_MUST_CHECK;
 /* Waits until nothing reads it any more. */
 pspec_status ps_sphere_places_return(ps_sphere_places *points, ps_error *error) PS_MUST_CHECK;
-
-/* Work-groups of one item on CPUs, where lanes are vectors. */
-ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
 
 /* Sums on GPUs (degrees.c). */
 typedef struct ps_sphere_degrees {
@@ -130,7 +128,6 @@ struct ps_sphere_state {
     const ps_sphere_variant *variant; /* of the shape */
     ps_sphere_places points;
     ps_sphere_tables tables;
-    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     ps_kernel *sum, *fold;
     ps_buffer sums;                   /* [group][realization][even, odd degrees][half_pitch] */
     ps_buffer grids, scratch, values; /* values: on rings, or on the angles of the grid */

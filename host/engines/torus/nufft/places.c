@@ -140,6 +140,7 @@ pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_
 
 pspec_status ps_nufft_places_order(ps_nufft_places *places, const ps_nufft_source *source,
                                    const ps_batch *parts, ps_error *error) {
+    places->num_points = source->num_points;
     PS_TRY(upload_places(places, parts, error));
     return sort_source(places, source, parts->num_patterns, error);
 }
