@@ -178,19 +178,30 @@ static void add_reading(const ps_variance_job *job, ps_phases *phases) {
     }
 }
 
-/* Of a step of a value that is a sum (integrands/integrand.h): 780 coefficients of the plane and
- * 1891 of the sphere at 4096 points, doubles, AVX-512, PoCL 3.1, one processor. */
-static double step_seconds(const ps_variance_job *job, const ps_integrand *integrand) {
-    const double by_kernel = 5e-10;
-    const double by_host = 5e-9;
-    return job->spectrum->device != NULL && ps_integrand_kernel(integrand, true) != NULL ? by_kernel
-                                                                                         : by_host;
+/* Seconds of a processor for a value: 12 ns of a disk, 13 of a Gaussian, 42 of one with images
+ * (16384 points, double precision, AVX2, PoCL 3.1). Of a step of a value that is a sum
+ * (integrands/integrand.h): 780 coefficients of the plane and 1891 of the sphere at 4096 points,
+ * doubles, AVX-512, one processor. Of a GPU 40 operations for a value and 10 for a step at an
+ * eighth of an H200's peak in double precision, counted, not measured; there a point that the host
+ * hands over counts, too, however often it is moved. */
+typedef struct trial_seconds {
+    double value, step, point;
+} trial_seconds;
+
+static const trial_seconds by_host = {2e-8, 5e-9, 0}, by_kernel = {2e-8, 5e-10, 0};
+static const trial_seconds by_gpu = {1e-11, 2.5e-12, 8e-9};
+
+static double seconds_of(const ps_variance_job *job, const ps_integrand *integrand,
+                         double num_points, double num_values) {
+    const ps_device *const device = job->spectrum->device;
+    const bool has_kernel = device != NULL && ps_integrand_kernel(integrand, true) != NULL;
+    const bool on_gpu = has_kernel && ps_device_get_limits(device)->has_dedicated_local_memory;
+    const trial_seconds *const seconds = on_gpu ? &by_gpu : has_kernel ? &by_kernel : &by_host;
+    return num_values * (seconds->value + ps_integrand_steps(integrand) * seconds->step) +
+           num_points * seconds->point;
 }
 
 void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
-    /* of a processor: 12 ns of a disk, 13 of a Gaussian, 42 of one with images (16384 points,
-     * double precision, AVX2, PoCL 3.1) */
-    const double value_seconds = 2e-8;
     const ps_power_question *const spectrum = &job->question->spectrum;
     const ps_sets_options sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip);
     const double num_sets = (double)job->trials.num_sets;
@@ -198,7 +209,7 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
                                                     : (double)job->files.most_points;
     const double value_points = num_sets * (double)job->trials.num_shifts * points;
     const double values = value_points * (double)job->question->num_integrands;
-    double seconds = values * value_seconds;
+    double seconds = 0;
     char size[PS_SIZE_TEXT];
     ps_phases_add_seconds(phases, "images", job->image_seconds);
     ps_phases_say(phases, "images", "their powers, from pixels");
@@ -211,8 +222,7 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
         add_reading(job, phases);
     }
     for (size_t i = 0; i < job->question->num_integrands; i++) {
-        const ps_integrand *const integrand = job->integrands[i];
-        seconds += value_points * ps_integrand_steps(integrand) * step_seconds(job, integrand);
+        seconds += seconds_of(job, job->integrands[i], num_sets * points, value_points);
     }
     ps_phases_add(phases, "trials", seconds);
     ps_phases_say(phases, "trials", "%.4g values of integrands, %s of memory", values,
