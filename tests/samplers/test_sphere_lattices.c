@@ -9,6 +9,7 @@
 
 #include "math/pi.h"
 #include "math/random/random.h"
+#include "samplers/fibonacci.h"
 #include "samplers/sphere/spherical_fibonacci.h"
 
 /* Of height, sine, cosine and their product. */
@@ -271,7 +272,7 @@ static long double fraction_by_fibonacci_numbers(uint64_t j) {
 }
 
 static void assert_fraction(uint64_t j) {
-    const long double fraction = (long double)ps_fibonacci_fraction(j) * 0x1p-64L;
+    const long double fraction = (long double)fibonacci_fraction(j) * 0x1p-64L;
     const long double difference = fabsl(fraction - fraction_by_fibonacci_numbers(j));
     assert_true(fminl(difference, 1 - difference) <= 2e-18L); /* 37 units of 2^-64: the sum's own */
 }

@@ -4,10 +4,6 @@
 #include "samplers/fibonacci.h"
 #include "samplers/pace.h"
 
-uint64_t ps_fibonacci_fraction(uint64_t j) {
-    return fibonacci_fraction(j);
-}
-
 void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point) {
     fibonacci_point_of(j, num_heights, point);
 }

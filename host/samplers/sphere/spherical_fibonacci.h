@@ -4,9 +4,6 @@
 
 #include "samplers/sampler.h"
 
-/* 2^64 frac(j/Phi), Phi = (1 + sqrt 5)/2, rounded down or to the next whole number, for any j. */
-uint64_t ps_fibonacci_fraction(uint64_t j);
-
 /* Point j, with z = 1 - (2j + 1)/num_heights: num_heights is their number for the sphere and twice
  * that for the hemisphere. */
 void ps_fibonacci_point(size_t j, uint64_t num_heights, double *point);

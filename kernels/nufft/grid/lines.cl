@@ -54,8 +54,8 @@ static inline uint box_before(const uint box, const uint back, const uint boxes)
 }
 
 /* A cell: its own box, then those in front whose windows reach it, in order. */
-static inline real load_cell(const line_data *all, const grid_lines_numbers *numbers,
-                             const uint cell) {
+static inline real load_cell(const line_data *all, const uint cell) {
+    const grid_lines_numbers *const numbers = all->numbers;
     const uint z = cell % CELLS_2, y = cell / CELLS_2 % CELLS_1, x = cell / CELLS_2 / CELLS_1;
     const uint boxes_1 = numbers->boxes[1], boxes_2 = numbers->boxes[2];
     real high = -all->mean, low = 0;
@@ -80,7 +80,7 @@ static inline complexv load_number(const line_data *all, const size_t line, cons
     const ulong inner = all->numbers->inner;
     const size_t at = (line / inner * N + i) * inner + line % inner;
 #if FROM
-    return (complexv){load_cell(all, all->numbers, (uint)at), 0};
+    return (complexv){load_cell(all, (uint)at), 0};
 #else
     return (complexv){all->from[2 * at], all->from[2 * at + 1]};
 #endif
