@@ -46,7 +46,7 @@ static void copy_directions(size_t num, const double *points, double *directions
 
 /* A device helps conjugate gradients; without one they use threads. */
 static ps_device *find_device(pspec_context *context, size_t num_points) {
-    const bool is_wanted = !ps_kernel_system_is_dense(num_points, context->memory_limit);
+    const bool is_wanted = !ps_kernel_system_is_dense(num_points, 0, context->memory_limit);
     return is_wanted && ps_context_open_device(context) == PSPEC_OK ? context->device : NULL;
 }
 

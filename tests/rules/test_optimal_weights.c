@@ -267,11 +267,13 @@ static void dense_on_every_machine(void **state) {
     const size_t most = PS_KERNEL_MOST_DENSE;
     (void)state;
     assert_int_equal(most, 20000);
-    assert_true(ps_kernel_system_is_dense(most, 0));
-    assert_true(ps_kernel_system_is_dense(most, ps_kernel_system_bytes(most, true)));
-    assert_false(ps_kernel_system_is_dense(most, ps_kernel_system_bytes(most, true) - 1));
-    assert_false(ps_kernel_system_is_dense(most + 1, 0));
-    assert_false(ps_kernel_system_is_dense(most + 1, UINT64_MAX));
+    assert_true(ps_kernel_system_is_dense(most, 0, 0));
+    assert_true(ps_kernel_system_is_dense(most, 0, ps_kernel_system_bytes(most, true)));
+    assert_false(ps_kernel_system_is_dense(most, 0, ps_kernel_system_bytes(most, true) - 1));
+    assert_false(ps_kernel_system_is_dense(most + 1, 0, 0));
+    assert_false(ps_kernel_system_is_dense(most + 1, 0, UINT64_MAX));
+    assert_true(ps_kernel_system_is_dense(100, 100, 0));
+    assert_false(ps_kernel_system_is_dense(101, 100, 0));
 }
 
 int main(void) {

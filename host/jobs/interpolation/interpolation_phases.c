@@ -5,8 +5,8 @@
 #include <math.h>
 
 bool ps_interpolation_is_dense(const ps_interpolation_question *question, size_t num_points) {
-    return num_points <= PS_INTERPOLATION_MOST_DENSE &&
-           ps_kernel_system_is_dense(num_points, question->limits.constraints.memory_limit);
+    return ps_kernel_system_is_dense(num_points, PS_INTERPOLATION_MOST_DENSE,
+                                     question->limits.constraints.memory_limit);
 }
 
 /* Values and solutions of a set, the functions, and images. */

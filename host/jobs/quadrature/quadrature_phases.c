@@ -89,9 +89,8 @@ void ps_phases_kernel_system(ps_phases *phases, const char *name, double smoothn
 /* The sum of the weights is imposed by a second system of equations. */
 static void add_weights(const ps_quadrature_question *question, double points, double sets,
                         const ps_device *device, ps_phases *phases) {
-    const bool is_dense =
-        points <= (double)ps_kernel_most_dense(device) &&
-        ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit);
+    const bool is_dense = ps_kernel_system_is_dense((size_t)points, ps_kernel_most_dense(device),
+                                                    question->limits.constraints.memory_limit);
     ps_phases_kernel_system(phases, "weights", question->smoothness, points,
                             question->weights.sum_to_one ? 2 : 1, is_dense, device, sets);
 }

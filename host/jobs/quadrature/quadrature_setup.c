@@ -314,7 +314,7 @@ static void describe_weights(const ps_quadrature_question *question, size_t num_
         return;
     }
     const size_t most_dense = ps_kernel_most_dense(device);
-    if (num_points <= most_dense && ps_kernel_system_is_dense(num_points, limit)) {
+    if (ps_kernel_system_is_dense(num_points, most_dense, limit)) {
         snprintf(text, size, "optimal, by Cholesky; a matrix of %zu x %zu, %.4g bytes", num_points,
                  num_points, dense);
         return;

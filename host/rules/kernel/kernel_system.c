@@ -45,8 +45,8 @@ size_t ps_kernel_most_dense(const ps_device *device) {
     return ps_kernel_product_is_on_gpu(device) ? PS_KERNEL_MOST_DENSE_ON_GPU : PS_KERNEL_MOST_DENSE;
 }
 
-bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit) {
-    return num_points <= PS_KERNEL_MOST_DENSE &&
+bool ps_kernel_system_is_dense(size_t num_points, size_t most_dense, uint64_t memory_limit) {
+    return num_points <= (most_dense > 0 ? most_dense : PS_KERNEL_MOST_DENSE) &&
            (memory_limit == 0 || ps_kernel_system_bytes(num_points, true) <= memory_limit);
 }
 
@@ -82,10 +82,8 @@ static pspec_status prepare_dense(ps_kernel_system *system, ps_error *error) {
 
 /* The points given decide which way, not how many are left of them: so says the plan. */
 static pspec_status build(ps_kernel_system *system, const double *points, ps_error *error) {
-    const size_t most = system->options.most_dense;
-    const bool is_dense =
-        (most == 0 || system->num_points <= most) &&
-        ps_kernel_system_is_dense(system->num_points, system->options.memory_limit);
+    const bool is_dense = ps_kernel_system_is_dense(system->num_points, system->options.most_dense,
+                                                    system->options.memory_limit);
     PS_TRY(allocate(system, is_dense, error));
     PS_TRY(ps_kernel_points_merge(system, points, error));
     system->facts = (ps_kernel_facts){.num_distinct = system->num,

@@ -54,8 +54,8 @@ enum { PS_KERNEL_MOST_DENSE_ON_GPU = 4096 };
 /* Which of them; device: NULL: none. */
 size_t ps_kernel_most_dense(const ps_device *device);
 
-/* Is it Cholesky? memory_limit as in the options. */
-bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit);
+/* Is it Cholesky? most_dense and memory_limit as in the options. */
+bool ps_kernel_system_is_dense(size_t num_points, size_t most_dense, uint64_t memory_limit);
 
 /* points: unit vectors [num_points][3], copied. options NULL: the defaults. Points so near each
  * other that K is not positive definite in double precision are PSPEC_ERROR_INPUT and named. */
