@@ -1,5 +1,7 @@
 #include "math/morph.h"
 
+#include "shared/sphere_point.h"
+
 #include <math.h>
 
 /* The inverse of the distribution of e^{n(z-1)} with t up to most: t = -ln(1 - (1-z')(1 - e^{-n
@@ -31,18 +33,18 @@ double ps_morph_polar(const ps_morph *morph, double height, double polar) {
 
 /* The height z itself, where it is small: t alone would lose its digits. */
 static double height_of(const ps_morph *morph, double height, double polar) {
-    switch (morph->kind) {
-    case PS_MORPH_NONE:
-        return height;
-    case PS_MORPH_DIFFUSE:
-        return sqrt(height);
-    case PS_MORPH_PHONG:
-        return pow(height, 1 / (morph->exponent + 1));
-    case PS_MORPH_GLOSSY:
-    case PS_MORPH_GLOSSY_SPHERE:
-        break;
-    }
-    return 1 - ps_morph_polar(morph, height, polar);
+    return morph->kind == PS_MORPH_PHONG ? pow(height, 1 / (morph->exponent + 1))
+                                         : 1 - ps_morph_polar(morph, height, polar);
+}
+
+static void move_to_lobe(const ps_morph *morph, double *point) {
+    const double sine = hypot(point[0], point[1]);
+    const double polar = sine * sine / (1 + point[2]);
+    const double t = ps_morph_polar(morph, point[2], polar);
+    const double stretch = sine > 0 ? sqrt(t * (2 - t)) / sine : 0;
+    point[2] = height_of(morph, point[2], polar) + 0.0;
+    point[0] = point[0] * stretch + 0.0;
+    point[1] = point[1] * stretch + 0.0;
 }
 
 void ps_morph_points(const ps_morph *morph, size_t num, double *points) {
@@ -50,13 +52,10 @@ void ps_morph_points(const ps_morph *morph, size_t num, double *points) {
         return;
     }
     for (size_t j = 0; j < num; j++) {
-        double *const point = points + 3 * j;
-        const double sine = hypot(point[0], point[1]);
-        const double polar = sine * sine / (1 + point[2]);
-        const double t = ps_morph_polar(morph, point[2], polar);
-        const double stretch = sine > 0 ? sqrt(t * (2 - t)) / sine : 0;
-        point[2] = height_of(morph, point[2], polar) + 0.0;
-        point[0] = point[0] * stretch + 0.0;
-        point[1] = point[1] * stretch + 0.0;
+        if (morph->kind == PS_MORPH_DIFFUSE) {
+            ps_sphere_point_to_diffuse(points + 3 * j);
+        } else {
+            move_to_lobe(morph, points + 3 * j);
+        }
     }
 }

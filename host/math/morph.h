@@ -23,7 +23,8 @@ typedef struct ps_morph {
  * of points above it; relative error of t at most 4e-16 for n = 1 .. 1e5. */
 double ps_morph_polar(const ps_morph *morph, double height, double polar);
 
-/* Morphs unit vectors [num][3] of the hemisphere z >= 0 in place; azimuths stay. */
+/* Morphs unit vectors [num][3] of the hemisphere z >= 0 in place; azimuths stay. Devices move
+ * points to the diffuse lobe, too, with the same bits; other kinds take powers. */
 void ps_morph_points(const ps_morph *morph, size_t num, double *points);
 
 #endif

@@ -14,10 +14,15 @@ struct ps_device_sets {
     bool is_on_sphere;
 };
 
+/* Lobes with powers are for the host alone. */
+static bool is_morph_known(const ps_morph *morph) {
+    return morph->kind == PS_MORPH_NONE || morph->kind == PS_MORPH_DIFFUSE;
+}
+
 static bool is_known(const ps_sampler_request *request, bool has_doubles) {
     const ps_sampler_by_index *const by_index = &request->sampler->by_index;
     if (ps_sampler_is_on_sphere(request)) {
-        return by_index->point != NULL && request->morph.kind == PS_MORPH_NONE && has_doubles;
+        return by_index->point != NULL && is_morph_known(&request->morph) && has_doubles;
     }
     return by_index->places != NULL && (has_doubles || !by_index->needs_doubles);
 }
@@ -36,8 +41,9 @@ static pspec_status create(ps_device_sets *self, ps_error *error) {
     self->is_on_sphere = ps_sampler_is_on_sphere(request);
     PS_TRY(ps_sampler_fill_places(request, &self->places, error));
     if (self->is_on_sphere) {
-        ps_defines_add(&defines, "-DPOINTS=%s -DON_HEMISPHERE=%d", by_index->name,
-                       ps_sampler_is_on_hemisphere(request));
+        ps_defines_add(&defines, "-DPOINTS=%s -DON_HEMISPHERE=%d -DIS_DIFFUSE=%d", by_index->name,
+                       ps_sampler_is_on_hemisphere(request),
+                       request->morph.kind == PS_MORPH_DIFFUSE);
         PS_TRY(ps_kernel_get(self->device, &self->kernel, "samplers/sphere_points.cl",
                              "sampler_sphere_points", defines.text, error));
     } else {
@@ -99,6 +105,7 @@ static void make_point(const ps_device_sets *self, uint64_t realization, size_t 
     if (self->is_on_sphere) {
         by_index->point(numbers, ps_sampler_is_on_hemisphere(&self->request), realization, j,
                         point);
+        ps_morph_points(&self->request.morph, 1, point);
         return;
     }
     by_index->places(numbers, self->places.table[0], self->request.dimension, realization, j,

@@ -1,5 +1,5 @@
-/* A point of the sphere from its height and azimuth, by + - * and sqrt alone: the same bits on any
- * machine, and on devices with doubles.
+/* A point of the sphere from its height and azimuth, by + - * / and sqrt alone: the same bits on
+ * any machine, and on devices with doubles.
  */
 #ifndef PS_SHARED_SPHERE_POINT_H
 #define PS_SHARED_SPHERE_POINT_H
@@ -103,6 +103,15 @@ static inline void ps_sphere_point_of_area(const bool on_hemisphere, const doubl
     double sine = 0;
     ps_turn_cosine_sine(quarters, y - quarters * 0.25, &cosine, &sine);
     ps_sphere_point_of(z, t, cosine, sine, point);
+}
+
+/* A point of the hemisphere, of equal areas, to where their density is z: its height h becomes
+ * sqrt(h), and 1 - h^2 = (1 - h) (1 + h) says what that makes of the other two. */
+static inline void ps_sphere_point_to_diffuse(double *point) {
+    const double stretch = 1 / sqrt(1 + point[2]);
+    point[0] = point[0] * stretch + 0.0;
+    point[1] = point[1] * stretch + 0.0;
+    point[2] = sqrt(point[2]) + 0.0;
 }
 
 #endif

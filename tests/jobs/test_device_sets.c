@@ -28,6 +28,8 @@ static const job_case cases[] = {
     {"zphi", "sphere_nufft", 48, 3, 12, 9, 1e-9},
     {"zphi", "sphere_nufft", 3072, 3, 12, 2, 1e-9},
     {"jittered:lift=hemisphere", "sphere_nufft", 36, 3, 12, 5, 1e-5},
+    {"white-hemisphere:morph=diffuse", "sphere_nufft", PS_SELF_CHECK_POINTS + 9, 3, 9, 2, 1e-5},
+    {"fibonacci-hemisphere:morph=diffuse", "sphere_nufft", 61, 3, 9, 1, 1e-5},
     {"white:lift=sphere", "sphere_nufft", PS_SELF_CHECK_POINTS + 1001, 3, 70, 1, 1e-3},
     {"zphi", "sphere_nufft", 200000, 3, 40, 1, 1e-5},
 };

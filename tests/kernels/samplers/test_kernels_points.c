@@ -124,7 +124,10 @@ static void points_of_the_sphere_have_them_too(void **state) {
                                         "white:lift=sphere",
                                         "white:lift=hemisphere",
                                         "jittered:lift=sphere",
-                                        "jittered:lift=hemisphere"};
+                                        "jittered:lift=hemisphere",
+                                        "jittered:lift=hemisphere,morph=diffuse",
+                                        "white-hemisphere:morph=diffuse",
+                                        "fibonacci-hemisphere:morph=diffuse"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         check_text(texts[i], PS_VECTOR_DIMENSION);
@@ -168,7 +171,7 @@ static void others_are_made_by_the_host(void **state) {
     const ps_sampler_request latin = make_request("latin-hypercube", 9, 2);
     const ps_sampler_request lifted = make_request("white:lift=sphere", 9, 3);
     const ps_sampler_request net = make_request("sobol:lift=sphere", 9, 3);
-    const ps_sampler_request morphed = make_request("white-hemisphere:morph=diffuse", 9, 3);
+    const ps_sampler_request morphed = make_request("white-hemisphere:morph=phong,n=7", 9, 3);
     assert_true(ps_device_sets_serve(&white, &gpu));
     assert_true(ps_device_sets_serve(&white, &without_doubles));
     assert_true(ps_device_sets_serve(&jittered, &gpu));
