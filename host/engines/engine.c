@@ -67,6 +67,23 @@ ps_batch ps_batch_part(const ps_batch *batch, size_t first, size_t most) {
     return part;
 }
 
+pspec_pattern ps_pattern_part(const pspec_pattern *whole, size_t first, size_t most) {
+    const size_t rest = whole->num_points - first;
+    pspec_pattern part = *whole;
+    part.num_points = rest < most ? rest : most;
+    part.points = whole->points != NULL ? whole->points + first * whole->dimension : NULL;
+    part.weights = whole->weights != NULL ? whole->weights + first : NULL;
+    return part;
+}
+
+ps_batch ps_batch_chunk(const ps_batch *one, size_t first, size_t most, pspec_pattern *part) {
+    ps_batch chunk = *one;
+    *part = ps_pattern_part(&one->patterns[0], first, most);
+    chunk.patterns = part;
+    chunk.first_point += first;
+    return chunk;
+}
+
 size_t ps_batch_longest(const ps_batch *batch) {
     size_t longest = 1;
     for (size_t r = 0; r < batch->num_patterns; r++) {

@@ -122,6 +122,10 @@ pspec_status ps_batch_go_on_after(const ps_batch *batch, ps_device *device,
                                   ps_error *error) PS_MUST_CHECK;
 /* Patterns first .. of a batch, `most` at most, as a batch. */
 ps_batch ps_batch_part(const ps_batch *batch, size_t first, size_t most);
+/* Points first .. of a pattern, `most` at most, as a pattern. */
+pspec_pattern ps_pattern_part(const pspec_pattern *whole, size_t first, size_t most);
+/* The same of the only pattern of a batch, as a batch that borrows *part. */
+ps_batch ps_batch_chunk(const ps_batch *one, size_t first, size_t most, pspec_pattern *part);
 /* Points of the largest pattern, 1 at least. */
 size_t ps_batch_longest(const ps_batch *batch);
 

@@ -94,18 +94,11 @@ static pspec_status order_points(ps_sphere_state *self, const ps_batch *some, ps
 /* Points of the only pattern, a chunk at a time. */
 static pspec_status spread_chunks(ps_sphere_state *self, const ps_batch *one, ps_error *error) {
     ps_nufft_state *plane = &of(self)->plane;
-    const pspec_pattern *pattern = one->patterns;
     const size_t most = plane->layout.part_points;
     PS_TRY(plane->launcher->begin(plane, error));
-    for (size_t at = 0; at < pattern->num_points; at += most) {
-        const size_t left = pattern->num_points - at;
-        pspec_pattern chunk = *pattern;
-        chunk.points = one->sets != NULL ? NULL : pattern->points + at * PS_SPHERE_DIMENSION;
-        chunk.weights = pattern->weights != NULL ? pattern->weights + at : NULL;
-        chunk.num_points = left < most ? left : most;
-        ps_batch some = *one;
-        some.patterns = &chunk;
-        some.first_point = one->first_point + at;
+    for (size_t at = 0; at < one->patterns[0].num_points; at += most) {
+        pspec_pattern part;
+        const ps_batch some = ps_batch_chunk(one, at, most, &part);
         PS_TRY(order_points(self, &some, error));
         PS_TRY(plane->launcher->spread(plane, 1, error));
     }

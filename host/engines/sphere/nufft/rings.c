@@ -176,19 +176,13 @@ static pspec_status add_sorted(ps_sphere_state *self, bool is_first, ps_error *e
 /* Points of the only pattern, a chunk at a time. Once they are sorted, they may go. */
 static pspec_status add_chunks(ps_sphere_state *self, const ps_batch *one, ps_error *error) {
     const size_t most = self->shape.most_points;
-    const pspec_pattern *pattern = one->patterns;
-    for (size_t at = 0; at < pattern->num_points; at += most) {
-        const size_t left = pattern->num_points - at;
-        pspec_pattern chunk = *pattern;
-        chunk.points = one->sets != NULL ? NULL : pattern->points + at * PS_SPHERE_DIMENSION;
-        chunk.weights = pattern->weights != NULL ? pattern->weights + at : NULL;
-        chunk.num_points = left < most ? left : most;
-        ps_batch some = *one;
-        some.patterns = &chunk;
-        some.first_point = one->first_point + at;
+    const size_t num_points = one->patterns[0].num_points;
+    for (size_t at = 0; at < num_points; at += most) {
+        pspec_pattern part;
+        const ps_batch some = ps_batch_chunk(one, at, most, &part);
         PS_TRY(ps_batch_go_on(one, error));
         PS_TRY(ps_sphere_places_make(&self->points, &some, error));
-        PS_TRY(left <= most ? ps_sphere_places_return(&self->points, error) : PSPEC_OK);
+        PS_TRY(num_points - at <= most ? ps_sphere_places_return(&self->points, error) : PSPEC_OK);
         PS_TRY(add_sorted(self, at == 0, error));
     }
     return PSPEC_OK;

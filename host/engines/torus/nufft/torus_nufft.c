@@ -229,12 +229,7 @@ static pspec_status add_chunk(ps_nufft_state *self, const ps_batch *block, size_
     chunk.is_one_set = true;
     chunk.first_point += *first;
     for (; num < self->layout.parts && *first < whole->num_points; num++) {
-        const size_t rest = whole->num_points - *first, most = self->layout.part_points;
-        parts[num] = (pspec_pattern){
-            .dimension = whole->dimension,
-            .num_points = rest < most ? rest : most,
-            .points = whole->points != NULL ? whole->points + *first * whole->dimension : NULL,
-            .weights = whole->weights != NULL ? whole->weights + *first : NULL};
+        parts[num] = ps_pattern_part(whole, *first, self->layout.part_points);
         exponents[num] = exponent_of(block, 0);
         *first += parts[num].num_points;
     }
