@@ -106,7 +106,9 @@ static rates run_plain(const given *at, const bench_case *what, bench_plain_numb
 static rates run_trials(const given *at, ps_trials *trials, const double *moves, size_t num_trials,
                         double *estimates) {
     const double cpu = cpu_seconds(), clock = bench_seconds();
-    BENCH_TRY(ps_trials_run(trials, at->patterns, at->num_sets, moves, estimates, error));
+    BENCH_TRY(ps_trials_run(trials,
+                            &(ps_batch){.num_patterns = at->num_sets, .patterns = at->patterns},
+                            moves, estimates, error));
     return rates_of((double)(at->num_sets * NUM_POINTS * num_trials), cpu, clock);
 }
 
@@ -169,7 +171,8 @@ static void run_case(const given *at, const bench_case *what, ps_precision preci
     BENCH_TRY(ps_integrand_parse(&integrand, what->text, place, error));
     BENCH_TRY(ps_peak_create(&peak, at->device, precision, error));
     for (size_t i = 0; i < 2; i++) {
-        const ps_trials_options options = {precision, at->num_sets, NUM_POINTS, i == 0 ? 1 : MANY};
+        const ps_trials_options options = {precision, at->num_sets, NUM_POINTS, i == 0 ? 1 : MANY,
+                                           false};
         BENCH_TRY(ps_trials_create(&trials[i], integrand, &options, at->device, error));
     }
     float *const singles = calloc(integrand->num_table + 1, sizeof *singles);

@@ -20,7 +20,9 @@ struct ps_device_trials {
     unsigned lanes;
     size_t axis_numbers, most_pieces, most_moves; /* of a batch */
     ps_kernel *kernel;
+    ps_kernel *points_kernel; /* NULL: the host has all points */
     ps_buffer points, weights, pieces, moves, sums;
+    ps_buffer made;  /* as ps_device_sets_write leaves them; {0} with the kernel */
     ps_buffer table; /* of the integrand, where it has_table */
     bool has_table;
     values_piece *host_pieces;
@@ -32,13 +34,20 @@ struct ps_device_trials {
 
 /* ---- which kernel ---------------------------------------------------------------------------- */
 
-static pspec_status create_kernel(ps_device_trials *self, ps_error *error) {
+static pspec_status create_kernels(ps_device_trials *self, ps_error *error) {
     const ps_integrand_place place = self->integrand->place;
     const ps_precision precision = self->options.precision;
     ps_defines defines = ps_defines_of(ps_real_bytes(precision), self->lanes);
+    const bool on_sphere = place.where != PS_SAMPLES_TORUS;
+    if (self->options.makes_points) {
+        ps_defines of_points = ps_defines_of(ps_real_bytes(precision), 1);
+        ps_defines_add(&of_points, "-DDIMENSION=%u -DON_SPHERE=%d", place.dimension, on_sphere);
+        PS_TRY(ps_kernel_get(self->device, &self->points_kernel, "samplers/coordinates.cl",
+                             "sampler_coordinates", of_points.text, error));
+    }
     ps_defines_add(&defines, "-DINTEGRAND=%s -DDIMENSION=%u -DROTATE=%d -DFOLD=%d",
                    ps_integrand_kernel(self->integrand, precision == PS_DOUBLE), place.dimension,
-                   place.where != PS_SAMPLES_TORUS, place.where == PS_SAMPLES_HEMISPHERE);
+                   on_sphere, place.where == PS_SAMPLES_HEMISPHERE);
     return ps_kernel_get(self->device, &self->kernel, "integrands/values.cl", "integrand_values",
                          defines.text, error);
 }
@@ -88,6 +97,11 @@ static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->host_exponents, self->options.batch, "sizes of weights", error));
     PS_TRY(PS_NEW(&self->sizes_of_one, self->options.batch, "sizes of sets", error));
     PS_TRY(PS_NEW(&self->host_sums, 2 * num_sums, "sums of trials", error));
+    if (self->options.makes_points) {
+        const size_t num = self->axis_numbers * self->integrand->place.dimension;
+        PS_TRY(ps_buffer_create(self->device, &self->made, num * sizeof(uint64_t),
+                                "points that the device makes", error));
+    }
     const ps_wanted_buffer wanted[] = {
         {&self->points, self->axis_numbers * point_bytes, "points"},
         {&self->weights, self->axis_numbers * real_bytes, "weights"},
@@ -109,6 +123,7 @@ double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_opt
     const double pair_bytes = real_bytes + (double)sizeof(double);
     return (double)integrand->num_table * real_bytes + (copies ? (double)integrand->num_bytes : 0) +
            points * (integrand->place.dimension + 1) * real_bytes +
+           (options->makes_points ? points * integrand->place.dimension * sizeof(uint64_t) : 0) +
            2 * pieces * (double)sizeof(values_piece) + (moves + 2 * pieces * trials) * pair_bytes;
 }
 
@@ -122,7 +137,7 @@ pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand 
     self->options = *options;
     self->device = device;
     self->lanes = ps_engine_lanes(ps_device_get_limits(device), options->precision);
-    pspec_status status = create_kernel(self, error);
+    pspec_status status = create_kernels(self, error);
     if (status == PSPEC_OK) {
         status = create_buffers(self, error);
     }
@@ -142,7 +157,7 @@ void ps_device_trials_destroy(ps_device_trials *trials) {
         return;
     }
     PS_BUFFERS_RELEASE(&trials->points, &trials->weights, &trials->pieces, &trials->moves,
-                       &trials->sums, &trials->table);
+                       &trials->sums, &trials->made, &trials->table);
     free(trials->host_pieces);
     free(trials->host_moves);
     free(trials->host_sums);
@@ -184,15 +199,14 @@ static void put(const ps_device_trials *self, void *to, size_t at, putting numbe
     memset((char *)to + (at + numbers.num) * real_bytes, 0, rest * real_bytes);
 }
 
-static void put_points(ps_device_trials *self, void *to, const pspec_pattern *patterns,
-                       size_t num_patterns) {
+static void put_points(ps_device_trials *self, void *to, const ps_batch *batch) {
     const unsigned dimension = self->integrand->place.dimension;
     size_t at = 0;
-    for (size_t r = 0; r < num_patterns; r++) {
-        const size_t num = patterns[r].num_points;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const size_t num = batch->patterns[r].num_points;
         for (unsigned i = 0; i < dimension; i++) {
             put(self, to, i * self->axis_numbers + at,
-                (putting){patterns[r].points + i, dimension, num, 1});
+                (putting){batch->patterns[r].points + i, dimension, num, 1});
         }
         at += ps_round_up(num, self->lanes);
     }
@@ -211,14 +225,13 @@ static int exponent_of(const pspec_pattern *pattern) {
     return pattern->weights == NULL ? 0 : exponent < -most ? -most : exponent;
 }
 
-static void put_weights(ps_device_trials *self, void *to, const pspec_pattern *patterns,
-                        size_t num_patterns) {
+static void put_weights(ps_device_trials *self, void *to, const ps_batch *batch) {
     static const double one = 1;
     size_t at = 0;
-    for (size_t r = 0; r < num_patterns; r++) {
-        const double *const weights = patterns[r].weights;
-        const size_t num = patterns[r].num_points;
-        self->host_exponents[r] = exponent_of(&patterns[r]);
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const double *const weights = batch->patterns[r].weights;
+        const size_t num = batch->patterns[r].num_points;
+        self->host_exponents[r] = exponent_of(&batch->patterns[r]);
         put(self, to, at,
             (putting){weights != NULL ? weights : &one, weights != NULL, num,
                       ldexp(1, -self->host_exponents[r])});
@@ -227,30 +240,28 @@ static void put_weights(ps_device_trials *self, void *to, const pspec_pattern *p
 }
 
 /* Are weights of 1 there already, from sets of the same sizes? */
-static bool has_weights(const ps_device_trials *self, const pspec_pattern *patterns,
-                        size_t num_patterns) {
-    for (size_t r = 0; r < num_patterns; r++) {
-        if (r >= self->num_of_one || patterns[r].weights != NULL ||
-            patterns[r].num_points != self->sizes_of_one[r]) {
+static bool has_weights(const ps_device_trials *self, const ps_batch *batch) {
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        if (r >= self->num_of_one || batch->patterns[r].weights != NULL ||
+            batch->patterns[r].num_points != self->sizes_of_one[r]) {
             return false;
         }
     }
     return true;
 }
 
-static void note_weights(ps_device_trials *self, const pspec_pattern *patterns,
-                         size_t num_patterns) {
-    self->num_of_one = num_patterns;
-    for (size_t r = 0; r < num_patterns; r++) {
-        self->sizes_of_one[r] = patterns[r].num_points;
-        self->num_of_one = patterns[r].weights != NULL ? 0 : self->num_of_one;
+static void note_weights(ps_device_trials *self, const ps_batch *batch) {
+    self->num_of_one = batch->num_patterns;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        self->sizes_of_one[r] = batch->patterns[r].num_points;
+        self->num_of_one = batch->patterns[r].weights != NULL ? 0 : self->num_of_one;
     }
 }
 
 /* Fills a buffer in its own memory. */
 static pspec_status fill(ps_device_trials *self, const ps_buffer *buffer,
-                         void (*put_all)(ps_device_trials *, void *, const pspec_pattern *, size_t),
-                         const pspec_pattern *patterns, size_t num_patterns, ps_error *error) {
+                         void (*put_all)(ps_device_trials *, void *, const ps_batch *),
+                         const ps_batch *batch, ps_error *error) {
     ps_mapping mapping;
     PS_TRY(ps_mapping_begin(self->device, &mapping, buffer, error));
     const pspec_status status = ps_mapping_wait(&mapping, error);
@@ -258,18 +269,34 @@ static pspec_status fill(ps_device_trials *self, const ps_buffer *buffer,
         ps_mapping_abandon(self->device, &mapping);
         return status;
     }
-    put_all(self, mapping.data, patterns, num_patterns);
+    put_all(self, mapping.data, batch);
     return ps_mapping_end(self->device, &mapping, buffer->bytes, error);
 }
 
+/* The device makes the points itself. */
+static pspec_status make_points(ps_device_trials *self, const ps_batch *batch, ps_error *error) {
+    const size_t num_points = batch->patterns[0].num_points;
+    const sampler_range range = {.realization = batch->realization,
+                                 .num_realizations = batch->num_patterns,
+                                 .step = 1,
+                                 .count = num_points};
+    const sampler_sets sizes = {self->axis_numbers, batch->num_patterns, num_points,
+                                ps_round_up(num_points, self->lanes)};
+    const size_t num = (size_t)(sizes.num_sets * sizes.padded);
+    const double bytes = (double)self->made.bytes;
+    const ps_range items = ps_range_light(self->device, num, 1, 1, 0, bytes);
+    PS_TRY(ps_device_sets_write(batch->sets, &range, &self->made, error));
+    return PS_LAUNCH(self->device, self->points_kernel, &items, error, PS_STRUCT(sizes),
+                     PS_BUFFER(self->made), PS_BUFFER(self->points));
+}
+
 /* Returns how many pieces the sets make. */
-static size_t make_pieces(ps_device_trials *self, const pspec_pattern *patterns,
-                          size_t num_patterns) {
+static size_t make_pieces(ps_device_trials *self, const ps_batch *batch) {
     const size_t whole = VALUES_PIECE / self->lanes;
     size_t num = 0;
     size_t first = 0;
-    for (size_t r = 0; r < num_patterns; r++) {
-        size_t rest = ps_divide_up(patterns[r].num_points, self->lanes);
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        size_t rest = ps_divide_up(batch->patterns[r].num_points, self->lanes);
         while (rest > 0) {
             const size_t own = rest < whole ? rest : whole;
             self->host_pieces[num++] = (values_piece){first, (uint32_t)own, (uint32_t)r};
@@ -345,19 +372,19 @@ static void add_pieces(const ps_device_trials *self, size_t num_pieces, double *
     }
 }
 
-pspec_status ps_device_trials_sums(ps_device_trials *trials, const pspec_pattern *patterns,
-                                   size_t num_patterns, const double *moves, double *sums,
-                                   ps_error *error) {
+pspec_status ps_device_trials_sums(ps_device_trials *trials, const ps_batch *batch,
+                                   const double *moves, double *sums, ps_error *error) {
     ps_device_trials *const self = trials;
-    const size_t num_pieces = make_pieces(self, patterns, num_patterns);
+    const size_t num_pieces = make_pieces(self, batch);
     PS_TRY(ps_buffer_write(self->device, &self->pieces, 0, self->host_pieces,
                            num_pieces * sizeof *self->host_pieces, error));
-    PS_TRY(write_moves(self, num_patterns * self->options.num_trials, moves, error));
-    PS_TRY(fill(self, &self->points, put_points, patterns, num_patterns, error));
-    if (!has_weights(self, patterns, num_patterns)) {
+    PS_TRY(write_moves(self, batch->num_patterns * self->options.num_trials, moves, error));
+    PS_TRY(batch->sets != NULL ? make_points(self, batch, error)
+                               : fill(self, &self->points, put_points, batch, error));
+    if (!has_weights(self, batch)) {
         self->num_of_one = 0;
-        PS_TRY(fill(self, &self->weights, put_weights, patterns, num_patterns, error));
-        note_weights(self, patterns, num_patterns);
+        PS_TRY(fill(self, &self->weights, put_weights, batch, error));
+        note_weights(self, batch);
     }
     PS_TRY(launch(self, num_pieces, error));
     PS_TRY(ps_reals_read(self->device, &self->sums, self->options.precision, self->host_sums,

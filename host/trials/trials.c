@@ -14,7 +14,7 @@ struct ps_trials {
     ps_device_trials *device; /* NULL: on the host */
 };
 
-static bool is_for_device(const ps_integrand *integrand, ps_precision precision,
+bool ps_trials_fit_device(const ps_integrand *integrand, ps_precision precision,
                           const ps_device *device) {
     return device != NULL && ps_integrand_kernel(integrand, precision == PS_DOUBLE) != NULL &&
            integrand->num_bytes <= ps_device_get_limits(device)->max_allocation_bytes &&
@@ -35,7 +35,7 @@ pspec_status ps_trials_create(ps_trials **out, const ps_integrand *integrand,
     PS_TRY(PS_NEW(&self, 1, "trials", error));
     self->integrand = integrand;
     self->options = *options;
-    if (is_for_device(integrand, options->precision, device)) {
+    if (ps_trials_fit_device(integrand, options->precision, device)) {
         const pspec_status status =
             ps_device_trials_create(&self->device, integrand, options, device, error);
         if (status != PSPEC_OK) {
@@ -61,7 +61,7 @@ bool ps_trials_is_on_device(const ps_trials *trials) {
 double ps_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
                        const ps_device *device) {
     return (double)ps_integrand_table_bytes(integrand) +
-           (is_for_device(integrand, options->precision, device)
+           (ps_trials_fit_device(integrand, options->precision, device)
                 ? ps_device_trials_bytes(integrand, options, device)
                 : 0);
 }
@@ -106,36 +106,37 @@ static pspec_status scale_of(const ps_trials *self, const pspec_pattern *pattern
     return PSPEC_OK;
 }
 
-static pspec_status find_sums(ps_trials *self, const pspec_pattern *patterns, size_t num_patterns,
-                              const double *moves, double *sums, ps_error *error) {
+static pspec_status find_sums(ps_trials *self, const ps_batch *batch, const double *moves,
+                              double *sums, ps_error *error) {
     const size_t num_trials = self->options.num_trials;
     const size_t numbers = num_trials * ps_trials_move_numbers(self->integrand);
     if (self->device == NULL) {
-        ps_host_trials_sums(self->integrand, patterns, num_patterns, num_trials, moves, sums);
+        ps_host_trials_sums(self->integrand, batch->patterns, batch->num_patterns, num_trials,
+                            moves, sums);
         const ps_error *const failure = ps_integrand_failure(self->integrand);
         return failure == NULL || failure->status == PSPEC_OK
                    ? PSPEC_OK
                    : ps_fail(error, failure->status, "%s", failure->message);
     }
-    for (size_t done = 0; done < num_patterns; done += self->options.batch) {
-        const size_t rest = num_patterns - done;
-        PS_TRY(ps_device_trials_sums(
-            self->device, patterns + done, rest < self->options.batch ? rest : self->options.batch,
-            moves != NULL ? moves + done * numbers : NULL, sums + done * num_trials, error));
+    for (size_t done = 0; done < batch->num_patterns; done += self->options.batch) {
+        const ps_batch part = ps_batch_part(batch, done, self->options.batch);
+        PS_TRY(ps_device_trials_sums(self->device, &part,
+                                     moves != NULL ? moves + done * numbers : NULL,
+                                     sums + done * num_trials, error));
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_trials_run(ps_trials *trials, const pspec_pattern *patterns, size_t num_patterns,
-                           const double *moves, double *estimates, ps_error *error) {
+pspec_status ps_trials_run(ps_trials *trials, const ps_batch *batch, const double *moves,
+                           double *estimates, ps_error *error) {
     const size_t num_trials = trials->options.num_trials;
-    for (size_t i = 0; i < num_patterns; i++) {
-        PS_TRY(check_pattern(trials, &patterns[i], i, error));
+    for (size_t i = 0; i < batch->num_patterns; i++) {
+        PS_TRY(check_pattern(trials, &batch->patterns[i], i, error));
     }
-    PS_TRY(find_sums(trials, patterns, num_patterns, moves, estimates, error));
-    for (size_t i = 0; i < num_patterns; i++) {
+    PS_TRY(find_sums(trials, batch, moves, estimates, error));
+    for (size_t i = 0; i < batch->num_patterns; i++) {
         double scale = 0;
-        PS_TRY(scale_of(trials, &patterns[i], i, &scale, error));
+        PS_TRY(scale_of(trials, &batch->patterns[i], i, &scale, error));
         for (size_t t = 0; t < num_trials; t++) {
             estimates[i * num_trials + t] *= scale;
         }

@@ -11,8 +11,8 @@
 #ifndef PS_TRIALS_TRIALS_H
 #define PS_TRIALS_TRIALS_H
 
-#include "device/device.h"
 #include "device/precision.h"
+#include "engines/engine.h"
 #include "integrands/integrand.h"
 #include "pointspec/pointspec.h"
 
@@ -23,6 +23,7 @@ typedef struct ps_trials_options {
     size_t batch;       /* most sets at a time on the device */
     size_t most_points; /* of a set */
     size_t num_trials;  /* of each set */
+    bool makes_points;  /* the device, of batches that have `sets` */
 } ps_trials_options;
 
 typedef struct ps_trials ps_trials;
@@ -35,6 +36,9 @@ pspec_status ps_trials_create(ps_trials **out, const ps_integrand *integrand,
                               ps_error *error) PS_MUST_CHECK;
 void ps_trials_destroy(ps_trials *trials); /* NULL is allowed */
 bool ps_trials_is_on_device(const ps_trials *trials);
+/* Would they be? */
+bool ps_trials_fit_device(const ps_integrand *integrand, ps_precision precision,
+                          const ps_device *device);
 /* Bytes of what such trials take, on the device and the host, with the table of the integrand, but
  * for patterns, moves and estimates. */
 double ps_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
@@ -49,10 +53,11 @@ static inline size_t ps_trials_move_numbers(const ps_integrand *integrand) {
 }
 
 /* estimates[num_patterns][num_trials]; moves [num_patterns][num_trials][numbers of a move], NULL:
- * points stay where they are. Coordinates are in [0,1), or unit vectors: who gives them has checked
- * it. Sets of another dimension, of no points or more than were announced, and with weights that
- * are 0 together are PSPEC_ERROR_INVALID_ARGUMENT. */
-pspec_status ps_trials_run(ps_trials *trials, const pspec_pattern *patterns, size_t num_patterns,
-                           const double *moves, double *estimates, ps_error *error) PS_MUST_CHECK;
+ * points stay where they are. Of the batch patterns count, and sets with realization. Coordinates
+ * are in [0,1), or unit vectors: who gives them has checked it. Sets of another dimension, of no
+ * points or more than were announced, and with weights that are 0 together are
+ * PSPEC_ERROR_INVALID_ARGUMENT. */
+pspec_status ps_trials_run(ps_trials *trials, const ps_batch *batch, const double *moves,
+                           double *estimates, ps_error *error) PS_MUST_CHECK;
 
 #endif

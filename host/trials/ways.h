@@ -16,9 +16,10 @@ double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_opt
                               const ps_device *device);
 void ps_device_trials_destroy(ps_device_trials *trials); /* NULL is allowed */
 
-/* sums[num_patterns][num_trials] of w F, of one batch at most; moves as in trials/trials.h. */
-pspec_status ps_device_trials_sums(ps_device_trials *trials, const pspec_pattern *patterns,
-                                   size_t num_patterns, const double *moves, double *sums,
+/* sums[num_patterns][num_trials] of w F, of options.batch patterns at most; moves as in
+ * trials/trials.h. */
+pspec_status ps_device_trials_sums(ps_device_trials *trials, const ps_batch *batch,
+                                   const double *moves, double *sums,
                                    ps_error *error) PS_MUST_CHECK;
 
 /* sums[num_patterns][num_trials] of w F, by several threads where values cannot fail; moves as in

@@ -46,4 +46,13 @@ typedef struct sampler_range {
 
 SAME_SIZE(sampler_range, 40);
 
+/* Sets that the device made, all of one size (samplers/coordinates.cl). */
+typedef struct sampler_sets {
+    ps_u64 capacity; /* numbers of an axis */
+    ps_u64 num_sets, num_points;
+    ps_u64 padded; /* num_points, rounded up to whole vectors */
+} sampler_sets;
+
+SAME_SIZE(sampler_sets, 32);
+
 #endif

@@ -103,6 +103,16 @@ ps_device *test_open_gpu(void) {
     return device;
 }
 
+uint64_t test_count_launches(const ps_device *device, const char *words) {
+    size_t num = 0;
+    uint64_t launches = 0;
+    const ps_profile_row *const rows = ps_device_profile(device, &num);
+    for (size_t i = 0; i < num; i++) {
+        launches += strncmp(rows[i].kernel, words, strlen(words)) == 0 ? rows[i].launches : 0;
+    }
+    return launches;
+}
+
 size_t test_group(size_t usual) {
     const char *const forced = getenv("POINTSPEC_TEST_GROUP");
     return forced != NULL ? strtoul(forced, NULL, 10) : usual;

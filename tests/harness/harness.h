@@ -55,6 +55,8 @@ pspec_pattern test_pattern(const test_set *set);
 ps_device *test_open_device(void);
 /* The same, which works as GPUs do, in groups of test_group, and counts launches. */
 ps_device *test_open_gpu(void);
+/* Launches so far of such a device, of kernels whose names begin with the words. */
+uint64_t test_count_launches(const ps_device *device, const char *words);
 
 /* Items of a work-group as GPUs have them: POINTSPEC_TEST_GROUP, which .ci/run draws from 32 to
  * 512, else `usual`. */

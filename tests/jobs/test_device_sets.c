@@ -5,8 +5,6 @@
 #include "jobs/self_check.h"
 #include "jobs/spectrum/power_job.h"
 
-#include <string.h>
-
 static ps_device *device;
 
 typedef struct job_case {
@@ -34,17 +32,8 @@ static const job_case cases[] = {
     {"zphi", "sphere_nufft", 200000, 3, 40, 1, 1e-5},
 };
 
-/* Launches of the kernel that makes points, so far. */
-static uint64_t count_launches(void) {
-    size_t num = 0;
-    uint64_t launches = 0;
-    const ps_profile_row *const rows = ps_device_profile(device, &num);
-    for (size_t i = 0; i < num; i++) {
-        const bool makes_points = strcmp(rows[i].kernel, "sampler_points") == 0 ||
-                                  strcmp(rows[i].kernel, "sampler_sphere_points") == 0;
-        launches += makes_points ? rows[i].launches : 0;
-    }
-    return launches;
+static uint64_t count_launches(void) { /* of kernels that make points */
+    return test_count_launches(device, "sampler_");
 }
 
 /* The picture of the first set wants its points on the host. */

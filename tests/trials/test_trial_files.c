@@ -145,13 +145,14 @@ static void fill(double *points, double *moves, ps_integrand_place place, double
 
 static estimates estimate(const ps_integrand *integrand, ps_device *where, ps_precision precision,
                           const double *points, const double *moves) {
-    const ps_trials_options options = {precision, 1, POINTS, TRIALS};
+    const ps_trials_options options = {precision, 1, POINTS, TRIALS, false};
     const pspec_pattern pattern = {integrand->place.dimension, POINTS, points, NULL};
     ps_trials *trials = NULL;
     estimates found;
     assert_ok(ps_trials_create(&trials, integrand, &options, where, error));
     found.is_on_device = ps_trials_is_on_device(trials);
-    assert_ok(ps_trials_run(trials, &pattern, 1, moves, found.of_trial, error));
+    assert_ok(ps_trials_run(trials, &(ps_batch){.num_patterns = 1, .patterns = &pattern}, moves,
+                            found.of_trial, error));
     ps_trials_destroy(trials);
     return found;
 }

@@ -67,7 +67,7 @@ static void make_unit_vectors(double *points) {
 
 static void check_rotations(const ps_integrand *integrand, double volume, ps_precision precision,
                             ps_device *where, bool is_on_device) {
-    const ps_trials_options options = {precision, 1, SPHERE_POINTS, NUM_ROTATIONS};
+    const ps_trials_options options = {precision, 1, SPHERE_POINTS, NUM_ROTATIONS, false};
     double points[3 * SPHERE_POINTS];
     double expected[NUM_ROTATIONS];
     double found[NUM_ROTATIONS];
@@ -77,7 +77,8 @@ static void check_rotations(const ps_integrand *integrand, double volume, ps_pre
     by_hand(integrand, points, volume, expected);
     assert_ok(ps_trials_create(&trials, integrand, &options, where, error));
     assert_true(ps_trials_is_on_device(trials) == is_on_device);
-    assert_ok(ps_trials_run(trials, &pattern, 1, rotations[0], found, error));
+    assert_ok(ps_trials_run(trials, &(ps_batch){.num_patterns = 1, .patterns = &pattern},
+                            rotations[0], found, error));
     for (size_t t = 0; t < NUM_ROTATIONS; t++) {
         assert_true(fabs(found[t] - expected[t]) <
                     (is_on_device && precision == PS_SINGLE ? 1e-5 : 1e-13));
@@ -107,7 +108,7 @@ static void rotations_and_halves(void **state) {
 /* Estimates of the device and of the host, in doubles. */
 static void check_values(const char *text) {
     const ps_integrand_place place = {PS_SAMPLES_SPHERE, 3};
-    const ps_trials_options options = {PS_DOUBLE, 1, SPHERE_POINTS, NUM_ROTATIONS};
+    const ps_trials_options options = {PS_DOUBLE, 1, SPHERE_POINTS, NUM_ROTATIONS, false};
     double points[3 * SPHERE_POINTS];
     const pspec_pattern pattern = {3, SPHERE_POINTS, points, NULL};
     double found[2][NUM_ROTATIONS];
@@ -118,7 +119,8 @@ static void check_values(const char *text) {
         ps_trials *trials = NULL;
         assert_ok(ps_trials_create(&trials, integrand, &options, i == 0 ? NULL : device, error));
         assert_true(ps_trials_is_on_device(trials) == (i == 1));
-        assert_ok(ps_trials_run(trials, &pattern, 1, rotations[0], found[i], error));
+        assert_ok(ps_trials_run(trials, &(ps_batch){.num_patterns = 1, .patterns = &pattern},
+                                rotations[0], found[i], error));
         ps_trials_destroy(trials);
     }
     for (size_t t = 0; t < NUM_ROTATIONS; t++) {

@@ -74,11 +74,13 @@ static ps_integrand *parse(const char *text, unsigned dimension) {
 /* Estimates of all sets and trials; where NULL: on the host. */
 static void estimate(const ps_integrand *integrand, ps_device *where, ps_precision precision,
                      size_t batch, const sets *given, const double *moves, double *estimates) {
-    const ps_trials_options options = {precision, batch, MOST_POINTS, given->num_trials};
+    const ps_trials_options options = {precision, batch, MOST_POINTS, given->num_trials, false};
     ps_trials *trials = NULL;
     assert_ok(ps_trials_create(&trials, integrand, &options, where, error));
     assert_true(ps_trials_is_on_device(trials) == (where != NULL));
-    assert_ok(ps_trials_run(trials, given->patterns, given->num, moves, estimates, error));
+    assert_ok(ps_trials_run(trials,
+                            &(ps_batch){.num_patterns = given->num, .patterns = given->patterns},
+                            moves, estimates, error));
     ps_trials_destroy(trials);
 }
 
@@ -89,7 +91,7 @@ static bool has_double(void) {
 /* ---- kernels --------------------------------------------------------------------------------- */
 
 static void every_integrand_of_the_torus_has_a_kernel(void **state) {
-    const ps_trials_options options = {PS_SINGLE, 1, 1, 1};
+    const ps_trials_options options = {PS_SINGLE, 1, 1, 1, false};
     (void)state;
     for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
         const ps_integrand_kind *const kind = ps_integrand_kinds[i];
@@ -189,7 +191,7 @@ static void smooth_values_are_those_of_the_host(void **state) {
 /* The mean of a Gaussian over a grid is its integral, to the waves that the grid takes for 0. */
 static void a_grid_gives_the_integral(void **state) {
     enum { SIDE = 48 };
-    const ps_trials_options options = {PS_DOUBLE, 1, SIDE * SIDE, 1};
+    const ps_trials_options options = {PS_DOUBLE, 1, SIDE * SIDE, 1, false};
     const double shift[] = {0.123, 0.77};
     ps_integrand *integrand = parse("gaussian:sigma=0.0625", 2);
     double *points = calloc((size_t)2 * SIDE * SIDE, sizeof *points);
@@ -203,7 +205,8 @@ static void a_grid_gives_the_integral(void **state) {
         ps_trials *trials = NULL;
         double found = 0;
         assert_ok(ps_trials_create(&trials, integrand, &options, on_device ? device : NULL, error));
-        assert_ok(ps_trials_run(trials, &grid, 1, shift, &found, error));
+        assert_ok(ps_trials_run(trials, &(ps_batch){.num_patterns = 1, .patterns = &grid}, shift,
+                                &found, error));
         assert_true(fabs(found - PS_TWO_PI * 0.0625 * 0.0625) < 1e-15);
         ps_trials_destroy(trials);
     }
@@ -216,12 +219,14 @@ static void a_grid_gives_the_integral(void **state) {
 /* Every trial by itself. */
 static void estimate_apart(const ps_integrand *integrand, const sets *given, ps_precision precision,
                            double *estimates) {
-    const ps_trials_options options = {precision, 1, MOST_POINTS, 1};
+    const ps_trials_options options = {precision, 1, MOST_POINTS, 1, false};
     ps_trials *trials = NULL;
     assert_ok(ps_trials_create(&trials, integrand, &options, device, error));
     for (size_t i = 0; i < given->num * given->num_trials; i++) {
-        assert_ok(ps_trials_run(trials, &given->patterns[i / given->num_trials], 1,
-                                given->moves + i * given->numbers, &estimates[i], error));
+        assert_ok(ps_trials_run(
+            trials,
+            &(ps_batch){.num_patterns = 1, .patterns = &given->patterns[i / given->num_trials]},
+            given->moves + i * given->numbers, &estimates[i], error));
     }
     ps_trials_destroy(trials);
 }
@@ -271,7 +276,7 @@ static void shifts_wrap(void **state) {
         {1 - 0x1p-53, 1 - 0x1p-53, 1, 0},
         {0, 1 - 0x1p-53, 1, 0},
     };
-    const ps_trials_options options = {PS_SINGLE, 1, 1, 1};
+    const ps_trials_options options = {PS_SINGLE, 1, 1, 1, false};
     ps_integrand *integrand = parse("half-plane:angle=0,offset=0.5", 2);
     (void)state;
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
@@ -283,7 +288,8 @@ static void shifts_wrap(void **state) {
             double found = 0;
             assert_ok(
                 ps_trials_create(&trials, integrand, &options, on_device ? device : NULL, error));
-            assert_ok(ps_trials_run(trials, &one, 1, shift, &found, error));
+            assert_ok(ps_trials_run(trials, &(ps_batch){.num_patterns = 1, .patterns = &one}, shift,
+                                    &found, error));
             assert_true(found == (on_device ? cases[c].single : cases[c].exact));
             ps_trials_destroy(trials);
         }
@@ -335,7 +341,8 @@ static void sizes_of_weights_do_not_matter(void **state) {
 static void assert_refused(ps_trials *trials, pspec_pattern pattern, const char *words) {
     double estimate_of_one = 0;
     ps_error error = {0};
-    assert_int_equal(ps_trials_run(trials, &pattern, 1, NULL, &estimate_of_one, &error),
+    assert_int_equal(ps_trials_run(trials, &(ps_batch){.num_patterns = 1, .patterns = &pattern},
+                                   NULL, &estimate_of_one, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(error.message, words));
 }
@@ -343,7 +350,7 @@ static void assert_refused(ps_trials *trials, pspec_pattern pattern, const char 
 static void what_is_refused(void **state) {
     const double points[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
     const double weights[] = {1, -1};
-    ps_trials_options options = {PS_SINGLE, 1, 2, 1};
+    ps_trials_options options = {PS_SINGLE, 1, 2, 1, false};
     ps_integrand *integrand = parse("disk", 2);
     ps_trials *trials = NULL;
     ps_error error = {0};
@@ -358,7 +365,7 @@ static void what_is_refused(void **state) {
     assert_int_equal(ps_trials_create(&trials, integrand, &options, device, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_null(trials);
-    options = (ps_trials_options){PS_SINGLE, SIZE_MAX / 2, 1000, 3};
+    options = (ps_trials_options){PS_SINGLE, SIZE_MAX / 2, 1000, 3, false};
     assert_int_equal(ps_trials_create(&trials, integrand, &options, device, &error),
                      PSPEC_ERROR_MEMORY);
     ps_integrand_destroy(integrand);

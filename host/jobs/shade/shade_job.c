@@ -48,7 +48,7 @@ static pspec_status make_room(ps_shade_job *self, size_t num_points, ps_error *e
                   error));
     self->estimates = self->moves + self->trials_of_call * PS_ROTATION_NUMBERS;
     const ps_trials_options options = {has_doubles ? PS_DOUBLE : PS_SINGLE, 1, num_points,
-                                       self->trials_of_call};
+                                       self->trials_of_call, false};
     return ps_trials_create(&self->trials, self->light->integrand, &options, device, error);
 }
 
@@ -66,7 +66,8 @@ static pspec_status measure_some(ps_shade_job *self, const pspec_pattern *patter
         const ps_rotation rotation = ps_rotation_random(random);
         memcpy(self->moves + i * PS_ROTATION_NUMBERS, rotation.matrix, sizeof rotation.matrix);
     }
-    PS_TRY(ps_trials_run(self->trials, pattern, 1, self->moves, self->estimates, error));
+    PS_TRY(ps_trials_run(self->trials, &(ps_batch){.num_patterns = 1, .patterns = pattern},
+                         self->moves, self->estimates, error));
     for (size_t i = 0; i < num; i++) {
         const double *const move = self->moves + i * PS_ROTATION_NUMBERS;
         const double normal[3] = {move[2], move[5], move[8]}; /* R z */

@@ -108,7 +108,8 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
                                           : fmax(1, nearbyint(out.points / each));
         out.points = out.sets * each;
     }
-    const bool is_checked = question->on_sphere || job->problem.has_weights;
+    const bool is_checked =
+        (question->on_sphere || job->problem.has_weights) && !ps_power_job_leaves_points(job);
     ps_phases_add(phases, "points", is_checked ? out.points * checked_seconds : 0);
     return out;
 }

@@ -18,6 +18,10 @@
  * one call: half a second of a processor, after which somebody may stop the work. */
 enum { BATCH_POINTS = 1 << 18, BATCH_TRIALS = 1 << 18, MOST_BATCH = 256, CALL_VALUES = 1 << 24 };
 
+/* Of a GPU: a batch waits some tenths of a millisecond for its copies, in which an H200 has a
+ * million values (counted, not measured). */
+enum { GPU_BATCH_POINTS = 1 << 22, GPU_MOST_BATCH = 1 << 12, GPU_CALL_VALUES = 1 << 26 };
+
 typedef struct measurement {
     const ps_measurement_plan *plan;
     size_t batch; /* sets at a time; 1 where the shifts of one are several calls */
@@ -25,6 +29,7 @@ typedef struct measurement {
     ps_point_set *sets;      /* [batch] */
     pspec_pattern *patterns; /* [batch] */
     ps_trials **trials;      /* [num_integrands] */
+    ps_device_sets *made;    /* NULL: sets have the points */
     double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
     double *estimates;       /* [batch][num_calls][trials_of_call] */
     ps_sums *sums;           /* [num_integrands] of rows */
@@ -45,13 +50,18 @@ static size_t divide(size_t a, size_t b) { /* at least 1 */
     return a > b ? a / b : 1;
 }
 
+static bool is_on_gpu(const measurement *self) {
+    const ps_device *const device = self->plan->device;
+    return device != NULL && ps_device_get_limits(device)->has_dedicated_local_memory;
+}
+
 /* Values that are sums cost as much as so many others. */
 static size_t values_of_call(const measurement *self) {
     double most = 1;
     for (size_t i = 0; i < self->plan->num_integrands; i++) {
         most = fmax(most, ps_integrand_steps(self->plan->integrands[i]));
     }
-    return divide(CALL_VALUES, (size_t)most);
+    return divide(is_on_gpu(self) ? GPU_CALL_VALUES : CALL_VALUES, (size_t)most);
 }
 
 static void choose_calls(measurement *self, size_t trials_of_call) {
@@ -63,10 +73,12 @@ static void choose_sizes(measurement *self) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t points = plan->most_points;
     const size_t num_shifts = (size_t)plan->num_shifts;
+    const size_t batch_points = is_on_gpu(self) ? GPU_BATCH_POINTS : BATCH_POINTS;
+    const size_t most_batch = is_on_gpu(self) ? GPU_MOST_BATCH : MOST_BATCH;
     choose_calls(self, least(num_shifts, divide(values_of_call(self), points)));
-    const size_t fit = least(divide(BATCH_POINTS, points), divide(BATCH_TRIALS, num_shifts));
+    const size_t fit = least(divide(batch_points, points), divide(BATCH_TRIALS, num_shifts));
     const size_t quick = divide(values_of_call(self), points * self->trials_of_call);
-    const size_t most = self->num_calls > 1 ? 1 : least(least(fit, quick), MOST_BATCH);
+    const size_t most = self->num_calls > 1 ? 1 : least(least(fit, quick), most_batch);
     self->batch = plan->num_sets < most ? (size_t)plan->num_sets : most;
 }
 
@@ -78,7 +90,19 @@ static ps_trials_options choose_options(const measurement *self) {
     return (ps_trials_options){.precision = choose_precision(self->plan->device),
                                .batch = self->batch,
                                .most_points = self->plan->most_points,
-                               .num_trials = self->trials_of_call};
+                               .num_trials = self->trials_of_call,
+                               .makes_points = self->plan->made != NULL};
+}
+
+bool ps_measurement_may_make(const ps_measurement_plan *plan, const ps_sampler_request *sampler) {
+    const ps_device *const device = plan->device;
+    for (size_t i = 0; device != NULL && i < plan->num_integrands; i++) {
+        if (!ps_trials_fit_device(plan->integrands[i], choose_precision(device), device)) {
+            return false;
+        }
+    }
+    return device != NULL && !plan->is_one_set &&
+           ps_device_sets_serve(sampler, ps_device_get_limits(device));
 }
 
 /* Of all that allocate takes, with weights, and of the sets. */
@@ -86,7 +110,7 @@ static double count_bytes(const measurement *self) {
     const ps_measurement_plan *const plan = self->plan;
     const ps_trials_options options = choose_options(self);
     const double numbers = plan->integrands[0]->place.dimension + 1;
-    const double sets = plan->is_one_set ? 1 : (double)self->batch;
+    const double sets = plan->made != NULL ? 0 : plan->is_one_set ? 1 : (double)self->batch;
     const double trials = (double)self->batch * (double)(self->num_calls * self->trials_of_call);
     double sum =
         sets * (double)plan->most_points * numbers + trials * (double)(move_numbers(self) + 1);
@@ -156,6 +180,9 @@ static pspec_status allocate(measurement *self, ps_error *error) {
     PS_TRY(PS_NEW(&self->moves, num_trials * move_numbers(self), "shifts", error));
     PS_TRY(PS_NEW(&self->estimates, num_trials, "estimates", error));
     PS_TRY(PS_NEW(&self->sums, plan->num_integrands, "sums", error));
+    if (plan->made != NULL) {
+        PS_TRY(ps_device_sets_create(&self->made, plan->made, plan->device, error));
+    }
     return create_trials(self, error);
 }
 
@@ -166,6 +193,7 @@ static void release(measurement *self) {
     for (size_t i = 0; self->trials != NULL && i < self->plan->num_integrands; i++) {
         ps_trials_destroy(self->trials[i]);
     }
+    ps_device_sets_destroy(self->made);
     free(self->sets);
     free(self->patterns);
     free(self->trials);
@@ -198,6 +226,11 @@ static void make_moves(const measurement *self, uint64_t realization, double *mo
 /* Set i of the batch; of a single set there is one, read once. */
 static pspec_status read_set(measurement *self, size_t i, ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
+    if (plan->made != NULL) {
+        self->patterns[i] = (pspec_pattern){.dimension = plan->made->dimension,
+                                            .num_points = plan->made->num_points};
+        return PSPEC_OK;
+    }
     ps_point_set *const set = &self->sets[plan->is_one_set ? 0 : i];
     if (!plan->is_one_set || set->num_points == 0) {
         PS_TRY(ps_variance_sets_next(plan->source, set, error));
@@ -231,9 +264,13 @@ static pspec_status estimate(measurement *self, size_t integrand, uint64_t first
                              ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t numbers = self->trials_of_call * move_numbers(self);
+    const ps_batch batch = {.num_patterns = num,
+                            .patterns = self->patterns,
+                            .sets = self->made,
+                            .realization = plan->first + first};
     for (size_t call = 0; call < self->num_calls; call++) {
         const double *const moves = plan->is_moved ? self->moves + call * numbers : NULL;
-        PS_TRY(ps_trials_run(self->trials[integrand], self->patterns, num, moves,
+        PS_TRY(ps_trials_run(self->trials[integrand], &batch, moves,
                              self->estimates + call * self->trials_of_call, error));
         PS_TRY(ps_watch_tell(plan->watch, "realizations measured", first, plan->num_sets, NULL,
                              error));
@@ -286,8 +323,9 @@ static void take(void *payload, uint64_t number, const void *row) {
 static pspec_status pass(void *payload, uint64_t num, uint64_t *passed, ps_error *error) {
     const ps_measurement_plan *const plan = ((const measurement *)payload)->plan;
     *passed = num;
-    return plan->is_one_set ? PSPEC_OK
-                            : ps_source_pass(plan->source, num, plan->watch, passed, error);
+    return plan->is_one_set || plan->made != NULL
+               ? PSPEC_OK
+               : ps_source_pass(plan->source, num, plan->watch, passed, error);
 }
 
 static pspec_status walk(void *payload, ps_snapshot *snapshot, ps_error *error) {

@@ -7,8 +7,10 @@
 #include "spectra/accumulate/accumulate.h"
 
 typedef struct ps_measurement_plan {
-    ps_source *source; /* at the first set that is measured */
-    bool is_one_set;   /* it has one, and num_sets are moves of that */
+    ps_source *source; /* at the first set that is measured; not of sets that the device makes */
+    /* Realizations of the sampler that the device makes for trials; NULL: the source has them */
+    const ps_sampler_request *made;
+    bool is_one_set; /* it has one, and num_sets are moves of that */
     size_t most_points;
     const double *weights; /* [most_points] of every set; NULL: theirs */
     const ps_integrand *const *integrands;
@@ -23,6 +25,9 @@ typedef struct ps_measurement_plan {
     const ps_watch *watch;
     const ps_checkpoint_spec *checkpoint; /* NULL: none */
 } ps_measurement_plan;
+
+/* May the device of the plan make sets of the sampler? For trials that are all there. */
+bool ps_measurement_may_make(const ps_measurement_plan *plan, const ps_sampler_request *sampler);
 
 /* Bytes that the measurement takes, in batches that the limit and what is free leave, where source
  * and weights are not looked at. PSPEC_ERROR_MEMORY where single sets are too much. */

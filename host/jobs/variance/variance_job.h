@@ -73,6 +73,7 @@ typedef struct ps_variance_job {
     ps_shape shape;                 /* profiles of bounds, where they were asked for, after run */
     ps_variance_sets files;         /* {0} of a sampler */
     ps_variance_trials trials;      /* num_shifts 0: none */
+    ps_sampler_request measured_sampler; /* whose sets are moved by trials alone; {0} of files */
     double trial_bytes;
     double image_seconds; /* of the powers of integrands that are points; 0: there are none */
 } ps_variance_job;

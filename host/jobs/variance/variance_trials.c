@@ -62,7 +62,7 @@ static ps_measurement_plan plan_measurement(const ps_variance_job *job) {
     const ps_variance_question *const question = job->question;
     const ps_power_question *const spectrum = &question->spectrum;
     const bool is_one_set = job->trials.is_one_set;
-    return (ps_measurement_plan){
+    ps_measurement_plan plan = {
         .is_one_set = is_one_set,
         .most_points = spectrum->sampler != NULL ? ps_sampler_most_points(spectrum->sampler)
                                                  : job->files.most_points,
@@ -78,10 +78,20 @@ static ps_measurement_plan plan_measurement(const ps_variance_job *job) {
         .device = job->spectrum->device,
         .watch = &spectrum->watch,
     };
+    if (spectrum->sampler != NULL && ps_measurement_may_make(&plan, &job->measured_sampler)) {
+        plan.made = &job->measured_sampler;
+        plan.making_bytes = 0;
+    }
+    return plan;
 }
 
 pspec_status ps_variance_trials_prepare(ps_variance_job *job, ps_error *error) {
+    const ps_sampler_request *const sampler = job->question->spectrum.sampler;
     job->trials = choose_trials(job);
+    if (sampler != NULL) {
+        job->measured_sampler = *sampler;
+        job->measured_sampler.homogenize = false;
+    }
     const ps_measurement_plan plan = plan_measurement(job);
     return job->trials.num_shifts > 0 ? ps_measurement_bytes(&plan, &job->trial_bytes, error)
                                       : PSPEC_OK;
@@ -89,7 +99,8 @@ pspec_status ps_variance_trials_prepare(ps_variance_job *job, ps_error *error) {
 
 /* ---- run ----------------------------------------------------------------------------------- */
 
-/* The source of the plan: the sampler's *owned, to be destroyed, or the files'. */
+/* The source of the plan: the sampler's *owned, to be destroyed, the files', or none where the
+ * device makes the sets. */
 static pspec_status open_source(ps_variance_job *job, ps_measurement_plan *plan, ps_source **owned,
                                 ps_error *error) {
     const ps_power_question *const spectrum = &job->question->spectrum;
@@ -97,13 +108,14 @@ static pspec_status open_source(ps_variance_job *job, ps_measurement_plan *plan,
     if (spectrum->sampler == NULL) {
         return ps_variance_sets_seek(&job->files, error);
     }
-    ps_sampler_request sampler = *spectrum->sampler;
+    if (plan->made != NULL) {
+        return PSPEC_OK;
+    }
     ps_sets_options sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip);
-    sampler.homogenize = false;
     sets.first = plan->first;
     sets.taken = (uint64_t)fmax(job->trial_bytes - plan->making_bytes, 0);
-    PS_TRY(
-        ps_source_sampler(owned, &sampler, job->trials.num_sets, &sets, &spectrum->watch, error));
+    PS_TRY(ps_source_sampler(owned, &job->measured_sampler, job->trials.num_sets, &sets,
+                             &spectrum->watch, error));
     plan->source = *owned;
     return PSPEC_OK;
 }
@@ -216,13 +228,15 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
     if (values == 0) {
         return;
     }
-    if (spectrum->sampler != NULL) {
-        ps_phases_sample(phases, spectrum->sampler, num_sets, &sets);
-    } else {
+    const bool is_made = plan_measurement(job).made != NULL;
+    if (spectrum->sampler == NULL) {
         add_reading(job, phases);
+    } else if (!is_made) {
+        ps_phases_sample(phases, spectrum->sampler, num_sets, &sets);
     }
     for (size_t i = 0; i < job->question->num_integrands; i++) {
-        seconds += seconds_of(job, job->integrands[i], num_sets * points, value_points);
+        seconds +=
+            seconds_of(job, job->integrands[i], is_made ? 0 : num_sets * points, value_points);
     }
     ps_phases_add(phases, "trials", seconds);
     ps_phases_say(phases, "trials", "%.4g values of integrands, %s of memory", values,

@@ -20,16 +20,6 @@ cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t byte
     return __real_clCreateBuffer(context, flags, bytes, host, code);
 }
 
-static uint64_t count_launches(void) {
-    size_t num_rows = 0;
-    uint64_t launches = 0;
-    const ps_profile_row *rows = ps_device_profile(device, &num_rows);
-    for (size_t i = 0; i < num_rows; i++) {
-        launches += rows[i].launches;
-    }
-    return launches;
-}
-
 typedef struct announced_case {
     unsigned dimension;
     int32_t max_frequency;
@@ -82,12 +72,12 @@ static void check_case(const announced_case *what, ps_precision precision) {
         ps_torus_nufft.survey(&problem, ps_device_get_limits(device), precision).work;
     const double announced =
         work.fixed_bytes + work.bytes_per_realization * (double)what->num_realizations;
-    const uint64_t launches_before = count_launches();
+    const uint64_t launches_before = test_count_launches(device, "");
     bytes_created = 0;
     run_case(&problem, precision);
     assert_true(bytes_created <= announced);
     assert_true(announced <= bytes_created * 3 / 2 + what->dimension * page);
-    assert_true((double)(count_launches() - launches_before) == work.launches);
+    assert_true((double)(test_count_launches(device, "") - launches_before) == work.launches);
     ps_frequencies_free(&set);
 }
 

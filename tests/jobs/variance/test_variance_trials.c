@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ps_device *device;
+static ps_device *device, *gpu;
 
 static void near(const char *what, double found, double expected, double allowed) {
     if (!(fabs(found - expected) <= allowed)) {
@@ -125,16 +125,50 @@ static void check_loop(const char *sampler, uint64_t num_realizations, const cha
     test_variance_free(&asked);
 }
 
-/* 300 realizations are more than a batch; where points vary, so do the sizes of sets. */
+/* 300 realizations are more than a batch; where points vary, so do the sizes of sets. A GPU makes
+ * the others itself. */
 static void the_measurement_is_a_loop(void **state) {
-    ps_device *const with[] = {device, NULL};
+    ps_device *const with[] = {device, gpu, NULL};
     (void)state;
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < 3; i++) {
         check_loop("white", 300, "disk", "gaussian:sigma=0.2", with[i]);
         check_loop("jittered", 300, "box", "gaussian", with[i]);
         check_loop("poisson-disk", 20, "half-plane", "disk:radius=0.4", with[i]);
         check_loop("white-sphere", 300, "cap", "harmonic", with[i]);
         check_loop("white-hemisphere", 300, "cap", "square", with[i]);
+    }
+}
+
+/* Estimates of sets that the device makes are those of the host's points, to the bit, however few
+ * are made at a time; those that one sampler or integrand leaves to the host are made there. */
+static void a_gpu_makes_the_sets(void **state) {
+    static const struct {
+        const char *sampler, *integrand;
+        bool is_made;
+    } cases[] = {{"white", "disk", true},
+                 {"sobol:scramble=owen", "gaussian", true},
+                 {"white-hemisphere:morph=diffuse", "cap", true},
+                 {"poisson-disk", "disk", false}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_mean found[3];
+        for (size_t way = 0; way < 3; way++) { /* made, a few at a time; by the host */
+            test_variance asked;
+            test_variance_ask(&asked, cases[i].sampler, 1100, 150, cases[i].integrand,
+                              way < 2 ? gpu : device);
+            asked.question.num_shifts = 3;
+            asked.question.spectrum.max_degree = 2;
+            asked.question.spectrum.frequencies.max_frequency = 2;
+            asked.question.spectrum.limits.constraints.memory_limit = way == 1 ? 4 << 20 : 0;
+            const uint64_t before = test_count_launches(gpu, "sampler_coordinates");
+            const ps_variance_row *const row = test_variance_run(&asked);
+            found[way] = (ps_mean){row->measured, row->measured_error};
+            const uint64_t num = test_count_launches(gpu, "sampler_coordinates") - before;
+            assert_true(way < 2 && cases[i].is_made ? num > way : num == 0);
+            test_variance_free(&asked);
+        }
+        assert_memory_equal(&found[0], &found[1], sizeof found[0]);
+        near(cases[i].sampler, found[0].mean, found[2].mean, 1e-12 * found[2].mean);
     }
 }
 
@@ -210,12 +244,15 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_prediction_is_a_sum),
         cmocka_unit_test(the_measurement_is_a_loop),
+        cmocka_unit_test(a_gpu_makes_the_sets),
         cmocka_unit_test(shifts_are_of_the_measurement),
         cmocka_unit_test(integrands_do_not_meet),
         cmocka_unit_test(samplers_and_numbers_have_moves_of_their_own),
     };
     device = test_open_device();
+    gpu = test_open_gpu();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     ps_device_close(device);
+    ps_device_close(gpu);
     return failed;
 }

@@ -134,6 +134,46 @@ static void points_of_the_sphere_have_them_too(void **state) {
     }
 }
 
+/* Sets side by side, each filled up with 0: [axis][capacity]. */
+static void check_coordinates(unsigned precision, bool on_sphere) {
+    enum { SETS = 2, POINTS = 5, PADDED = 8, CAPACITY = SETS * PADDED + 3, AXES = 3 };
+    const sampler_sets sizes = {CAPACITY, SETS, POINTS, PADDED};
+    uint64_t made[SETS * POINTS * AXES];
+    double expected[SETS * POINTS * AXES];
+    for (size_t i = 0; i < SETS * POINTS * AXES; i++) {
+        expected[i] = (double)(i * i % 97) / 128 - (on_sphere ? 0.25 : 0);
+        made[i] = (uint64_t)(i * i % 97) << 57;
+        if (on_sphere) {
+            memcpy(&made[i], &expected[i], sizeof made[i]);
+        }
+    }
+    ps_kernel *const kernel =
+        test_kernel(device, "samplers/coordinates.cl", "sampler_coordinates",
+                    "-DPRECISION=%u -DDIMENSION=%d -DON_SPHERE=%d", precision, AXES, on_sphere);
+    test_memory from = test_memory_create(device, made, sizeof made);
+    test_memory points = test_reals_create(device, precision, NULL, (size_t)AXES * CAPACITY);
+    TEST_LAUNCH(device, kernel, 16, SETS * PADDED, 1, 1, PS_STRUCT(sizes), PS_BUFFER(from.buffer),
+                PS_BUFFER(points.buffer));
+    double *const found = test_reals_read(&points, precision);
+    for (size_t i = 0; i < AXES * SETS * PADDED; i++) {
+        const size_t axis = i / (SETS * PADDED), set = i / PADDED % SETS, j = i % PADDED;
+        const double wanted = j < POINTS ? expected[(set * POINTS + j) * AXES + axis] : 0;
+        assert_true(found[axis * CAPACITY + set * PADDED + j] == wanted);
+    }
+    free(found);
+    test_memory_free_unchanged(&from);
+    test_memory_free(&points);
+}
+
+static void coordinates_are_numbers(void **state) {
+    (void)state;
+    check_coordinates(32, false);
+    if (ps_device_get_limits(device)->has_fp64) {
+        check_coordinates(64, false);
+        check_coordinates(64, true);
+    }
+}
+
 /* Of a part of a set the host makes the points by index, too. */
 static void beginnings_are_those_of_the_host(void **state) {
     (void)state;
@@ -194,6 +234,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_have_the_bits_of_the_host),
         cmocka_unit_test(points_of_the_sphere_have_them_too),
+        cmocka_unit_test(coordinates_are_numbers),
         cmocka_unit_test(beginnings_are_those_of_the_host),
         cmocka_unit_test(others_are_made_by_the_host),
     };
