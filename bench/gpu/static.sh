@@ -41,6 +41,8 @@ list_lines() { # CAPABILITY WORD...; that of cards without matrix units is 0
 9 sample --sampler gaussian-blue-noise -n 4096 --kept-sets 0
 9 bench --quick --case list --engine torus_direct --precision single
 9 occlusion --mesh quad.obj --image 16x16 --reference 64 --sampler white-sphere -n 64
+9 measure --sampler white -n 4096 --measures number_variance,star_discrepancy
+9 measure --sampler white-sphere -n 1024 --measures separation
 9 power --sampler white -n 256 -m 20 -k 32 --engine torus_direct --precision single
 0 power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision single
 0 power --sampler white -n 300 -m 20 -k 40 --engine torus_direct --precision double

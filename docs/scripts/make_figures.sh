@@ -44,6 +44,10 @@ echo "figures: occlusion.png" >&2
 "$pointspec" occlusion --mesh "$docs/scenes/p15/box.obj" --camera 2.75,2.75,-8,2.75,2.75,0,40 --image 112x112 --sampler white-sphere \
     --sampler ccvt-sphere -n 48 --quiet -o occlusion.csv --plot "$images/occlusion.png"
 
+echo "figures: measures.png" >&2
+"$pointspec" measure --sampler white --sampler jittered --sampler poisson-disk --sampler bnot -n 256 -m 100 --quiet -o measures.csv \
+    --plot "$images/measures.png"
+
 # Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"
 

@@ -6,7 +6,7 @@
 #define SPHERE (OF(angular) | OF(pairs) | OF(check) | OF(variance))
 #define SPECTRA (TORUS | SPHERE)
 #define RULES (OF(quadrature) | OF(shade))
-#define SETS (RULES | OF(interpolation) | OF(occlusion))
+#define SETS (RULES | OF(interpolation) | OF(occlusion) | OF(measure))
 
 const char *const ps_field_groups[] = {[PS_FIELD_ENTRY] = "entry",
                                        [PS_FIELD_COLUMN] = "column",
@@ -72,12 +72,12 @@ const ps_field_row ps_fields_points[] = {
      "a piece of an axis where the first set has no point: points of a smaller box"},
     {"vectors", "", PS_ENTRIES, SPHERE, "files of vectors",
      "how far from 1 the lengths were that vectors were divided by"},
-    {"domain", "", PS_ENTRIES, SPHERE | OF(sample), "on the sphere",
+    {"domain", "", PS_ENTRIES, SPHERE | OF(sample) | OF(measure), "on the sphere",
      "sphere, or hemisphere, even degrees; of points also torus"},
-    {"max_degree", "", PS_ENTRIES, SPHERE | RULES, "on the sphere",
+    {"max_degree", "", PS_ENTRIES, SPHERE | RULES | OF(measure), "on the sphere",
      "L, the last degree; on the hemisphere the last even one"},
-    {"dimension", "", PS_ENTRIES, TORUS | OF(sample), "on the torus", "d"},
-    {"max_frequency", "", PS_ENTRIES, TORUS, "on the torus",
+    {"dimension", "", PS_ENTRIES, TORUS | OF(sample) | OF(measure), "on the torus", "d"},
+    {"max_frequency", "", PS_ENTRIES, TORUS | OF(measure), "on the torus",
      "K; of a list of frequencies its largest |k_i|"},
     {"rings", "", PS_ENTRIES, OF(power) | OF(check), "boxes that are no cubes",
      "what |k| is there, and how large single |k_i| are"},
@@ -91,7 +91,7 @@ const ps_field_row ps_fields_points[] = {
      "the sampler, or the name of the set of files"},
     {"integrand", "", PS_COLUMN, OF(variance) | OF(interpolation), "several integrands",
      "the integrand"},
-    {"points", "", PS_COLUMN, (SPECTRA & ~OF(check)) | RULES | OF(occlusion),
+    {"points", "", PS_COLUMN, (SPECTRA & ~OF(check)) | RULES | OF(occlusion) | OF(measure),
      "several numbers of points",
      "N as it was asked for; of variance, where it is always there, the mean where sets differ"},
     {.name = NULL}};
@@ -109,7 +109,7 @@ const ps_field_row ps_fields_computed[] = {
     {"precision", "", PS_ENTRIES, 0, "", "arithmetic of the engine, single or double"},
     {"tolerance", "", PS_ENTRIES, SPECTRA | RULES | OF(truncation), "",
      "largest numerical error that was allowed (--tol)"},
-    {"predicted_error", "", PS_ENTRIES, SPECTRA | RULES | OF(truncation), "",
+    {"predicted_error", "", PS_ENTRIES, SPECTRA | RULES | OF(truncation) | OF(measure), "",
      "bound on the numerical error, in the same unit"},
     {"planned_twice", "", PS_ENTRIES, SPECTRA, "large powers",
      "that a more exact engine was needed after the first run"},

@@ -42,14 +42,18 @@
 #define RULES (BIT(quadrature) | BIT(shade))
 #define SETS (SPECTRA | RULES | BIT(check))
 #define ENGINES (SETS | BIT(variance))
-#define READERS (ENGINES | BIT(interpolation) | BIT(occlusion))
+#define READERS (ENGINES | BIT(interpolation) | BIT(occlusion) | BIT(measure))
 #define SETLESS (BIT(truncation) | BIT(light))
 #define LOBES (RULES | BIT(truncation))
-#define SERIES (SPECTRA | RULES | BIT(variance) | BIT(interpolation) | BIT(occlusion))
+#define SERIES                                                                                     \
+    (SPECTRA | RULES | BIT(variance) | BIT(interpolation) | BIT(occlusion) | BIT(measure))
 #define PICTURES                                                                                   \
-    (SPECTRA | LOBES | BIT(variance) | BIT(interpolation) | BIT(occlusion) | BIT(light))
-#define PLANE (BIT(power) | BIT(check) | BIT(variance))
-#define ROUND (SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation) | BIT(occlusion))
+    (SPECTRA | LOBES | BIT(variance) | BIT(interpolation) | BIT(occlusion) | BIT(measure) |        \
+     BIT(light))
+#define PLANE (BIT(power) | BIT(check) | BIT(variance) | BIT(measure))
+#define ROUND                                                                                      \
+    (SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation) | BIT(occlusion) |          \
+     BIT(measure))
 #define LONG (READERS | BIT(run))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (READERS | SUITES | SETLESS | BIT(merge) | BIT(devices))

@@ -19,6 +19,7 @@
     KIND(shade)                                                                                    \
     KIND(interpolation)                                                                            \
     KIND(occlusion)                                                                                \
+    KIND(measure)                                                                                  \
     KIND(light)                                                                                    \
     PLANNED(sample)                                                                                \
     PLANNED(convert)                                                                               \

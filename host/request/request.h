@@ -58,6 +58,7 @@ typedef enum ps_option_id {
     PS_OPTION_CAMERA,             /* --camera X,Y,Z,X,Y,Z[,ANGLE[,X,Y,Z]] */
     PS_OPTION_IMAGE,              /* --image WxH */
     PS_OPTION_RADIUS,             /* --radius R */
+    PS_OPTION_MEASURES,           /* --measures NAME,... */
     PS_OPTION_REFERENCE,          /* --reference R */
     PS_OPTION_IMAGE_OUT,          /* --image-out FILE */
     PS_OPTION_MAX_FREQUENCY,      /* -k, --max-frequency K */
@@ -186,6 +187,7 @@ typedef struct ps_request {
     double camera[PS_MOST_CAMERA]; /* position, what it looks at, angle in degrees, up */
     size_t image[2];               /* width and height in pixels; 256 x 256 unless given */
     double radius;                 /* 0 unless given */
+    const char *measures;          /* names with commas; NULL unless given */
     uint64_t num_reference;        /* 4096 unless given */
     bool recorded_engines, homogenize, homogeneous, hemisphere, drop_below_horizon, merge,
         calibrate, quick, scenes, quiet, verbose;

@@ -31,6 +31,7 @@ QUESTIONS: dict[str, dict[str, Any]] = {
     "interpolation": {"sampler": "fibonacci", "points": 16, "integrand": "square", "smoothness": [1.1, 1.5]},
     "light": {"integrand": "cap", "max_degree": 6},
     "occlusion": {"sampler": "fibonacci", "points": 4, "image": "4x4", "reference": 4},
+    "measure": {"sampler": ["jittered", "white"], "points": 16, "realizations": 3, "max_frequency": 4},
     "variance": {"sampler": "jittered", "points": [16, 64], "realizations": 9, "integrand": "disk", "rates": "auto"},
     "check": {"sampler": "jittered", "points": 16, "realizations": 30, "homogeneous": True, "max_frequency": 3},
 }

@@ -65,6 +65,9 @@ static const char *const questions[] = {
     "occlusion mesh=corner.obj image=4x3 reference=4 sampler=white-sphere points=4,8 "
     "image-out=image.npy engine=default",
     "occlusion mesh=corner.obj image=4x3 reference=4 files=above.txt radius=2 engine=default",
+    "measure sampler=white sampler=jittered points=4,9 max-frequency=2 engine=default",
+    "measure files=unequal.txt max-frequency=2 output=measures.npz engine=default",
+    "measure sampler=white-sphere points=4 max-degree=2 engine=default",
     "check against=saved.npz sampler=white seed=1",
     "check against=saved.npz files=saved.npz engine=default",
     "check against=sphere.npz sampler=white-sphere",

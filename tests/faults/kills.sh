@@ -61,6 +61,7 @@ try power --engine host_direct 1.dat 2.dat 3.dat -k 4
 try pairs --engine host_direct --sampler white-sphere -n 6 -l 3 -m 132
 try quadrature --engine host_direct --sampler white-hemisphere -n 4 -l 4 -m 24 --brdf diffuse
 try variance --engine host_direct --sampler white -n 4 -k 3 -m 12 --integrand disk
+try measure --sampler jittered -n 16 -m 9 -k 3
 try occlusion --mesh quad.obj --image 8x8 --reference 16 --sampler white-sphere -n 4,8 -m 9
 try interpolation --integrand map:width=16 --sampler white-sphere -n 8 -m 12
 try shade --integrand map:width=16 --brdf diffuse --engine host_direct --sampler white-hemisphere -n 4 -l 4 -m 12

@@ -67,6 +67,7 @@ saved=(
     "check --against saved.npz --sampler jittered -n 256 -m 300000 --seed 3"
     "shade --sampler white-hemisphere --brdf glossy:n=30 --integrand map:width=128 -n 64 -m 200 --shifts 300"
     "interpolation --sampler white-sphere --integrand map:width=128 -n 100,200 -m 800"
+    "measure --sampler jittered -n 1024 -m 3000 -k 64"
     "occlusion --mesh quad.obj --sampler white-sphere -n 16,64 -m 1000 --image 128x128 --reference 4096"
 )
 # Two devices share a job, where one can be split.

@@ -183,6 +183,20 @@ static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_req
     return ps_sampler_request_resolve(out, arguments, error);
 }
 
+pspec_status ps_questions_find_domain(bool *on_sphere, const ps_request *arguments,
+                                      ps_error *error) {
+    ps_sampler_request sampler = {0};
+    const bool is_said =
+        arguments->reading.domain == PS_DOMAIN_SPHERE || arguments->reading.lift != PS_NO_LIFT ||
+        arguments->is_given[PS_OPTION_HEMISPHERE] || arguments->is_given[PS_OPTION_MAX_DEGREE];
+    *on_sphere = is_said && arguments->reading.domain != PS_DOMAIN_TORUS;
+    if (arguments->num_sources > 0) {
+        PS_TRY(ps_sampler_parse(&sampler, ps_request_source_name(arguments, 0), error));
+        *on_sphere = ps_sampler_is_on_sphere(&sampler);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
                                ps_question_kind kind, ps_error *error) {
     *out = (ps_question_list){0};

@@ -25,6 +25,11 @@ typedef enum ps_question_kind {
 pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
                                ps_question_kind kind, ps_error *error) PS_MUST_CHECK;
 
+/* Where the points of kinds are that take both: samplers say it; files are of the sphere when one
+ * of --domain sphere, --lift, --hemisphere and --max-degree says so. */
+pspec_status ps_questions_find_domain(bool *on_sphere, const ps_request *arguments,
+                                      ps_error *error) PS_MUST_CHECK;
+
 void ps_questions_free(ps_question_list *list);
 
 /* The picture of a request has at most so many curves; more are refused. */

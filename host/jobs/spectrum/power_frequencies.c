@@ -9,9 +9,11 @@
 static pspec_status default_max_frequency(int32_t *out, const ps_power_question *question,
                                           unsigned dimension, size_t num_points, ps_error *error) {
     /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
-    const double times = question->reach > 0 ? question->reach : 5;
-    const unsigned offers = question->limits.constraints.offers;
     enum { LARGEST_DIMENSION = 3 };
+    const double asked = question->reach > 0 ? question->reach : 5;
+    const double most = pow(question->most_reached / (double)num_points, 1.0 / dimension) / 2;
+    const double times = question->most_reached > 0 ? fmin(asked, fmax(most, 2)) : asked;
+    const unsigned offers = question->limits.constraints.offers;
     if (dimension > LARGEST_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "in dimension %u the largest frequency must be given: -k K%s", dimension,

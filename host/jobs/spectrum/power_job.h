@@ -41,7 +41,9 @@ typedef struct ps_power_question {
     ps_frequencies_spec frequencies;
     /* rings, and K, are of the wave vectors of the first set's box, where it is no cube */
     bool has_rings_of_box;
-    double reach; /* the largest frequency is this times N^(1/d) unless it is given; 0: 5 */
+    /* the largest frequency is this times N^(1/d) unless it is given, 0: 5; or less, but at least
+     * twice N^(1/d), where a box has more frequencies than most_reached; 0: any */
+    double reach, most_reached;
     /* The largest |k_i| or degree that matters to whoever asks: without accuracy.no_skip those
      * beyond are left out, and why says what nobody needs of them; 0: all matter */
     int32_t useful;

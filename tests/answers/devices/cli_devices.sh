@@ -61,6 +61,7 @@ is_same quadrature --sampler white-hemisphere -n 64 -m 60 --brdf glossy:n=30 -l 
 is_same quadrature --columns xyw --lift hemisphere --brdf diffuse -l 5 "$sets"
 is_same shade --sampler white-hemisphere -n 16 -m 20 --brdf diffuse --integrand "$light"
 is_same interpolation --sampler white-sphere -n 16 -m 7 --integrand "$light"
+is_same measure --sampler jittered -n 16 -m 7 -k 5
 is_same occlusion --mesh "$PWD/corner.obj" --image 8x8 --reference 64 --sampler white-sphere -n 4 -m 7
 
 # What the first device does alone, what has fewer blocks, a range.

@@ -49,6 +49,8 @@ if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     has_device=yes
     is_whole 20 variance --integrand disk --sampler jittered -n 64 -m 20 -k 8
     is_whole 20 quadrature --sampler white-hemisphere -n 64 -m 20 --brdf glossy:n=30 -l 20
+    is_whole 20 measure --sampler jittered --sampler white -n 16 -m 20 -k 8
+    is_whole 41 measure --wrap --columns xyw sets.txt -k 4
 fi
 
 # Arrays, of the first realization, too.

@@ -31,6 +31,7 @@ is_as_one 2 quadrature --engine host_direct --sampler white-hemisphere -n 9 -m 4
 is_as_one 3 shade --engine host_direct --sampler white-hemisphere -n 9 -m 20 --brdf diffuse --integrand "$light"
 is_as_one 2 interpolation --sampler white-sphere -n 16 -m 7 --integrand "$light" --smoothness 1.1,1.5
 is_as_one 2 interpolation --lift sphere --columns xyw --integrand "$light" "$sets"
+is_as_one 3 measure --sampler jittered -n 16 -m 7 -k 5
 is_as_one 3 occlusion --mesh "$PWD/corner.obj" --image 8x8 --reference 64 --sampler white-sphere -n 4,9 -m 7
 if "$program" devices >out 2>err && grep -q '^[0-9]' out; then
     is_as_one 3 quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 -l 20

@@ -1,0 +1,219 @@
+/* Pairs of near points: the nearest neighbour of every point, how many pairs there are at each
+ * distance, and what windows have of them. Launch: one work-item for each NEAR_BLOCK points.
+ *
+ * Points lie in the order of cells, whose edges are as long as the largest distance that counts:
+ * neighbours are in the same cell or in one beside it. With PERIODIC=1 space is the unit torus and
+ * a distance that to the nearest image, else there is nothing beyond the cells.
+ *
+ * A window is a ball of radius R, anywhere: of the centres that have one of two points at the
+ * distance r in it, a share alpha(r / 2R) has the other, too (docs/user/measure.md).
+ *
+ *   sizes, lengths  of measures/near.h; their names are used here
+ *   points   [DIMENSION][capacity]
+ *   offsets  [cell]: the first point of each cell, then num_points; the last axis is the innermost
+ *   nearest  [point]: the squared distance of its nearest neighbour among those that are looked at
+ *   counts   [item][NEAR_COUNTS]: ordered pairs by distance, those beyond the last bin at the end
+ *   shares   [item][NEAR_WINDOWS][high, low]: alpha over pairs
+ */
+#ifndef PRECISION
+#define PRECISION 64
+#endif
+#include "measures/near.h"
+#include "shared/lanes.h"
+#include "shared/pair.h"
+
+#ifndef DIMENSION
+#define DIMENSION 2
+#endif
+#ifndef PERIODIC
+#define PERIODIC 1
+#endif
+#ifndef WINDOWS
+#define WINDOWS NEAR_WINDOWS /* or 0: none are looked at */
+#endif
+
+enum {
+    NEIGHBOURS = DIMENSION == 1   ? 3
+                 : DIMENSION == 2 ? 9
+                 : DIMENSION == 3 ? 27
+                 : DIMENSION == 4 ? 81
+                 : DIMENSION == 5 ? 243
+                                  : 729
+};
+
+/* Of one point. */
+typedef struct near_point {
+    real x[DIMENSION];
+    ulong index;
+    realv least;
+} near_point;
+
+typedef struct near_shares {
+    realv high[NEAR_WINDOWS], low[NEAR_WINDOWS];
+} near_shares;
+
+/* The share of a ball that another of the same radius has, their centres x diameters apart. */
+static inline realv alpha(const realv apart) {
+    const realv x = fmin(apart, (realv)1);
+#if DIMENSION == 1
+    return 1 - x;
+#elif DIMENSION == 2
+    return (acos(x) - x * sqrt(1 - x * x)) * (real)M_2_PI;
+#else
+    return (1 - x) * (1 - x) * (1 + x * (real)0.5);
+#endif
+}
+
+/* Infinite for points of LANES from `first` on that do not count: those from `end` on, and those
+ * before `begin`. */
+static inline realv leave_out(const ulong first, const ulong begin, const ulong end) {
+    real lanes[LANES];
+    for (uint i = 0; i < LANES; i++) {
+        lanes[i] = first + i >= begin && first + i < end ? 0 : INFINITY;
+    }
+    return LOADV(0, lanes);
+}
+
+static inline realv square_to(const near_point *of, const near_sizes sizes,
+                              __global const real *points, const ulong first) {
+    realv square = 0;
+    for (uint axis = 0; axis < DIMENSION; axis++) {
+        realv apart = load_global(points + axis * sizes.capacity + first, 0) - of->x[axis];
+        apart -= PERIODIC ? rint(apart) : (realv)0;
+        square = square + apart * apart;
+    }
+    return square;
+}
+
+/* Windows have equal steps, and the diameter of the last is the end of the last bin. */
+static inline void add_shares(near_shares *shares, const near_lengths *lengths,
+                              const realv distance) {
+    real lanes[LANES];
+    real shortest = NEAR_BINS;
+    STOREV(distance * lengths->bins, 0, lanes);
+    for (uint i = 0; i < LANES; i++) {
+        shortest = fmin(shortest, lanes[i]);
+    }
+    for (uint w = (uint)(shortest * WINDOWS / NEAR_BINS); w < WINDOWS; w++) {
+        pair_add(&shares->high[w], &shares->low[w], alpha(distance * lengths->per_diameter[w]));
+    }
+}
+
+/* LANES points from `first` on, but for those from `end` on, and the point itself. Windows have
+ * every pair once, with the later of its points. */
+static inline void look_at(near_point *of, near_shares *shares, const near_sizes sizes,
+                           const near_lengths *lengths, __global const real *points,
+                           const ulong first, const ulong end, uint *counts) {
+    real bins[LANES];
+    const ulong next = first + LANES;
+    const bool has_self = of->index >= first && of->index < next;
+    realv square = square_to(of, sizes, points, first);
+    if (next > end) {
+        square += leave_out(first, 0, end);
+    }
+    if (has_self) {
+        square = fmax(square,
+                      fmin(leave_out(first, of->index + 1, end), leave_out(first, 0, of->index)));
+    }
+    of->least = fmin(of->least, square);
+    const realv distance = sqrt(square);
+    STOREV(fmin(distance * lengths->bins, (realv)NEAR_BINS), 0, bins);
+    for (uint i = 0; i < LANES; i++) {
+        const uint bin = (uint)(int)bins[i];
+        counts[bin < NEAR_BINS ? bin : NEAR_BINS + i]++; /* additions in one place would wait */
+    }
+    if (WINDOWS > 0 && next > of->index) {
+        add_shares(shares, lengths,
+                   has_self ? distance + leave_out(first, of->index + 1, end) : distance);
+    }
+}
+
+/* The cell of a place, by which the host has sorted, on one axis. */
+static inline uint cell_of(const real x, const near_sizes sizes, const near_lengths *lengths) {
+    const uint cell = (uint)((x - lengths->first) * lengths->cells);
+    return min(cell, (uint)sizes.side - 1);
+}
+
+/* Number n of the cells about a point; false: there is none. */
+static inline bool find_cell(ulong *cell, const uint *own, const uint n, const ulong side) {
+    bool is_inside = true;
+    uint rest = n;
+    *cell = 0;
+    for (uint axis = 0; axis < DIMENSION; axis++) {
+        long at = (long)own[axis] + (long)(rest % 3) - 1;
+        rest /= 3;
+        if (PERIODIC) {
+            at = at < 0 ? at + (long)side : at >= (long)side ? at - (long)side : at;
+        }
+        is_inside = is_inside && at >= 0 && at < (long)side;
+        *cell = *cell * side + (ulong)at;
+    }
+    return is_inside;
+}
+
+static inline void store_shares(const near_shares *shares, __global real *to) {
+    for (uint w = 0; w < WINDOWS; w++) {
+        real high[LANES], low[LANES];
+        realv all = 0, rest = 0;
+        STOREV(shares->high[w], 0, high);
+        STOREV(shares->low[w], 0, low);
+        for (uint i = 0; i < LANES; i++) {
+            pair_add(&all, &rest, (realv)high[i]);
+            rest += (realv)low[i];
+        }
+        STOREV(all, 0, high);
+        STOREV(rest, 0, low);
+        to[2 * w] = high[0];
+        to[2 * w + 1] = low[0];
+    }
+}
+
+__kernel void measure_near(const near_sizes sizes, const near_lengths lengths,
+                           __global const real *restrict points,
+                           __global const uint *restrict offsets, __global real *restrict nearest,
+                           __global uint *restrict counts, __global real *restrict shares) {
+    const ulong item = get_global_id(0);
+    const ulong begin = item * NEAR_BLOCK;
+    if (begin >= sizes.num_points) {
+        return;
+    }
+    const uint all = sizes.side < 3 ? 0 : NEIGHBOURS;
+    near_shares own_shares;
+    uint own_counts[NEAR_COUNTS];
+    for (uint i = 0; i < NEAR_COUNTS; i++) {
+        own_counts[i] = 0;
+    }
+    for (uint w = 0; w < WINDOWS; w++) {
+        own_shares.high[w] = 0;
+        own_shares.low[w] = 0;
+    }
+    for (ulong i = begin; i < min(begin + NEAR_BLOCK, sizes.num_points); i++) {
+        near_point of = {.index = i, .least = INFINITY};
+        uint own[DIMENSION];
+        for (uint axis = 0; axis < DIMENSION; axis++) {
+            of.x[axis] = points[axis * sizes.capacity + i];
+            own[axis] = cell_of(of.x[axis], sizes, &lengths);
+        }
+        for (uint n = 0; n < max(all, (uint)1); n++) {
+            ulong cell = 0;
+            if (all > 0 && !find_cell(&cell, own, n, sizes.side)) {
+                continue;
+            }
+            const ulong end = all > 0 ? offsets[cell + 1] : sizes.num_points;
+            for (ulong j = all > 0 ? offsets[cell] : 0; j < end; j += LANES) {
+                look_at(&of, &own_shares, sizes, &lengths, points, j, end, own_counts);
+            }
+        }
+        real lanes[LANES];
+        real least = INFINITY;
+        STOREV(of.least, 0, lanes);
+        for (uint l = 0; l < LANES; l++) {
+            least = fmin(least, lanes[l]);
+        }
+        nearest[i] = least;
+    }
+    for (uint i = 0; i < NEAR_COUNTS; i++) {
+        counts[item * NEAR_COUNTS + i] = own_counts[i];
+    }
+    store_shares(&own_shares, shares + 2 * NEAR_WINDOWS * item);
+}

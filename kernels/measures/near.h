@@ -1,0 +1,32 @@
+/* What host and device know alike of measures/near.cl. */
+#ifndef PS_MEASURES_NEAR_H
+#define PS_MEASURES_NEAR_H
+
+#include "shared/fixed.h"
+
+/* Points of a work-item. Fixed: sums depend on it. */
+#define NEAR_BLOCK 64
+/* Bins of distances, and windows, of equal steps up to the reach. */
+#define NEAR_BINS 200
+#define NEAR_WINDOWS 16
+#define NEAR_COUNTS (NEAR_BINS + 16) /* a lane each for what is farther */
+
+typedef struct near_sizes {
+    ps_u64 num_points;
+    ps_u64 capacity; /* numbers of an axis, a vector more than there are points */
+    ps_u64 side;     /* cells along an axis; fewer than 3: one cell has all points */
+} near_sizes;
+
+SAME_SIZE(near_sizes, 24);
+
+#if !defined __OPENCL_C_VERSION__ || PRECISION == 64
+typedef struct near_lengths {
+    double first;                      /* where cells begin, on every axis */
+    double cells, bins;                /* of a unit of length */
+    double per_diameter[NEAR_WINDOWS]; /* 1 / (2 R), R the radius of a window, the smallest first */
+} near_lengths;
+
+SAME_SIZE(near_lengths, 152);
+#endif
+
+#endif
