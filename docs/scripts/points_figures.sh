@@ -15,6 +15,7 @@ points() { # NAME N SAMPLER...
     "$pointspec" sample "${samplers[@]}" -n "$num" --plot "$folder/points/$name.png"
 }
 points torus 256 white regular jittered latin-hypercube sobol sobol:scramble=owen halton hammersley larcher-pillichshammer
+points lattices 144 pmj02 sobol:scramble=hash cmj fibonacci-lattice rank1:generator=1x55 kronecker
 points blue_noise 1024 jittered poisson-disk fpo bnot
 points disks 1024 poisson-disk bridson
 points optimized 1024 bnot fpo ccvt

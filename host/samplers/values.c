@@ -3,6 +3,7 @@
 #include "base/text.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static pspec_status fail_choice(const ps_sampler_request *request, unsigned i_parameter,
@@ -36,6 +37,25 @@ double ps_sampler_number(const ps_sampler_request *request, unsigned i_parameter
                    PSPEC_OK
                ? number
                : 0;
+}
+
+bool ps_sampler_counts(const char *text, uint64_t counts[PS_MAX_DIMENSION], unsigned *num_counts) {
+    enum { MOST_DIGITS = 13 }; /* 2^40, the most points that any request has, has 13 */
+    for (*num_counts = 0; *num_counts < PS_MAX_DIMENSION;) {
+        const size_t num_digits = strspn(text, "0123456789");
+        if (num_digits == 0 || num_digits > MOST_DIGITS) {
+            return false;
+        }
+        counts[(*num_counts)++] = strtoull(text, NULL, 10);
+        text += num_digits;
+        if (*text == '\0') {
+            return counts[*num_counts - 1] > 0;
+        }
+        if (*text++ != 'x' || counts[*num_counts - 1] == 0) {
+            return false;
+        }
+    }
+    return false;
 }
 
 bool ps_sampler_always(const ps_sampler_request *request) {

@@ -14,6 +14,9 @@ pspec_status ps_sampler_choice(const ps_sampler_request *request, unsigned i_par
  * checked. */
 double ps_sampler_number(const ps_sampler_request *request, unsigned i_parameter);
 
+/* Reads "A" or "AxBx..": at most PS_MAX_DIMENSION positive whole numbers. */
+bool ps_sampler_counts(const char *text, uint64_t counts[PS_MAX_DIMENSION], unsigned *num_counts);
+
 /* For is_deterministic. */
 bool ps_sampler_always(const ps_sampler_request *request);
 bool ps_sampler_never(const ps_sampler_request *request);

@@ -8,6 +8,7 @@
 #define NET_PLAIN 0
 #define NET_XOR 1
 #define NET_OWEN 2
+#define NET_HASH 3
 
 #define NET_MANTISSA_DIGITS 53
 /* Owen's tree of flips is cut into chunks of 7 levels: the 127 flips of a chunk are bits 1..127 of
@@ -50,11 +51,46 @@ static inline ps_u64 net_owen(const philox_stream stream, const ps_u32 axis, con
     return (digits ^ flips) << NET_TAIL_DIGITS | bits[0] >> (32 - NET_TAIL_DIGITS);
 }
 
+static inline ps_u32 net_reverse(ps_u32 x) {
+    x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+    return x >> 16 | x << 16;
+}
+
+/* Nested uniform scrambling by a hash (S. Laine and T. Karras 2011, multipliers of N. Vegdahl
+ * 2021): of the reversed digits each is flipped by those below it alone, since x times an even
+ * number has none of x's own digit. Cheap, and not as random as net_owen. The 21 digits below are
+ * those of a last mixing of the scrambled word and the shift. */
+static inline ps_u64 net_hash(const ps_u32 word, const ps_u64 shift) {
+    const ps_u32 seed = (ps_u32)(shift >> (NET_MANTISSA_DIGITS - SAMPLER_DIGITS));
+    ps_u32 x = net_reverse(word);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= seed >> 16 | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    x = net_reverse(x);
+    ps_u32 rest = (x ^ (ps_u32)shift) * 0x85ebca6bu;
+    rest = (rest ^ rest >> 13) * 0xc2b2ae35u;
+    rest ^= rest >> 16;
+    return (ps_u64)x << (NET_MANTISSA_DIGITS - SAMPLER_DIGITS) |
+           rest >> (2 * SAMPLER_DIGITS - NET_MANTISSA_DIGITS);
+}
+
 /* A coordinate's 53 digits; shift is that of its axis and realization. */
 static inline ps_u64 net_digits(const ps_u32 scramble, const philox_stream stream,
                                 const ps_u32 axis, const ps_u32 word, const ps_u64 shift) {
     return scramble == NET_OWEN ? net_owen(stream, axis, word)
-                                : ((ps_u64)word << (NET_MANTISSA_DIGITS - SAMPLER_DIGITS) ^ shift);
+           : scramble == NET_HASH
+               ? net_hash(word, shift)
+               : ((ps_u64)word << (NET_MANTISSA_DIGITS - SAMPLER_DIGITS) ^ shift);
+}
+
+/* Has an axis of such nets one random word, the same for all points? */
+static inline ps_u32 net_is_shifted(const ps_u32 scramble) {
+    return scramble == NET_XOR || scramble == NET_HASH;
 }
 
 /* Point j of one axis. steps[b] is the XOR of its direction numbers 0..b: those of the set bits of
@@ -76,7 +112,8 @@ SAMPLER_INLINE void net_places(const sampler_numbers *of, SAMPLER_TABLE table,
     const philox_stream stream = {of->seed, realization, PHILOX_SCRAMBLE};
     ps_u32 words[PHILOX_WORDS];
     SAMPLER_FOR(ps_u32 i = 0; i < dimension; i++) {
-        const ps_u64 shift = of->scramble == NET_XOR ? philox_next(stream, i, i == 0, words) : 0;
+        const ps_u64 shift =
+            net_is_shifted(of->scramble) ? philox_next(stream, i, i == 0, words) : 0;
         const ps_u32 word = net_word(of->origin[i], table + i * SAMPLER_DIGITS, j);
         places[i] = net_digits(of->scramble, stream, i, word, shift) << SAMPLER_DROP;
     }

@@ -118,13 +118,18 @@ static void dimensions_are_limited(void **state) {
 
 static void deterministic_sets_are_known_as_such(void **state) {
     (void)state;
-    const char *constant[] = {"regular", "halton", "hammersley", "sobol", "lp", "lp:centred=yes"};
+    const char *constant[] = {"regular", "halton", "hammersley",
+                              "sobol",   "lp",     "lp:centred=yes",
+                              "rank1",   "r2",     "pmj02:scramble=none"};
     const char *varying[] = {"white",
                              "jittered",
                              "lhs",
                              "lhs:offset=centred",
                              "sobol:scramble=xor",
                              "sobol:scramble=owen",
+                             "sobol:scramble=hash",
+                             "pmj02",
+                             "cmj",
                              "lp:scramble=xor"};
     for (size_t i = 0; i < sizeof constant / sizeof constant[0]; i++) {
         ps_sampler_request request = make_request(constant[i], 16, 2);
@@ -148,6 +153,11 @@ static const char *const VARIANTS[] = {
     "sobol",
     "sobol:scramble=xor",
     "sobol:scramble=owen",
+    "sobol:scramble=hash",
+    "pmj02",
+    "cmj",
+    "rank1",
+    "kronecker",
     "halton",
     "halton:start=1000000",
     "hammersley",

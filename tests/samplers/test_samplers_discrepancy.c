@@ -219,6 +219,8 @@ static void random_sets_have_the_published_mean_discrepancies(void **state) {
     (void)state;
     assert_mean_l2("sobol:scramble=owen", 64, 0.61);
     assert_mean_l2("sobol:scramble=owen", 256, 0.69);
+    assert_mean_l2("sobol:scramble=hash", 64, 0.61);
+    assert_mean_l2("pmj02", 256, 0.69);
     assert_mean_l2("jittered", 64, 1.17);
     assert_mean_l2("jittered", 256, 1.64);
 }

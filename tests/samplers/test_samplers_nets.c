@@ -59,6 +59,8 @@ static const char *const PLANE_NETS[] = {
     "sobol",
     "sobol:scramble=xor",
     "sobol:scramble=owen",
+    "sobol:scramble=hash",
+    "pmj02",
     "hammersley",
     "lp",
     "lp:centred=yes",
@@ -98,7 +100,8 @@ static void assert_sobol_t(const double *points, unsigned m, unsigned chosen_axe
 
 static void every_projection_of_sobol_is_a_net(void **state) {
     (void)state;
-    const char *variants[] = {"sobol", "sobol:scramble=xor", "sobol:scramble=owen"};
+    const char *variants[] = {"sobol", "sobol:scramble=xor", "sobol:scramble=owen",
+                              "sobol:scramble=hash"};
     for (size_t v = 0; v < sizeof variants / sizeof variants[0]; v++) {
         const unsigned m = 10;
         const ps_sampler_request request =

@@ -87,6 +87,7 @@ static const law LAWS[] = {
     {"sobol:scramble=owen", 16, 1, {0}, expect_owen_line},
     {"sobol:scramble=owen", 2, 1, {0}, expect_owen_line},
     {"sobol:scramble=owen", 64, 1, {0}, expect_owen_line},
+    {"sobol:scramble=hash", 16, 1, {0}, expect_owen_line},
     /* Two points in opposite halves of every axis, axes independent: a Latin hypercube. */
     {"sobol:scramble=owen", 2, 2, {0}, expect_latin},
     {"sobol:scramble=owen", 2, 6, {0}, expect_latin},

@@ -165,6 +165,24 @@ static void assert_latin(const char *text, size_t num_points, unsigned dimension
     free(points);
 }
 
+/* Correlated multi-jittered points are both: jittered points, and a Latin hypercube. */
+static void correlated_points_have_both_strata(void **state) {
+    static const struct {
+        size_t num;
+        uint64_t counts[PS_MAX_DIMENSION];
+        const char *text;
+    } cases[] = {{1, {1, 1}, "cmj"},
+                 {12, {3, 4}, "cmj"},
+                 {4096, {64, 64}, "cmj"},
+                 {18, {9, 2}, "cmj:strata=9x2"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const ps_sampler_request request = make_request(cases[i].text, cases[i].num, 2);
+        assert_one_per_stratum(&request, cases[i].counts);
+        assert_latin(cases[i].text, cases[i].num, 2);
+    }
+}
+
 static void latin_hypercubes_have_one_point_per_stratum_and_axis(void **state) {
     (void)state;
     const size_t sizes[] = {1, 2, 3, 49, 64, 997, 100003};
@@ -242,6 +260,7 @@ int main(void) {
         cmocka_unit_test(every_stratum_holds_one_point),
         cmocka_unit_test(regular_points_are_cell_centres),
         cmocka_unit_test(latin_hypercubes_have_one_point_per_stratum_and_axis),
+        cmocka_unit_test(correlated_points_have_both_strata),
         cmocka_unit_test(permutations_are_unbiased),
         cmocka_unit_test(rounding_never_leaves_the_stratum),
     };

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const double COORDINATE_STEP = 0x1p-53;
-static const char *const SCRAMBLES[] = {"none", "xor", "owen", NULL};
+static const char *const SCRAMBLES[] = {"none", "xor", "owen", "hash", NULL};
 
 static pspec_status scramble_of(const ps_sampler_request *request, ps_net_scramble *scramble,
                                 ps_error *error) {
@@ -29,7 +29,8 @@ bool ps_digital_net_is_plain(const ps_sampler_request *request) {
 
 double ps_digital_net_seconds(const ps_sampler_request *request) {
     static const double nanoseconds[] = {
-        [PS_NET_PLAIN] = 1.7, [PS_NET_XOR] = 1.7, [PS_NET_OWEN] = 160}; /* of a coordinate */
+        [PS_NET_PLAIN] = 1.7, [PS_NET_XOR] = 1.7, [PS_NET_OWEN] = 160, [PS_NET_HASH] = 5};
+    /* of a coordinate */
     ps_net_scramble scramble = PS_NET_PLAIN;
     return scramble_of(request, &scramble, NULL) == PSPEC_OK
                ? ps_sampler_numbers(request) * nanoseconds[scramble] * PS_NANOSECOND
@@ -57,7 +58,7 @@ static void draw_shifts(ps_net_scramble scramble, const ps_random *stream,
                         uint64_t shifts[PS_MAX_DIMENSION]) {
     ps_random random = *stream;
     for (unsigned i = 0; i < PS_MAX_DIMENSION; i++) {
-        shifts[i] = scramble == PS_NET_XOR ? ps_random_u53(&random) : 0;
+        shifts[i] = net_is_shifted((uint32_t)scramble) ? ps_random_u53(&random) : 0;
     }
 }
 

@@ -6,8 +6,9 @@
  *         each point is uniform, the differences of points keep their digits
  *   owen  nested uniform scrambling (A. B. Owen 1995): digit b is flipped by a random bit that
  *         belongs to the digits above b, independently for each such prefix
+ *   hash  the same by a hash instead of independent bits, in a fifteenth of the time
  *
- * Both keep every net property, and both fill all 53 digits of a double with random bits.
+ * All keep every net property, and all fill the 53 digits of a double with random bits.
  */
 #ifndef PS_SAMPLERS_TORUS_DIGITAL_NET_H
 #define PS_SAMPLERS_TORUS_DIGITAL_NET_H
@@ -20,12 +21,13 @@ enum { PS_NET_DIGITS = SAMPLER_DIGITS };
 typedef enum ps_net_scramble {
     PS_NET_PLAIN = NET_PLAIN,
     PS_NET_XOR = NET_XOR,
-    PS_NET_OWEN = NET_OWEN
+    PS_NET_OWEN = NET_OWEN,
+    PS_NET_HASH = NET_HASH
 } ps_net_scramble;
 
 /* The parameter "scramble", the first of every net. */
 #define PS_NET_SCRAMBLE_PARAMETER                                                                  \
-    { "scramble", "none", "none|xor|owen, how each realization is randomised" }
+    { "scramble", "none", "none|xor|owen|hash, how each realization is randomised" }
 
 struct ps_digital_net {
     unsigned dimension;

@@ -2,35 +2,14 @@
 
 #include "samplers/pace.h"
 #include "samplers/strata.h"
+#include "samplers/values.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static pspec_status fail_strata(const ps_sampler_request *request, unsigned i_parameter,
                                 const char *why, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: strata=%s %s",
                    request->sampler->name, request->values[i_parameter], why);
-}
-
-/* Reads "A" or "AxBx..": at most PS_MAX_DIMENSION positive whole numbers. */
-static bool parse_counts(const char *text, uint64_t counts[PS_MAX_DIMENSION],
-                         unsigned *num_counts) {
-    enum { MOST_DIGITS = 13 }; /* 2^40, the most points that any request has, has 13 */
-    for (*num_counts = 0; *num_counts < PS_MAX_DIMENSION;) {
-        const size_t num_digits = strspn(text, "0123456789");
-        if (num_digits == 0 || num_digits > MOST_DIGITS) {
-            return false;
-        }
-        counts[(*num_counts)++] = strtoull(text, NULL, 10);
-        text += num_digits;
-        if (*text == '\0') {
-            return counts[*num_counts - 1] > 0;
-        }
-        if (*text++ != 'x' || counts[*num_counts - 1] == 0) {
-            return false;
-        }
-    }
-    return false;
 }
 
 static bool product_is(const uint64_t *counts, unsigned num_counts, uint64_t expected) {
@@ -47,7 +26,7 @@ static bool product_is(const uint64_t *counts, unsigned num_counts, uint64_t exp
 pspec_status ps_strata_read(const ps_sampler_request *request, unsigned i_parameter,
                             unsigned num_axes, uint64_t counts[PS_MAX_DIMENSION], ps_error *error) {
     unsigned num_counts = 0;
-    if (!parse_counts(request->values[i_parameter], counts, &num_counts)) {
+    if (!ps_sampler_counts(request->values[i_parameter], counts, &num_counts)) {
         return fail_strata(request, i_parameter,
                            "is not positive whole numbers joined by x, as in 32x64", error);
     }

@@ -21,6 +21,7 @@ static const uint64_t realization = (UINT64_C(5) << 32) - 2;
 static const char *const others[] = {
     "sobol:scramble=xor",
     "sobol:scramble=owen",
+    "sobol:scramble=hash",
     "larcher-pillichshammer:scramble=owen,centred=yes",
     "larcher-pillichshammer:scramble=xor",
     "halton:start=123456789012",
