@@ -200,6 +200,8 @@ typedef struct ps_command {
     const ps_picture_kind *pictures; /* one at least; ended by one that nothing makes */
     const char *const *sentences;    /* header entries that pages show; ended by NULL, NULL: none */
     bool has_few_rows;               /* pages show all of them, before the summary */
+    const char *row_name; /* the column that names a row, whose `value` and `standard_error` pages
+                             show side by side for all questions; NULL: rows have no names */
     const ps_compared_field
         *compared; /* of two answers to the same question; ended by .value = NULL */
 } ps_command;

@@ -36,8 +36,9 @@ pspec_status ps_plan_command(ps_table **out, const ps_command *command, const ps
                              const ps_answer_hooks *hooks, ps_error *error) {
     ps_planner planner = {.device = hooks->device,
                           .hooks = hooks,
-                          .lead = command == &ps_command_run ? ps_plan_table_lead("")
-                                                             : ps_lead_make(request, 0)};
+                          .lead = command == &ps_command_run || command == &ps_command_report
+                                      ? ps_plan_table_lead("")
+                                      : ps_lead_make(request, 0)};
     *out = NULL;
     PS_TRY(ps_plan_table_create(&planner.table, &planner.lead, error));
     const pspec_status status = fill(&planner, command, request, error);

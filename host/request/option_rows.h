@@ -34,8 +34,9 @@
 /* Sets of commands that many options have: kinds of spectra, those of them on the sphere, kinds
  * that look at point sets, those that have engines, all that read sets from files, kinds without
  * sets, those that have a lobe, those that have a curve for each of several, and those that may
- * have points of the torus, and of the sphere; those that have checkpoints; commands that try
- * engines, and those whose output is a table. */
+ * have points of the torus, and of the sphere; those that have checkpoints; commands that are no
+ * kinds and read points, those that make pages, those that try engines, and those whose output is
+ * a table. */
 #define BIT PS_COMMAND_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
@@ -55,6 +56,8 @@
     (SPHERES | RULES | BIT(check) | BIT(variance) | BIT(interpolation) | BIT(occlusion) |          \
      BIT(measure))
 #define LONG (READERS | BIT(run))
+#define READS (BIT(convert) | BIT(report))
+#define PAGES (BIT(run) | BIT(report))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (READERS | SUITES | SETLESS | BIT(merge) | BIT(devices))
 

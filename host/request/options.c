@@ -8,16 +8,16 @@
  * one counts, but for --sampler, --set, --integrand and --bounds. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
-        {NAMED("points", 'n', "N"), OF(READERS | BIT(sample), BIT(convert)),
+        {NAMED("points", 'n', "N"), OF(READERS | BIT(sample), READS),
          .help =
              "points in each realization (default {check:as saved}{:1024}); several as 64,128,256 "
              "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
              "formats that do not say (rps)",
          .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), .source = PS_OF_SAMPLERS,
-                                OF(READERS | BIT(sample), 0),
+                                OF(READERS | BIT(sample), BIT(report)),
                                 .help = "realizations of each sampler (default {check:as saved, or "
-                                        "128}{:1})",
+                                        "128}{report:16}{:1})",
                                 COUNT(num_realizations), .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_RANGE] = {NAMED("range", 0, "A:B"), OF(0, SERIES),
@@ -34,11 +34,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
     [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), .source = PS_OF_SAMPLERS,
-                        /* but for --per-ring */ OF(READERS | BIT(sample), 0),
+                        /* but for --per-ring */ OF(READERS | BIT(sample), BIT(report)),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
-                           OF(READERS | BIT(sample), 0),
+                           OF(READERS | BIT(sample), BIT(report)),
                            .help = "what makes the points, see Samplers", .set = ps_add_sampler,
                            .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_SET] = {NAMED("set", 0, "NAME=FILES"), OF(0, SERIES),
@@ -220,11 +220,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                        "one a line; 0 for points that were dropped",
                                FILE_OUT(weights_out)},
     [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_INPUT_FORMATS), .source = PS_OF_FILES,
-                                OF(READERS, BIT(convert)),
+                                OF(READERS, READS),
                                 .help = "format of the point files (default: detected)",
                                 WORD(reading.format)},
     [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), .source = PS_OF_FILES,
-                           OF(READERS, BIT(convert)),
+                           OF(READERS, READS),
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out{power:}{:; angles are in radians but "
                                    "lon-lat and those with :degrees}); or names with commas, as "
@@ -248,14 +248,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "points are the columns of arrays, as in shape (2, N)",
                              FLAG(reading.transpose)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), .source = PS_OF_FILES,
-                          OF(BIT(check) | BIT(variance) | BIT(measure), BIT(convert)),
+                          OF(BIT(check) | BIT(variance) | BIT(measure), READS),
                           .help = "where the points lie (default: {check,measure:on the torus}"
                                   "{variance:where there are the integrands}{:found out})",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES, OF(PLANE, BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1", FLAG(reading.wrap)},
     [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1[,Y0,Y1,...]"), .source = PS_OF_FILES,
-                       OF(READERS, BIT(convert)),
+                       OF(READERS, READS),
                        .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, or "
                                "each axis in an interval of its own, as in 0,8,0,4, and become "
                                "those in [0,1)",
@@ -316,8 +316,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "measure this device's figures for the planner and keep them",
                              FLAG(calibrate)},
     [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
-                          OF(0, READERS | SUITES | BIT(sample) | BIT(run) | BIT(devices) |
-                                    BIT(doctor)),
+                          OF(0,
+                             READERS | SUITES | BIT(sample) | PAGES | BIT(devices) | BIT(doctor)),
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name; "
                                   "several: 0,1, gpu:all, cpu:split=2 "
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else CPU)",
@@ -325,11 +325,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_MIXED] = {NAMED("mixed", 0, NULL), OF(0, READERS | BIT(run)),
                          .help = "the list of --device may mix kinds, whose last bits differ",
                          FLAG(limits.mixed)},
-    [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, BIT(run)),
+    [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, PAGES),
                          .help = "disk for the cache of results; 0: none is used (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
-    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"),
-                             OF(0, READERS | BIT(sample) | BIT(run)),
+    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"), OF(0, READERS | BIT(sample) | PAGES),
                              .help = "disk for sets that take long to make (default 4e9; 0: none)",
                              COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
     [PS_OPTION_CHECKPOINT] = {NAMED("checkpoint", 0, "FILE.npz"), OF(0, LONG),
@@ -353,7 +352,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  .help = "do not recompute random entries with the referee",
                                  FLAG(accuracy.no_self_check)},
     [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
-                          OF(0, TABLES | BIT(sample) | BIT(convert) | BIT(run)),
+                          OF(0, TABLES | BIT(sample) | BIT(run) | READS),
                           .help = "{run:write this folder, which is made (default: the name of the "
                                   "scene)}{:write there, in the format of its ending (default: "
                                   "standard output)}",
@@ -382,7 +381,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(limits.profile)},
     [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
-                         OF(0, READERS | SUITES | SETLESS | BIT(sample) | BIT(convert) | BIT(run)),
+                         OF(0, READERS | SUITES | SETLESS | BIT(sample) | BIT(run) | READS),
                          .help = "no progress line, no remarks", FLAG(quiet)},
     [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
                          .help = "leave out cases of more than a second or so", FLAG(quick)},

@@ -26,6 +26,7 @@
     KIND(check)                                                                                    \
     OTHER(merge)                                                                                   \
     PLANNED(run)                                                                                   \
+    PLANNED(report)                                                                                \
     OTHER(plan)                                                                                    \
     PROGRAM(bench)                                                                                 \
     PROGRAM(stress)                                                                                \

@@ -116,6 +116,7 @@ struct ps_sampler {
     const char *summary;        /* one line, for help */
     const char *aliases[4];     /* names that other tools use, NULL-terminated */
     ps_sampler_domain domain;   /* where its own points lie, without a lift */
+    bool stands_beside;         /* others in a report, since everybody knows its sets */
     unsigned maximum_dimension; /* of the torus only; the plane is always among them */
     unsigned minimum_dimension; /* 1 unless it says more */
     size_t minimum_points;      /* 1 unless it says more */

@@ -87,6 +87,9 @@ typedef struct ps_scene {
  * itself; whether those of a question fit together is found out by who asks it. Freed by
  * ps_scene_free, also after an error. */
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) PS_MUST_CHECK;
+/* The same of a text, whose complaints begin with that name. */
+pspec_status ps_scene_read_text(ps_scene *out, const char *name, const char *text,
+                                ps_error *error) PS_MUST_CHECK;
 void ps_scene_free(ps_scene *scene);
 
 /* A limit of memory becomes a key of every result that could have it and does not, so that records

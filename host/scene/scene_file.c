@@ -23,7 +23,7 @@ static pspec_status read_all(const char *path, unsigned char *bytes, size_t *num
     return status;
 }
 
-static pspec_status parse(ps_scene_file *file, const unsigned char *bytes, size_t num) {
+pspec_status ps_scene_file_parse(ps_scene_file *file, const unsigned char *bytes, size_t num) {
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser)) {
         return ps_fail(file->error, PSPEC_ERROR_MEMORY, "no memory for the scene \"%s\"",
@@ -43,7 +43,7 @@ pspec_status ps_scene_file_read(ps_scene_file *out, ps_scene *scene, const char 
     PS_TRY(ps_allocate(&bytes, MOST_BYTES + 1, 1, "a scene", error));
     pspec_status status = read_all(path, bytes, &num, error);
     if (status == PSPEC_OK) {
-        status = parse(out, bytes, num);
+        status = ps_scene_file_parse(out, bytes, num);
     }
     free(bytes);
     return status;

@@ -41,6 +41,10 @@ pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t
 pspec_status ps_scene_file_read(ps_scene_file *out, ps_scene *scene, const char *path,
                                 ps_error *error) PS_MUST_CHECK;
 
+/* The same of a text, of a file that has its path, scene and error. */
+pspec_status ps_scene_file_parse(ps_scene_file *file, const unsigned char *bytes,
+                                 size_t num) PS_MUST_CHECK;
+
 /* "scene.yaml:3: points: ..."; key NULL: of no key. Returns PSPEC_ERROR_INPUT. */
 pspec_status ps_scene_complain(const ps_scene_file *file, int line, const char *key,
                                const char *format, ...) PS_PRINTF(4, 5);

@@ -218,3 +218,11 @@ pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) {
     PS_TRY(ps_scene_file_read(&file, out, path, error));
     return take_scene(&file);
 }
+
+pspec_status ps_scene_read_text(ps_scene *out, const char *name, const char *text,
+                                ps_error *error) {
+    ps_scene_file file = {.scene = out, .path = name, .error = error};
+    *out = (ps_scene){.path = name};
+    PS_TRY(ps_scene_file_parse(&file, (const unsigned char *)text, strlen(text)));
+    return take_scene(&file);
+}

@@ -92,7 +92,7 @@ lacks_only_pictures() { # CASE
     ((${#said[@]} > 0)) && [[ ${said[-1]} == pointspec*' not drawn: '* ]] || return 1
     rm -rf "$run/expected"
     cp -r "$1/expected/folder" "$run/expected"
-    for file in old.png new.folder/index.html; do
+    for file in old.png new.html new.folder/index.html; do
         [[ ! -e $initial/$file ]] || cp "$initial/$file" "$run/expected/$file"
         [[ ! -e $run/folder/$file ]] || cp "$run/folder/$file" "$run/expected/$file"
     done

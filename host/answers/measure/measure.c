@@ -236,5 +236,6 @@ const ps_kind ps_kind_measure = {
     .summary = summary,
     .pictures = pictures,
     .has_few_rows = true,
+    .row_name = "measure",
     .compared = compared,
 };

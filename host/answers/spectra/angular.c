@@ -111,6 +111,8 @@ static const ps_field_row *const fields[] = {
 static const ps_compared_field compared[] = {
     {"power", "standard_error", false, ps_compared_power_bound}, {.value = NULL}};
 
+static const char *const sentences[] = {"convergence", "features", NULL};
+
 const ps_kind ps_kind_angular = {
     .name = "angular",
     .purpose = "averaged angular power spectrum of point sets on the sphere",
@@ -141,5 +143,6 @@ const ps_kind ps_kind_angular = {
     .fields = fields,
     .summary = ps_spectra_summary,
     .pictures = pictures,
+    .sentences = sentences,
     .compared = compared,
 };

@@ -271,6 +271,8 @@ static const ps_field_row *const fields[] = {
 static const ps_compared_field compared[] = {
     {"power", "standard_error", false, ps_compared_power_bound}, {.value = NULL}};
 
+static const char *const sentences[] = {"convergence", "features", NULL};
+
 const ps_kind ps_kind_power = {
     .name = "power",
     .purpose = "averaged periodogram of point sets on the torus",
@@ -304,5 +306,6 @@ const ps_kind ps_kind_power = {
     .fields = fields,
     .summary = ps_spectra_summary,
     .pictures = pictures,
+    .sentences = sentences,
     .compared = compared,
 };

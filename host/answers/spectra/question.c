@@ -190,9 +190,12 @@ pspec_status ps_questions_find_domain(bool *on_sphere, const ps_request *argumen
         arguments->reading.domain == PS_DOMAIN_SPHERE || arguments->reading.lift != PS_NO_LIFT ||
         arguments->is_given[PS_OPTION_HEMISPHERE] || arguments->is_given[PS_OPTION_MAX_DEGREE];
     *on_sphere = is_said && arguments->reading.domain != PS_DOMAIN_TORUS;
-    if (arguments->num_sources > 0) {
-        PS_TRY(ps_sampler_parse(&sampler, ps_request_source_name(arguments, 0), error));
-        *on_sphere = ps_sampler_is_on_sphere(&sampler);
+    for (size_t i = 0; i < arguments->num_sources; i++) {
+        if (arguments->sources[i].sampler != NULL) { /* the first; others are compared with it */
+            PS_TRY(ps_sampler_parse(&sampler, arguments->sources[i].sampler, error));
+            *on_sphere = ps_sampler_is_on_sphere(&sampler);
+            return PSPEC_OK;
+        }
     }
     return PSPEC_OK;
 }

@@ -7,7 +7,7 @@
 #define PS_MEASURE_OF_SET(name)                                                                    \
     pspec_status ps_measure_##name(const ps_measured_set *set, double *value, ps_error *error)
 #define PS_MEASURE_OF_SPECTRUM(name)                                                               \
-    ps_mean ps_measure_##name(const ps_spectrum *spectrum, const ps_shape *shape)
+    ps_mean ps_measure_##name(ps_spectrum *spectrum, const ps_shape *shape)
 
 /* of_sets.c */
 PS_MEASURE_OF_SET(least_distance);

@@ -42,8 +42,9 @@ typedef struct ps_measure_row {
     size_t most_points;
     /* Of one set; nan: it has none. NULL: of the spectrum. */
     pspec_status (*of_set)(const ps_measured_set *set, double *value, ps_error *error);
-    /* Of the mean spectrum, with its standard error; nan: unknown. */
-    ps_mean (*of_spectrum)(const ps_spectrum *spectrum, const ps_shape *shape);
+    /* Of the mean spectrum, with its standard error; nan: unknown. Powers of bins are others while
+     * it looks. */
+    ps_mean (*of_spectrum)(ps_spectrum *spectrum, const ps_shape *shape);
 } ps_measure_row;
 
 enum { PS_MEASURE_COINCIDENT_POINTS = 2, PS_NUM_MEASURES = 15 };

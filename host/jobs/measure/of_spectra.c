@@ -2,28 +2,21 @@
 #include "jobs/measure/measure_rows.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* A number of a spectrum; its standard error from those of the bins, which are independent: the
  * root of the sum over bins of the squares of what it changes by when the power of one bin changes
- * by its standard error. nan where a bin has none, and without room for a copy. */
-static ps_mean with_error(double (*number)(const ps_spectrum *), const ps_spectrum *spectrum) {
-    ps_spectrum changed = *spectrum;
+ * by its standard error. nan where a bin has none. */
+static ps_mean with_error(double (*number)(const ps_spectrum *), ps_spectrum *spectrum) {
     ps_mean out = {number(spectrum), NAN};
     double squares = 0;
-    changed.bins = malloc(spectrum->num_bins * sizeof *changed.bins);
-    if (changed.bins == NULL) {
-        return out;
-    }
-    memcpy(changed.bins, spectrum->bins, spectrum->num_bins * sizeof *changed.bins);
     for (size_t b = 0; b < spectrum->num_bins; b++) {
-        changed.bins[b].power += changed.bins[b].standard_error;
-        const double change = number(&changed) - out.mean;
-        squares += isnan(changed.bins[b].standard_error) ? (double)NAN : change * change;
-        changed.bins[b].power = spectrum->bins[b].power;
+        ps_spectrum_bin *const bin = &spectrum->bins[b];
+        const double power = bin->power;
+        bin->power += bin->standard_error;
+        const double change = number(spectrum) - out.mean;
+        squares += isnan(bin->standard_error) ? (double)NAN : change * change;
+        bin->power = power;
     }
-    free(changed.bins);
     out.standard_error = sqrt(squares);
     return out;
 }

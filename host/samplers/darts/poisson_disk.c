@@ -191,6 +191,7 @@ const ps_distance_kind ps_poisson_disk_kind = {
 
 const ps_sampler ps_sampler_poisson_disk = {
     .name = "poisson-disk",
+    .stands_beside = true,
     .summary = "random points that keep a distance, until no place is left",
     .aliases = {"darts", "poissondisk", "pd"},
     .minimum_dimension = 2,

@@ -165,6 +165,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
 
 const ps_sampler ps_sampler_bnot = {
     .name = "bnot",
+    .stands_beside = true,
     .summary = "blue noise through optimal transport",
     .aliases = {"optimal-transport"},
     .minimum_dimension = 2,

@@ -21,6 +21,7 @@ static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *o
 
 const ps_sampler ps_sampler_fibonacci = {
     .name = "fibonacci",
+    .stands_beside = true,
     .summary = "spherical Fibonacci points",
     .aliases = {"spherical-fibonacci", "sf"},
     .domain = PS_SAMPLES_SPHERE,

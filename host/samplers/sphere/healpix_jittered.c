@@ -19,6 +19,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
 
 const ps_sampler ps_sampler_healpix_jittered = {
     .name = "healpix-jittered",
+    .stands_beside = true,
     .summary = "one uniform point in each pixel of HEALPix, RING order",
     .domain = PS_SAMPLES_SPHERE,
     .parameters = {PS_NSIDE_PARAMETER},

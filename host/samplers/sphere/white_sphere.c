@@ -15,6 +15,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
 
 const ps_sampler ps_sampler_white_sphere = {
     .name = "white-sphere",
+    .stands_beside = true,
     .summary = "independent uniform points",
     .domain = PS_SAMPLES_SPHERE,
     .nanoseconds = 13,

@@ -103,6 +103,7 @@ static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *o
 
 const ps_sampler ps_sampler_zphi = {
     .name = "zphi",
+    .stands_beside = true,
     .summary = "one uniform point in each cell of equal height by equal azimuth",
     .aliases = {"z-phi"},
     .domain = PS_SAMPLES_SPHERE,

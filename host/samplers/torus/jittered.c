@@ -30,6 +30,7 @@ static pspec_status fill(const ps_sampler_request *request, ps_sampler_places *o
 
 const ps_sampler ps_sampler_jittered = {
     .name = "jittered",
+    .stands_beside = true,
     .summary = "one uniform point in each cell of a grid",
     .aliases = {"stratified", "jitter"},
     .minimum_dimension = 1,

@@ -13,6 +13,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
 
 const ps_sampler ps_sampler_white = {
     .name = "white",
+    .stands_beside = true,
     .summary = "independent uniform points",
     .aliases = {"whitenoise", "random", "uniform"},
     .minimum_dimension = 1,

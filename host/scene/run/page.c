@@ -20,7 +20,14 @@ static const char style[] =
     ".bad{color:#b00020;font-weight:bold}.good{color:#006b3c;font-weight:bold}\n"
     "details{margin:.4em 0}summary{cursor:pointer;color:#0b5394}code{font-size:.92em}\n"
     "dl{display:grid;grid-template-columns:max-content auto;gap:.1em 1em;font-size:.87em}\n"
-    "dl{margin:.3em 0 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}\n";
+    "dl{margin:.3em 0 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}\n"
+    "@media "
+    "print{@page{margin:9mm}body{font-size:8.5px;margin:0;max-width:none}details{display:none}\n"
+    "h1,h2{margin:.2em 0 0;padding:.1em 0;font-size:1.3em}p,table{margin:.2em "
+    "0}.scroll{overflow:visible}\n"
+    "th,td{padding:0 .35em}.plots{flex-wrap:nowrap}.plots>svg{flex:1 1 "
+    "0;min-width:0;max-width:none}\n"
+    ".plots.one>svg{max-width:62%}}\n";
 
 /* ---- texts ------------------------------------------------------------------------------- */
 
@@ -190,6 +197,62 @@ static void print_rows(const ps_table *table, ps_text *out) {
     ps_text_append(out, "</table></div>\n");
 }
 
+static void print_with_error(ps_cell value, ps_cell error, ps_text *out) {
+    ps_text_append(out, "<td>");
+    print_cell(value, out);
+    if (error.kind == PS_CELL_NUMBER) {
+        ps_text_append(out, " &plusmn; %.2g", error.number);
+    }
+    ps_text_append(out, "</td>");
+}
+
+/* A column for each question, for kinds whose rows are the same in all of them. */
+static void print_side_by_side(const ps_run_result *result, ps_text *out) {
+    const char *const row_name = result->asked->kind->row_name;
+    const ps_table *const first = result->questions[0].answer.table;
+    ps_text_append(out, "<div class=\"scroll\"><table><tr><th class=\"text\">%s</th>", row_name);
+    for (size_t q = 0; q < result->num; q++) {
+        ps_text label = {0};
+        ps_run_label(result, q, &label);
+        ps_text_append(out, "<th>");
+        print_text(ps_text_string(&label), out);
+        ps_text_append(out, "</th>");
+        out->failed = out->failed || label.failed;
+        ps_text_free(&label);
+    }
+    for (size_t row = 0; row < ps_table_num_rows(first); row++) {
+        ps_text_append(out, "</tr>\n<tr><td class=\"text\">");
+        print_name(ps_table_find_cell(first, row, row_name).text, out);
+        ps_text_append(out, "</td>");
+        for (size_t q = 0; q < result->num; q++) {
+            const ps_table *const table = result->questions[q].answer.table;
+            print_with_error(ps_table_find_cell(table, row, "value"),
+                             ps_table_find_cell(table, row, "standard_error"), out);
+        }
+    }
+    ps_text_append(out, "</tr></table></div>\n");
+}
+
+/* Do all questions have the rows of the first? */
+static bool are_rows_alike(const ps_run_result *result) {
+    const char *const row_name = result->asked->kind->row_name;
+    const ps_table *const first = result->questions[0].answer.table;
+    for (size_t q = 0; q < result->num && row_name != NULL; q++) {
+        const ps_table *const table = result->questions[q].answer.table;
+        if (ps_table_num_rows(table) != ps_table_num_rows(first)) {
+            return false;
+        }
+        for (size_t row = 0; row < ps_table_num_rows(first); row++) {
+            const ps_cell a = ps_table_find_cell(first, row, row_name);
+            const ps_cell b = ps_table_find_cell(table, row, row_name);
+            if (a.kind != PS_CELL_TEXT || b.kind != PS_CELL_TEXT || strcmp(a.text, b.text) != 0) {
+                return false;
+            }
+        }
+    }
+    return row_name != NULL;
+}
+
 /* The header of a question: command, engine, precision, what was skipped, how it was checked. */
 static void print_header(const ps_run_result *result, size_t number, ps_text *out) {
     const ps_table *const table = result->questions[number].answer.table;
@@ -227,12 +290,9 @@ static void print_plan(const ps_run_result *result, ps_text *out) {
     ps_text_append(out, "</details>\n");
 }
 
-static void print_result(const ps_run_result *result, ps_text *out) {
-    const ps_scene_result *const asked = result->asked;
-    ps_text_append(out, "<h2 id=\"%s\">", asked->name);
-    print_text(asked->title != NULL ? asked->title : asked->name, out);
+static void print_links(const ps_scene_result *asked, const ps_run_result *result, ps_text *out) {
     ps_text_append(out,
-                   "</h2>\n<p class=\"facts\">%s; tables <a href=\"%s.csv\">%s.csv</a>, "
+                   "<p class=\"facts\">%s; tables <a href=\"%s.csv\">%s.csv</a>, "
                    "<a href=\"%s.summary.csv\">%s.summary.csv</a>",
                    asked->kind->name, asked->name, asked->name, asked->name, asked->name);
     if (asked->wants_arrays) {
@@ -241,11 +301,23 @@ static void print_result(const ps_run_result *result, ps_text *out) {
                        asked->name, asked->name, result->num);
     }
     ps_text_append(out, "</p>\n");
+}
+
+static void print_result(const ps_run *run, const ps_run_result *result, ps_text *out) {
+    const ps_scene_result *const asked = result->asked;
+    ps_text_append(out, "<h2 id=\"%s\">", asked->name);
+    print_text(asked->title != NULL ? asked->title : asked->name, out);
+    ps_text_append(out, "</h2>\n");
+    if (!run->is_page_alone) {
+        print_links(asked, result, out);
+    }
     print_plots(result, out);
     for (size_t q = 0; q < result->num; q++) {
         print_sentences(result, q, out);
     }
-    if (asked->kind->has_few_rows) {
+    if (are_rows_alike(result)) {
+        print_side_by_side(result, out);
+    } else if (asked->kind->has_few_rows) {
         print_rows(result->table, out);
     }
     print_summary(result, out);
@@ -267,8 +339,14 @@ static void print_facts(const ps_run *run, ps_text *out) {
     print_seconds(run->seconds, out);
     ps_text_append(out, ", of which the slowest question (%s) took ", slowest->asked.result->name);
     print_seconds(slowest->seconds, out);
-    ps_text_append(out, "; <a href=\"record.json\">record.json</a> repeats it: <code>pointspec run "
-                        "record.json</code></p>\n");
+    if (run->is_page_alone) {
+        ps_text_append(out, "; made by <code>");
+        print_text(run->arguments->command_line, out);
+        ps_text_append(out, "</code></p>\n");
+    } else {
+        ps_text_append(out, "; <a href=\"record.json\">record.json</a> repeats it: "
+                            "<code>pointspec run record.json</code></p>\n");
+    }
 }
 
 static void print_contents(const ps_run *run, ps_text *out) {
@@ -299,7 +377,7 @@ pspec_status ps_run_page(const ps_run *run, ps_text *out, ps_error *error) {
     print_facts(run, out);
     print_contents(run, out);
     for (size_t i = 0; i < run->num_results; i++) {
-        print_result(&run->results[i], out);
+        print_result(run, &run->results[i], out);
     }
     ps_text_append(out, "</body></html>\n");
     return ps_text_check(out, error);

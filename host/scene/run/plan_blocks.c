@@ -46,7 +46,7 @@ static pspec_status add_pictures(const ps_run *run, ps_planner *planner, ps_erro
     return status == PSPEC_OK ? ps_plan_table_add_phases(planner, &phases, error) : status;
 }
 
-static pspec_status add_blocks(ps_run *run, ps_planner *planner, ps_error *error) {
+pspec_status ps_run_plan_blocks(ps_run *run, ps_planner *planner, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_open_cache(run, error));
     for (size_t i = 0; i < run->num_questions; i++) {
@@ -68,7 +68,7 @@ pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments, ps_er
     ps_run run = {.hooks = *planner->hooks, .arguments = arguments, .scene = &scene, .folder = ""};
     pspec_status status = ps_run_read_scene(&scene, arguments, error);
     if (status == PSPEC_OK) {
-        status = add_blocks(&run, planner, error);
+        status = ps_run_plan_blocks(&run, planner, error);
     }
     ps_run_free(&run);
     ps_scene_free(&scene);

@@ -95,10 +95,10 @@ void ps_run_free(ps_run *run) {
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void tell_of_pictures(const ps_run *run) {
+void ps_run_tell_of_pictures(const ps_run *run, const char *where) {
     if (run->num_undrawn > 0) {
         ps_answer_tell_missing(&run->hooks, "%zu picture%s of \"%s\" %s not drawn: %s",
-                               run->num_undrawn, run->num_undrawn == 1 ? "" : "s", run->folder,
+                               run->num_undrawn, run->num_undrawn == 1 ? "" : "s", where,
                                run->num_undrawn == 1 ? "was" : "were", run->undrawn.message);
     }
 }
@@ -111,7 +111,7 @@ static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
     }
     PS_TRY(ps_run_write(run, error));
     ps_run_end_checkpoints(run);
-    tell_of_pictures(run);
+    ps_run_tell_of_pictures(run, run->folder);
     PS_TRY(ps_run_overview(&out->table, run, error));
     /* what it comes to is told beside the overview, not instead of it */
     return ps_run_judge(run, &out->verdict) == PSPEC_ERROR_CHECK ? PSPEC_OK : out->verdict.status;

@@ -9,6 +9,7 @@
  *     plots.c      those pictures, drawn, with the words that tell curves apart
  *     page.c       the page that shows them
  *     record.c     the record that repeats them
+ *     report.c     the page alone, of a scene that is made of a command line
  *     files.c      names of the files that there will be
  *     folder.c     the folder for them; former.c: files of the former run in it
  *     write.c      the files
@@ -121,6 +122,7 @@ typedef struct ps_run {
     const ps_request *arguments;
     const ps_scene *scene;
     const char *folder;  /* for the results; "": none is made */
+    bool is_page_alone;  /* which names no files beside it */
     ps_cache *cache;     /* NULL: none */
     ps_text identity;    /* of program and device, for the keys of the cache */
     ps_device_kind kind; /* of the device */
@@ -144,6 +146,13 @@ typedef struct ps_run {
  * and checks; it is freed by ps_answer_free, also after an error. */
 pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+/* A page about the points that the arguments name, beside known sets, into arguments->output. */
+pspec_status ps_run_report(ps_answer *out, const ps_request *arguments,
+                           const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+/* Its plan: a block for every question. */
+pspec_status ps_run_plan_report(ps_planner *planner, const ps_request *arguments,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* look_at_shares of the row: questions are shared where there is a cache for the answers. */
 pspec_status ps_run_look_at_shares(uint64_t *num, ps_error *why, const ps_request *arguments,
@@ -240,7 +249,11 @@ void ps_run_print_files(const ps_run *run, ps_text *out);
  * does. */
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
 
-/* The plan of the scene request->files[0]: one block for every question. */
+/* A block of the plan for every question of the scene of the run. */
+pspec_status ps_run_plan_blocks(ps_run *run, ps_planner *planner, ps_error *error) PS_MUST_CHECK;
+/* Why pictures were not drawn, if some were not; where: what they are missing in. */
+void ps_run_tell_of_pictures(const ps_run *run, const char *where);
+/* The plan of the scene request->files[0]. */
 pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments,
                          ps_error *error) PS_MUST_CHECK;
 

@@ -294,7 +294,8 @@ static pspec_status add_result(ps_table *table, const ps_run_result *result, ps_
 
 pspec_status ps_run_overview(ps_table **out, const ps_run *run, ps_error *error) {
     static const char *const columns[] = {"result", "kind", "questions", "cached", "seconds"};
-    const char *const page = ps_run_find_file(run, "index.html")->path;
+    const char *const page =
+        run->is_page_alone ? run->arguments->output : ps_run_find_file(run, "index.html")->path;
     PS_TRY(ps_table_create(out, "run", columns, sizeof columns / sizeof columns[0], error));
     PS_TRY(ps_table_add_meta(*out, "page", PS_TEXT(page), error));
     PS_TRY(ps_table_add_meta(*out, "seconds", PS_NUMBER(run->seconds), error));
