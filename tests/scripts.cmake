@@ -13,10 +13,9 @@ add_script_test(changed_tests "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project
   ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 add_script_test(gpu_kernel_tests "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/gpu_kernel_tests.sh
   ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
-# The reference of the header is made without a warning; skipped where there is no doxygen.
-add_script_test(reference "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/reference.sh
-  ${PROJECT_BINARY_DIR}/reference)
-set_tests_properties(reference PROPERTIES SKIP_RETURN_CODE 77)
+# Pages and the reference of the header are made without a warning; skipped where there is no doxygen or mkdocs.
+add_script_test(site "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/site.sh ${PROJECT_BINARY_DIR}/site)
+set_tests_properties(site PROPERTIES SKIP_RETURN_CODE 77)
 add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/project/no_blas.sh
   $<TARGET_FILE:pointspec_program> $<TARGET_FILE:pointspec>)
 if(NOT POINTSPEC_SANITIZE)

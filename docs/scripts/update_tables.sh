@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of README.md and docs/*/*.md with what the
+# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of docs/*/*.md with what the
 # programs of BUILD_DIR print (build/dev has benchmarks and tests alike). A table stands between a
 # line "<!-- table: NAME -->" and a line "<!-- end -->"; NAME is a function table_NAME below. Times want
 # a quiet machine. Without TABLE all are made; a program that is not built leaves its table alone.
 set -euo pipefail
 docs=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/..")
-pages=("$docs/../README.md" "$docs"/*/*.md)
+pages=("$docs"/*/*.md)
 (($# >= 1)) || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 build=$(realpath "$1")
 shift
@@ -138,7 +138,7 @@ table_bench_peers_pairs() { peers pairs; }
 # What the last ./dev fuzz printed.
 table_fuzzing() { cat "$docs/../fuzz-output/table.txt"; }
 
-# The examples of README.md: the first rows of jittered sampling, a list, a plan from the first skip on.
+# The examples of docs/user/examples.md: the first rows of jittered sampling, a list, a plan from the first skip on.
 power_rows() { # ARGUMENTS...
     "$build/pointspec" power --quiet "$@" | grep -v '^#'
 }

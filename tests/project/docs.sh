@@ -121,7 +121,7 @@ if ((${#pages[@]} == 0)); then
     for scene in "$source_dir"/docs/scenes/{*,*/*}.yaml; do
         "$program" plan run "$scene" >"$scratch/plan" 2>&1 || { echo "$scene: $(<"$scratch/plan")" >&2; bad=1; }
     done
-    for page in "$source_dir"/*.md "$source_dir"/docs/*/*.md; do
+    for page in "$source_dir"/*.md "$source_dir"/docs/{,*/}*.md; do
         check_links "$page"
     done
 fi
