@@ -63,6 +63,10 @@ static void lattices_say_what_they_need(void **state) {
     assert_refused("rank1:generator=0x2", 100, 2, "is not 2 positive whole numbers");
     assert_refused("kronecker:alpha=0.5", 100, 2, "is not 2 numbers between 0 and 1");
     assert_refused("r2:alpha=0.5x1", 100, 2, "is not 2 numbers between 0 and 1");
+    assert_refused("r2:alpha=0.5x 0.25", 100, 2, "is not 2 numbers between 0 and 1");
+    assert_refused("r2:alpha=0.5x0.25x0.125", 100, 2, "is not 2 numbers between 0 and 1");
+    assert_refused("r2:alpha=0.5x0.2500000000000000000000000000000000001", 100, 2,
+                   "is not 2 numbers between 0 and 1");
     ps_sampler_request open = {.seed = 1};
     ps_error error = {0};
     assert_int_equal(ps_sampler_parse(&open, "fibonacci-lattice", &error), PSPEC_OK);

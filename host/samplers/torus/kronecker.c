@@ -7,8 +7,6 @@
 #include "samplers/pace.h"
 #include "samplers/values.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { ALPHA };
@@ -36,6 +34,7 @@ static pspec_status fail_alpha(const ps_sampler_request *request, ps_error *erro
 
 static pspec_status find_alpha(const ps_sampler_request *request, uint64_t alpha[PS_MAX_DIMENSION],
                                ps_error *error) {
+    enum { ROOM = 32 }; /* a double has 24 characters */
     const double two_to_64 = 0x1p64;
     const char *text = request->values[ALPHA];
     memcpy(alpha, golden[request->dimension - 1], sizeof golden[0]);
@@ -43,14 +42,17 @@ static pspec_status find_alpha(const ps_sampler_request *request, uint64_t alpha
         return PSPEC_OK;
     }
     for (unsigned i = 0; i < request->dimension; i++) {
-        char *end = NULL;
-        const double value = strtod(text, &end);
+        char number[ROOM] = "";
+        const size_t length = strcspn(text, "x");
         const char follows = i + 1 < request->dimension ? 'x' : '\0';
-        if (end == text || *end != follows || !(value > 0 && value < 1)) {
+        double value = 0;
+        memcpy(number, text, length < ROOM ? length : 0);
+        if (ps_parse_number(number, "", 0, 1, &value, NULL) != PSPEC_OK || value == 0 ||
+            value == 1 || text[length] != follows) {
             return fail_alpha(request, error);
         }
         alpha[i] = (uint64_t)(value * two_to_64);
-        text = end + 1;
+        text += length + 1;
     }
     return PSPEC_OK;
 }

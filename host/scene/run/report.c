@@ -278,7 +278,8 @@ static pspec_status write_page(const ps_run *run, const char *path, ps_error *er
     return status;
 }
 
-static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
+static pspec_status produce(void *payload, ps_run *run, ps_error *error) {
+    ps_answer *const out = payload;
     const char *const path = run->arguments->output;
     if (path == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -324,19 +325,15 @@ static pspec_status with_scene(const ps_request *arguments, const ps_answer_hook
     return status;
 }
 
-static pspec_status produce_report(void *payload, ps_run *run, ps_error *error) {
-    return produce(payload, run, error);
-}
-
-static pspec_status plan_report(void *payload, ps_run *run, ps_error *error) {
+static pspec_status plan(void *payload, ps_run *run, ps_error *error) {
     return ps_run_plan_blocks(run, payload, error);
 }
 
 pspec_status ps_run_report(ps_answer *out, const ps_request *arguments,
                            const ps_answer_hooks *hooks, ps_error *error) {
-    return with_scene(arguments, hooks, produce_report, out, error);
+    return with_scene(arguments, hooks, produce, out, error);
 }
 
 pspec_status ps_run_plan_report(ps_planner *planner, const ps_request *arguments, ps_error *error) {
-    return with_scene(arguments, planner->hooks, plan_report, planner, error);
+    return with_scene(arguments, planner->hooks, plan, planner, error);
 }
