@@ -128,6 +128,9 @@ static pspec_status complete(const ps_command *command, ps_request *arguments,
     if (arguments->output == NULL && has_output(command, arguments)) {
         arguments->output = "-"; /* in the library NULL is no output */
     }
+    /* Who types a command means it; who is given a scene has not read it. */
+    arguments->reading.programs.may_run =
+        arguments->is_given[PS_OPTION_ALLOW_EXEC] || ps_request_has_programs(arguments);
     if (ranks == NULL) { /* mpirun has a terminal of its own, whatever the output goes to */
         ps_terminal_settle(command, arguments);
     }

@@ -89,7 +89,8 @@ static void remove_temporary_files(const char *pid) {
     }
 }
 
-/* gnuplot, or a compiler that a driver has started. */
+/* gnuplot, a compiler that a driver has started, or a program that prints points, which leads a
+ * group of its own. */
 static void end_children(const char *pid) {
     char path[PATH_BYTES];
     char text[PATH_BYTES];
@@ -103,6 +104,7 @@ static void end_children(const char *pid) {
         if (text[i] >= '0' && text[i] <= '9') {
             child = 10 * child + (text[i] - '0');
         } else if (child > 0) {
+            (void)kill((pid_t)-child, SIGKILL);
             (void)kill((pid_t)child, SIGKILL);
             child = 0;
         }

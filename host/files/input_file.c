@@ -1,6 +1,7 @@
 #include "files/input_file.h"
 
 #include "base/memory.h"
+#include "base/process/program.h"
 #include "files/descriptor.h"
 #include "files/packed/gzip.h"
 #include "files/packed/zip.h"
@@ -69,33 +70,41 @@ static pspec_status start_gzip(ps_input *input, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status start_compressed(ps_input *input, const char *array, ps_error *error) {
+static pspec_status check_not_empty(ps_input *input, ps_error *error) {
     const unsigned char *bytes = NULL;
     size_t num_bytes = 0;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &num_bytes, error));
+    return num_bytes > 0 ? PSPEC_OK
+                         : ps_fail(error, PSPEC_ERROR_INPUT, "%s %s", input->name,
+                                   input->program != NULL ? "printed nothing" : "is empty");
+}
+
+static pspec_status start_compressed(ps_input *input, const char *array, ps_error *error) {
     bool is_gzip = false;
     bool is_zip = false;
-    PS_TRY(ps_input_peek(input, 1, &bytes, &num_bytes, error));
-    if (num_bytes == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is empty", input->name);
-    }
+    PS_TRY(check_not_empty(input, error));
     PS_TRY(begins_with(input, "\x1f\x8b", &is_gzip, error));
     PS_TRY(begins_with(input, "PK\3\4", &is_zip, error));
     return is_gzip ? start_gzip(input, error) : is_zip ? start_zip(input, array, error) : PSPEC_OK;
 }
 
-static pspec_status open_input(ps_input *input, const char *path, const char *array,
-                               ps_error *error) {
-    input->name = strdup(strcmp(path, "-") == 0 ? "standard input" : path);
+static pspec_status begin(ps_input *input, const char *name, ps_error *error) {
+    *input = (ps_input){.name = strdup(name), .descriptor = -1};
     if (input->name == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
     }
+    return PS_NEW(&input->buffer, BUFFER_BYTES, "an input buffer", error);
+}
+
+static pspec_status open_input(ps_input *input, const char *path, const char *array,
+                               ps_error *error) {
+    PS_TRY(begin(input, strcmp(path, "-") == 0 ? "standard input" : path, error));
     input->descriptor = ps_descriptor_open(path);
     if (input->descriptor < 0) {
         return ps_read_fail(input->name, error);
     }
     PS_TRY(check_kind(input, error));
     input->can_reopen = input->is_seekable && strcmp(path, "-") != 0;
-    PS_TRY(PS_NEW(&input->buffer, BUFFER_BYTES, "an input buffer", error));
     return start_compressed(input, array, error);
 }
 
@@ -105,8 +114,23 @@ pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) {
 
 pspec_status ps_input_open_array(ps_input *input, const char *path, const char *array,
                                  ps_error *error) {
-    *input = (ps_input){.descriptor = -1};
     const pspec_status status = open_input(input, path, array, error);
+    if (status != PSPEC_OK) {
+        ps_input_close(input);
+    }
+    return status;
+}
+
+static pspec_status open_program(ps_input *input, const char *name, const char *command,
+                                 ps_error *error) {
+    PS_TRY(begin(input, name, error));
+    PS_TRY(ps_program_start(&input->program, command, error));
+    return check_not_empty(input, error);
+}
+
+pspec_status ps_input_open_program(ps_input *input, const char *name, const char *command,
+                                   ps_error *error) {
+    const pspec_status status = open_program(input, name, command, error);
     if (status != PSPEC_OK) {
         ps_input_close(input);
     }
@@ -119,6 +143,7 @@ void ps_input_close(ps_input *input) {
     }
     ps_gzip_destroy(input->gzip);
     ps_zip_destroy(input->zip);
+    ps_program_end(input->program);
     free(input->buffer);
     free(input->name);
     *input = (ps_input){.descriptor = -1};
@@ -134,6 +159,9 @@ static pspec_status read_source(ps_input *input, void *out, size_t max_bytes, si
     }
     if (input->zip != NULL) {
         return ps_zip_read(input->zip, out, max_bytes, count, error);
+    }
+    if (input->program != NULL) {
+        return ps_program_read(input->program, out, max_bytes, count, error);
     }
     return ps_descriptor_read(input->descriptor, input->name, out, max_bytes, count, error);
 }

@@ -1,5 +1,6 @@
 /* Opening and reading what is read: a file, standard input, or either of them compressed by gzip,
- * or an array of a zip archive (NPZ), with the refusals that are the same for all. */
+ * an array of a zip archive (NPZ), or what a command prints, with the refusals that are the same
+ * for all. */
 #ifndef PS_FILES_INPUT_FILE_H
 #define PS_FILES_INPUT_FILE_H
 
@@ -10,15 +11,17 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-typedef struct ps_gzip ps_gzip; /* files/packed/gzip.h */
-typedef struct ps_zip ps_zip;   /* files/packed/zip.h */
+typedef struct ps_gzip ps_gzip;       /* files/packed/gzip.h */
+typedef struct ps_zip ps_zip;         /* files/packed/zip.h */
+typedef struct ps_program ps_program; /* base/process/program.h */
 
 /* Closed by ps_input_close, also after an open that failed. */
 typedef struct ps_input {
     char *name; /* for messages */
     int descriptor;
     ps_gzip *gzip;         /* NULL: the bytes are as they are, */
-    ps_zip *zip;           /* or come from an archive */
+    ps_zip *zip;           /* or come from an archive, */
+    ps_program *program;   /* or are printed by a command */
     unsigned char *buffer; /* read, but not yet taken: [begin, end) */
     size_t begin, end;
     bool is_seekable; /* a regular file, not compressed */
@@ -36,6 +39,9 @@ pspec_status ps_input_open_array(ps_input *input, const char *path, const char *
                                  ps_error *error) PS_MUST_CHECK;
 /* The same, with the array "points". */
 pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) PS_MUST_CHECK;
+/* What the command prints; name: of the input, for messages. It is never packed. */
+pspec_status ps_input_open_program(ps_input *input, const char *name, const char *command,
+                                   ps_error *error) PS_MUST_CHECK;
 void ps_input_close(ps_input *input);
 
 /* Makes the first bytes visible in *bytes without taking them: at least wanted (at most 1024), and

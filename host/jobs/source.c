@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "sets/files_ahead.h"
 #include "sets/kept_inputs.h"
+#include "sets/program_sets.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,15 +33,11 @@ struct ps_source {
     ps_text formats, columns; /* of the files read so far, each once */
     ps_kept_inputs kept;      /* sets of streams */
     bool is_lost;             /* there were more of them than are kept */
+    ps_program_sets programs; /* where the paths are some */
     /* Of a stream that had not ended when the source was rewound: it goes on after its kept sets */
     ps_point_reader *unfinished;
     size_t unfinished_path;
 };
-
-static pspec_status create(ps_source **out, ps_error *error) {
-    PS_TRY(PS_NEW(out, 1, "a source of points", error));
-    return PSPEC_OK;
-}
 
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
                                uint64_t num_realizations, const ps_sets_options *options,
@@ -48,7 +45,7 @@ pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *reques
     ps_sets *sets = NULL;
     *out = NULL;
     PS_TRY(ps_sets_create(&sets, request, num_realizations, options, error));
-    const pspec_status status = create(out, error);
+    const pspec_status status = PS_NEW(out, 1, "a source of points", error);
     if (status != PSPEC_OK) {
         ps_sets_destroy(sets);
         return status;
@@ -70,7 +67,7 @@ const char *ps_source_trouble(ps_source *source) {
 
 pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t num_paths,
                              const ps_source_options *options, ps_error *error) {
-    PS_TRY(create(out, error));
+    PS_TRY(PS_NEW(out, 1, "a source of points", error));
     (*out)->paths = paths;
     (*out)->num_paths = num_paths;
     (*out)->options = *options;
@@ -83,6 +80,7 @@ pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t n
         (*out)->options.kept_bytes = is_less ? limit : PS_SOURCE_WHOLE_BYTES;
     }
     (*out)->kept.memory_limit = options->points.memory_limit;
+    (*out)->programs = ps_program_sets_make(paths, num_paths, &options->points);
     return PSPEC_OK;
 }
 
@@ -193,6 +191,10 @@ static pspec_status open_next(ps_source *source, ps_point_set *set, bool *ends, 
     const char *const path = source->paths[source->next_path];
     ps_scout_close(&source->scout);
     source->sets_of_file = 0;
+    if (source->formats.length == 0) {
+        PS_TRY(ps_program_sets_try(&source->programs, source->paths, &source->num_paths,
+                                   &source->options.points, &source->formats, error));
+    }
     PS_TRY(source->ahead == NULL ? begin_ahead(source, error) : PSPEC_OK);
     if (source->ahead != NULL) {
         PS_TRY(ps_files_ahead_take(source->ahead, source->next_path - source->first_ahead, &watch,
@@ -272,7 +274,7 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
     *has_set = false;
     *part = (ps_source_part){0};
     set->num_points = 0;
-    while (!*has_set) {
+    while (!*has_set && !ps_program_sets_are_all(&source->programs, source->num_sets)) {
         PS_TRY(next_kept(source, set, has_set, error));
         if (*has_set) {
             part->is_whole = true;
@@ -282,7 +284,7 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
         part->is_whole = false;
         if (source->reader == NULL) {
             if (source->next_path == source->num_paths) {
-                return PSPEC_OK;
+                return ps_program_sets_end(&source->programs, source->num_sets, error);
             }
             PS_TRY(open_next(source, set, &part->is_whole, error));
         }
@@ -294,10 +296,13 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
             source->reader = NULL;
         }
     }
-    source->sets_of_file++;
-    source->num_sets++;
-    PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
-    return keep(source, set, part->is_whole, error);
+    if (*has_set) {
+        source->sets_of_file++;
+        source->num_sets++;
+        PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
+        PS_TRY(keep(source, set, part->is_whole, error));
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
@@ -320,13 +325,14 @@ pspec_status ps_source_next_whole(ps_source *source, ps_point_set *set, bool *ha
 
 uint64_t ps_source_num_sets(const ps_source *source) {
     const ps_point_options *const options = &source->options.points;
-    return options->sets.last > 0
+    return source->programs.are_programs ? source->programs.num_sets
+           : options->sets.last > 0
                ? 0
                : ps_given_sets_count(&options->given, source->paths, source->num_paths);
 }
 
 bool ps_source_can_rewind(const ps_source *source) {
-    return !source->is_lost;
+    return !source->is_lost || source->programs.repeats;
 }
 
 pspec_status ps_source_check_rewind(const ps_source *source, const char *why, ps_error *error) {
@@ -339,9 +345,10 @@ pspec_status ps_source_check_rewind(const ps_source *source, const char *why, ps
                          why, ps_size_show(size, (double)source->options.kept_bytes));
 }
 
-/* A stream that has not ended is not closed. */
+/* A stream that has not ended is not closed, but for a program that is run again. */
 static void leave_reader(ps_source *source) {
-    if (source->reader != NULL && !ps_points_can_reopen(source->reader)) {
+    const bool is_kept = !(source->is_lost && source->programs.repeats);
+    if (source->reader != NULL && !ps_points_can_reopen(source->reader) && is_kept) {
         source->unfinished = source->reader;
         source->unfinished_path = source->next_path - 1;
     } else {

@@ -66,7 +66,8 @@ pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_poi
                             ps_error *error) PS_MUST_CHECK;
 /* From now on points (x, y, z) come as (y, z, x), the x axis where the z axis was. */
 void ps_source_turn(ps_source *source);
-/* Sets of a caller that says how many there are; 0: nobody knows before they have come. */
+/* Sets of a program, or of a caller that says how many there are; 0: nobody knows before they have
+ * come. */
 uint64_t ps_source_num_sets(const ps_source *source);
 /* Not once more was read of a stream than is kept. */
 bool ps_source_can_rewind(const ps_source *source);

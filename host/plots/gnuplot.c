@@ -5,19 +5,16 @@
  * and it is we who write the picture: gnuplot does not notice a disk that is full. */
 #include "plots/plot_script.h"
 
+#include "base/process/program.h"
 #include "files/temporary_file.h"
 #include "files/text_lines.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ; /* POSIX wants it declared by whoever uses it */
 
 /* ---- where it is --------------------------------------------------------------------------- */
 
@@ -59,41 +56,20 @@ pspec_status ps_plot_find_gnuplot(ps_text *path, ps_error *error) {
 
 /* ---- a picture ----------------------------------------------------------------------------- */
 
-/* 0, or the errno of what failed. Descriptors: of the child's standard streams. */
-static int spawn_gnuplot(const char *path, const int descriptors[3], pid_t *child) {
+/* Starts gnuplot; *source is where its picture can be read. 0, or the errno of what failed. */
+static int start_gnuplot(const char *path, FILE *script, FILE *complaints, int *source,
+                         pid_t *child) {
     /* --default-settings: the user's own gnuplot start-up file must not change the picture. */
     char program[] = "gnuplot";
     char option[] = "--default-settings";
     char *const arguments[] = {program, option, NULL};
-    posix_spawn_file_actions_t actions;
-    int reason = posix_spawn_file_actions_init(&actions);
+    int ends[2];
+    int reason = ps_pipe_open(ends);
     if (reason != 0) {
         return reason;
     }
-    for (int i = 0; i < 3 && reason == 0; i++) {
-        reason = posix_spawn_file_actions_adddup2(&actions, descriptors[i], i);
-    }
-    if (reason == 0) {
-        reason = posix_spawn(child, path, &actions, NULL, arguments, environ);
-    }
-    posix_spawn_file_actions_destroy(&actions);
-    return reason;
-}
-
-/* gnuplot gets the writing end as its standard output and must not hold any other. */
-static bool close_on_exec(const int ends[2]) {
-    return fcntl(ends[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) == 0;
-}
-
-/* Starts gnuplot; *source is where its picture can be read. 0, or the errno of what failed. */
-static int start_gnuplot(const char *path, FILE *script, FILE *complaints, int *source,
-                         pid_t *child) {
-    int ends[2] = {-1, -1};
-    if (pipe(ends) != 0) {
-        return errno;
-    }
     const int descriptors[] = {fileno(script), ends[1], fileno(complaints)};
-    const int reason = close_on_exec(ends) ? spawn_gnuplot(path, descriptors, child) : errno;
+    reason = ps_child_start(child, path, arguments, descriptors, false);
     close(ends[1]); /* the end of the picture comes when gnuplot closes the only other one */
     if (reason != 0) {
         close(ends[0]);

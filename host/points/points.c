@@ -237,15 +237,38 @@ uint64_t ps_given_sets_count(const ps_given_sets *given, const char *const *path
 pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
                              ps_error *error) {
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_given_sets_find(&options->given, paths[i]) != NULL
+        PS_TRY(ps_given_sets_find(&options->given, paths[i]) != NULL ||
+                       ps_points_program(paths[i]) != NULL
                    ? PSPEC_OK
                    : ps_input_check(paths[i], error));
     }
     return PSPEC_OK;
 }
 
+const char *ps_points_program(const char *path) {
+    static const char begin[] = PS_POINT_PROGRAM;
+    return strncmp(path, begin, sizeof begin - 1) == 0 ? path + sizeof begin - 1 : NULL;
+}
+
+/* The end of a command tells no format. */
+static pspec_status open_program(ps_point_reader *reader, const char *path, const char *command,
+                                 ps_error *error) {
+    if (!reader->options.programs.may_run) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s is a program, and nobody said that it may be run: --sampler and --set "
+                       "of a command line do, and --allow-exec of the command run",
+                       path);
+    }
+    PS_TRY(ps_input_open_program(&reader->input, path, command, error));
+    return find_format(reader, "-", error);
+}
+
 static pspec_status open_source(ps_point_reader *reader, const char *path, ps_error *error) {
+    const char *const command = ps_points_program(path);
     reader->given = ps_given_sets_find(&reader->options.given, path);
+    if (reader->given == NULL && command != NULL) {
+        return open_program(reader, path, command, error);
+    }
     if (reader->given == NULL) {
         PS_TRY(ps_input_open(&reader->input, path, error));
         return find_format(reader, path, error);

@@ -101,6 +101,13 @@ uint64_t ps_given_sets_count(const ps_given_sets *given, const char *const *path
 /* All paths are those of given sets. */
 bool ps_given_sets_are_all(const ps_given_sets *given, const char *const *paths, size_t num_paths);
 
+/* Programs of which somebody said that they may be run. */
+typedef struct ps_point_programs {
+    bool may_run;
+    uint64_t num_sets;    /* to take of what they print, together */
+    uint64_t most_points; /* of a set, beyond which a program is stopped; 0: as memory allows */
+} ps_point_programs;
+
 typedef struct ps_point_options {
     const char *format;       /* NULL: detected, else one of PS_INPUT_FORMATS */
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
@@ -130,14 +137,20 @@ typedef struct ps_point_options {
                                are points as they are, are not copied */
     bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
     ps_given_sets given;    /* borrowed */
+    ps_point_programs programs;
 } ps_point_options;
+
+/* A path of this beginning is a command of the shell that prints points. */
+#define PS_POINT_PROGRAM "exec:"
+/* Returns the command, a part of the path; NULL: the path is no program. */
+const char *ps_points_program(const char *path);
 
 typedef struct ps_point_reader ps_point_reader;
 
 /* Can all be read? Without opening them, as ps_input_check. */
 pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
                              ps_error *error) PS_MUST_CHECK;
-/* Opens path: a given set, else a file, standard input for "-". The texts of options must outlive
+/* Opens path: a given set, a program, else a file, standard input for "-". The texts of options must outlive
  * the reader. */
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) PS_MUST_CHECK;

@@ -294,6 +294,17 @@ static pspec_status check_count(const ps_point_reader *reader, bool ends_set, ps
                    reader->format->name);
 }
 
+/* What a program prints may have no end. */
+static pspec_status check_program(const ps_point_reader *reader, ps_error *error) {
+    const uint64_t most = reader->options.programs.most_points;
+    return reader->input.program == NULL || most == 0 || reader->rows_in_set <= most
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s: set %llu goes on after %llu points, far more than were asked for",
+                         reader->input.name, (unsigned long long)reader->num_sets + 1,
+                         (unsigned long long)most);
+}
+
 /* Counts the rows that came, and the set when it is over. */
 static pspec_status count_rows(ps_point_reader *reader, const ps_rows_read *read, bool *ends_set,
                                ps_error *error) {
@@ -304,6 +315,7 @@ static pspec_status count_rows(ps_point_reader *reader, const ps_rows_read *read
         return fail_empty_set(reader, error);
     }
     PS_TRY(check_count(reader, *ends_set, error));
+    PS_TRY(check_program(reader, error));
     if (*ends_set) {
         reader->num_sets++;
         reader->rows_in_set = 0;

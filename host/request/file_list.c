@@ -135,6 +135,75 @@ static pspec_status find_given(ps_file_list *out, const ps_request *request,
     return status;
 }
 
+/* Runs of a program are what its command becomes with these in the place of the words. Other
+ * braces are the shell's, or the program's. */
+typedef struct run_numbers {
+    uint64_t points, dimension, seed, realization, realizations;
+} run_numbers;
+
+static bool append_number(ps_text *out, const char *word, size_t length,
+                          const run_numbers *numbers) {
+    const struct {
+        const char *word;
+        uint64_t number;
+    } known[] = {{PS_PROGRAM_POINTS, numbers->points},
+                 {"{d}", numbers->dimension},
+                 {"{seed}", numbers->seed},
+                 {PS_PROGRAM_REALIZATION, numbers->realization},
+                 {PS_PROGRAM_REALIZATIONS, numbers->realizations}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (strlen(known[i].word) == length && memcmp(known[i].word, word, length) == 0) {
+            ps_text_append(out, "%llu", (unsigned long long)known[i].number);
+            return true;
+        }
+    }
+    return false;
+}
+
+static pspec_status add_run(ps_file_list *list, const char *files, const run_numbers *numbers,
+                            ps_error *error) {
+    ps_text path = {0};
+    for (const char *at = files; *at != '\0';) {
+        const char *const end = *at == '{' ? strchr(at, '}') : NULL;
+        const size_t length = end != NULL ? (size_t)(end - at) + 1 : 0;
+        if (length > 0 && append_number(&path, at, length, numbers)) {
+            at += length;
+        } else {
+            ps_text_append_bytes(&path, at++, 1);
+        }
+    }
+    pspec_status status = ps_text_check(&path, error);
+    if (status == PSPEC_OK) {
+        status = add_path(list, ps_text_string(&path), error);
+    }
+    ps_text_free(&path);
+    return status;
+}
+
+/* One that makes all realizations in one run has a word for their number. */
+static pspec_status list_runs(ps_file_list *out, const ps_request *request, size_t question,
+                              ps_error *error) {
+    const char *const files = request->sources[question / request->num_counts].files;
+    run_numbers numbers = {.points = ps_request_points(request, question),
+                           .dimension = request->dimension,
+                           .seed = request->seed,
+                           .realizations = request->num_realizations};
+    const uint64_t num_runs =
+        strstr(files, PS_PROGRAM_REALIZATIONS) != NULL ? 1 : request->num_realizations;
+    *out = (ps_file_list){0};
+    if (request->accuracy.standard_error > 0 && !request->is_given[PS_OPTION_REALIZATIONS]) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: a program is told how many realizations there are at most: %s",
+                       ps_option_show(request, PS_OPTION_STANDARD_ERROR).text,
+                       ps_option_show(request, PS_OPTION_REALIZATIONS).text);
+    }
+    for (uint64_t r = 0; r < num_runs; r++) {
+        numbers.realization = r;
+        PS_TRY(add_run(out, files, &numbers, error));
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *request, size_t question,
                                       ps_error *error) {
     enum { BYTES = PS_SET_NAME_BYTES + 32 };
@@ -150,6 +219,9 @@ pspec_status ps_file_list_of_question(ps_file_list *out, const ps_request *reque
     }
     if (ps_given_sets_find(&request->reading.given, source->files) != NULL) {
         return find_given(out, request, source, question % request->num_counts, error);
+    }
+    if (ps_points_program(source->files) != NULL) {
+        return list_runs(out, request, question, error);
     }
     snprintf(shown, sizeof shown, "%s %s", ps_option_show(request, PS_OPTION_SET).text,
              source->name);

@@ -1,4 +1,4 @@
-/* Setters of what points come from: samplers, and sets of files under a name. */
+/* Setters of what points come from: samplers, programs, and sets of files under a name. */
 #include "request/option_setters.h"
 
 #include <string.h>
@@ -27,9 +27,24 @@ static pspec_status add_source(const ps_said *said, const ps_source_words *words
     return PSPEC_OK;
 }
 
+static pspec_status check_program(const ps_said *said, const char *files, ps_error *error) {
+    const char *const command = files != NULL ? ps_points_program(files) : NULL;
+    return command == NULL || command[strspn(command, " \t\n")] != '\0'
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s %s: a command is wanted behind " PS_POINT_PROGRAM
+                         ", as in '" PS_POINT_PROGRAM "./mine {n} {seed} {realization}'",
+                         said->shown, said->text);
+}
+
+/* A program is a sampler for who asks, and prints what is read as files are. */
 pspec_status ps_add_sampler(const ps_said *said, ps_error *error) {
-    PS_TRY(check_name(said, said->text, false, error));
-    return add_source(said, &(ps_source_words){.sampler = said->text}, error);
+    const bool is_program = ps_points_program(said->text) != NULL;
+    const ps_source_words words = {.sampler = is_program ? NULL : said->text,
+                                   .files = is_program ? said->text : NULL};
+    PS_TRY(check_name(said, said->text, is_program, error));
+    PS_TRY(check_program(said, words.files, error));
+    return add_source(said, &words, error);
 }
 
 pspec_status ps_add_set(const ps_said *said, ps_error *error) {
@@ -45,5 +60,6 @@ pspec_status ps_add_set(const ps_said *said, ps_error *error) {
     memcpy(words.name, said->text, length);
     words.files = equals + 1;
     PS_TRY(check_name(said, words.name, true, error));
+    PS_TRY(check_program(said, words.files, error));
     return add_source(said, &words, error);
 }

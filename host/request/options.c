@@ -27,8 +27,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_STANDARD_ERROR] =
         {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
          .help = "no more realizations than make the relative standard error of every "
-                 "{power:ring}{:degree} X (above --floor; at least 16); -m is then the most "
-                 "(default 1e6)",
+                 "{power:ring}{:degree} X (above --floor; at least 16); -m: the most (default 1e6)",
          SHARE(accuracy.standard_error)},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"), OF(PLANE | BIT(sample), BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
@@ -39,12 +38,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
                            OF(READERS | BIT(sample), BIT(report)),
-                           .help = "what makes the points, see Samplers", .set = ps_add_sampler,
-                           .maximum = PS_MAX_SAMPLERS},
+                           .help = "makes the points, see Samplers{sample:}{:, or exec:PROGRAM}",
+                           .set = ps_add_sampler, .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_SET] = {NAMED("set", 0, "NAME=FILES"), OF(0, SERIES),
-                       .help =
-                           "points of files, with commas or patterns as in bnot=b1.dat,b2*.dat: "
-                           "realizations of one average, a curve NAME beside those of samplers",
+                       .help = "points of files, with commas or patterns as in a=1.dat,b*.dat: "
+                               "realizations of one average, a curve beside those of samplers",
                        .set = ps_add_set, .maximum = PS_MAX_SAMPLERS},
     [PS_OPTION_INTEGRAND] =
         {NAMED("integrand", 0, "NAME[:key=value,...]"),
@@ -341,6 +339,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          COUNT(limits.checkpoint.interval), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_PREFETCH] = {NAMED("prefetch", 0, NULL), OF(0, BIT(sample)), FLAG(prefetch),
                             .help = "make and keep sets that are not, write none"},
+    [PS_OPTION_ALLOW_EXEC] = {NAMED("allow-exec", 0, NULL), OF(0, BIT(run)),
+                              .help = "run programs that the scene names as samplers",
+                              FLAG(reading.programs.may_run)},
     [PS_OPTION_RECORDED_ENGINES] = {NAMED("recorded-engines", 0, NULL), OF(0, BIT(run)),
                                     .help = "answer a record by the engines and precisions in it",
                                     FLAG(recorded_engines)},

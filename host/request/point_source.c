@@ -2,6 +2,8 @@
 
 #include "request/options.h"
 
+#include <string.h>
+
 static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
 }
@@ -66,11 +68,15 @@ pspec_status ps_sources_check(const ps_request *arguments, const char *what, ps_
                          arguments->files[0]);
 }
 
-/* Points of files have; a caller gives those that are asked for. */
-static bool has_own_counts(const ps_request *arguments) {
+static bool takes_points(const ps_request *arguments, size_t source) {
+    const char *const command = ps_request_program(arguments, source);
+    return command != NULL && strstr(command, PS_PROGRAM_POINTS) != NULL;
+}
+
+bool ps_request_has_own_counts(const ps_request *arguments) {
     size_t i = 0;
     while (i < arguments->num_sources &&
-           (arguments->sources[i].files == NULL ||
+           (arguments->sources[i].files == NULL || takes_points(arguments, i) ||
             ps_given_sets_find(&arguments->reading.given, arguments->sources[i].files) != NULL)) {
         i++;
     }
@@ -79,10 +85,23 @@ static bool has_own_counts(const ps_request *arguments) {
 
 pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_other_source(arguments, error));
-    if (has_own_counts(arguments)) {
+    if (ps_request_has_own_counts(arguments)) {
         PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
     }
     return check_lift(arguments, error);
+}
+
+/* A sampler that misses its number of points misses it by less than this factor. */
+static ps_point_programs limit_programs(const ps_request *arguments) {
+    enum { MOST_TIMES = 16 };
+    ps_point_programs out = arguments->reading.programs;
+    bool is_asked = arguments->is_given[PS_OPTION_POINTS];
+    for (size_t i = 0; i < arguments->num_sources; i++) {
+        is_asked = is_asked || takes_points(arguments, i);
+    }
+    out.num_sets = arguments->num_realizations;
+    out.most_points = is_asked ? MOST_TIMES * arguments->counts[arguments->num_counts - 1] : 0;
+    return out;
 }
 
 ps_point_options ps_point_options_make(const ps_request *arguments) {
@@ -93,6 +112,7 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
                                  : 0;
     options.points_vary = ps_request_has_samplers(arguments);
     options.memory_limit = arguments->limits.constraints.memory_limit;
+    options.programs = limit_programs(arguments);
     return options;
 }
 
@@ -112,7 +132,11 @@ pspec_status ps_sampler_request_read(ps_sampler_request *out, const ps_request *
         .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
         .seed = arguments->seed,
         .homogenize = arguments->homogenize};
-    return ps_sampler_parse(out, ps_request_sampler(arguments, question), error);
+    const char *const text = ps_request_sampler(arguments, question);
+    return text != NULL ? ps_sampler_parse(out, text, error)
+                        : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                  "--sampler %s is a program, which prints its points already",
+                                  ps_request_name(arguments, question));
 }
 
 /* Kept sets need no device. */

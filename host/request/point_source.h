@@ -30,6 +30,10 @@ pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *erro
 pspec_status ps_sources_check(const ps_request *arguments, const char *what,
                               ps_error *error) PS_MUST_CHECK;
 
+/* Do sets have numbers of points of their own? Those of files do; a caller gives those that are
+ * asked for, and so does a program that is told. */
+bool ps_request_has_own_counts(const ps_request *arguments);
+
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_request *arguments);
 /* Refuses options about the other of samplers and files, several numbers of points of files, and

@@ -107,6 +107,7 @@ typedef enum ps_option_id {
     PS_OPTION_CHECKPOINT,         /* --checkpoint FILE */
     PS_OPTION_CHECKPOINT_SECONDS, /* --checkpoint-interval SECONDS */
     PS_OPTION_PREFETCH,           /* --prefetch */
+    PS_OPTION_ALLOW_EXEC,         /* --allow-exec */
     PS_OPTION_RECORDED_ENGINES,   /* --recorded-engines */
     PS_OPTION_NO_SKIP,            /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,      /* --no-self-check */
@@ -132,12 +133,16 @@ typedef enum ps_option_form {
     PS_FORM_KEY     /* points, in a scene */
 } ps_option_form;
 
-/* Where the points of a curve, or of a group of rows, come from: a sampler, or files under a name.
- */
+/* Where the points of a curve, or of a group of rows, come from: a sampler, a program, or files
+ * under a name. In the command of a program numbers take the place of these words, and of {d} and
+ * {seed}; without the last it is run once for each realization. */
+#define PS_PROGRAM_POINTS "{n}"
+#define PS_PROGRAM_REALIZATION "{realization}"
+#define PS_PROGRAM_REALIZATIONS "{realizations}"
 typedef struct ps_source_words {
     const char *sampler;          /* as --sampler has it; NULL: */
-    const char *files;            /* those of --set, a list with commas */
-    char name[PS_SET_NAME_BYTES]; /* of these */
+    const char *files;            /* those of --set, a list with commas, or one program */
+    char name[PS_SET_NAME_BYTES]; /* of these; "": a program's own words */
 } ps_source_words;
 
 typedef struct ps_request {
@@ -221,7 +226,10 @@ const char *ps_request_sampler(const ps_request *request, size_t question);
 const char *ps_request_source_name(const ps_request *request, size_t source);
 /* That of the source of a question; NULL: the files of the request. */
 const char *ps_request_name(const ps_request *request, size_t question);
-/* Are there samplers, and files in sets or alone? */
+/* The command of a source that is a program, with its placeholders; NULL: it is none. */
+const char *ps_request_program(const ps_request *request, size_t source);
+bool ps_request_has_programs(const ps_request *request);
+/* Are there samplers, of which programs are some, and files in sets or alone? */
 bool ps_request_has_samplers(const ps_request *request);
 bool ps_request_has_files(const ps_request *request);
 uint64_t ps_request_points(const ps_request *request, size_t question);

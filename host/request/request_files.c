@@ -116,6 +116,6 @@ pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit
 
 bool ps_request_file_comes_once(const ps_request_file *input) {
     struct stat facts;
-    return strcmp(input->path, "-") == 0 ||
+    return strcmp(input->path, "-") == 0 || ps_points_program(input->path) != NULL ||
            (stat(input->path, &facts) == 0 && !S_ISREG(facts.st_mode));
 }

@@ -13,7 +13,9 @@ const char *ps_request_sampler(const ps_request *request, size_t question) {
 
 const char *ps_request_source_name(const ps_request *request, size_t source) {
     const ps_source_words *const words = &request->sources[source];
-    return words->sampler != NULL ? words->sampler : words->name;
+    return words->sampler != NULL   ? words->sampler
+           : words->name[0] != '\0' ? words->name
+                                    : words->files;
 }
 
 const char *ps_request_name(const ps_request *request, size_t question) {
@@ -22,12 +24,25 @@ const char *ps_request_name(const ps_request *request, size_t question) {
                : NULL;
 }
 
+const char *ps_request_program(const ps_request *request, size_t source) {
+    const char *const files = request->sources[source].files;
+    return files != NULL ? ps_points_program(files) : NULL;
+}
+
+bool ps_request_has_programs(const ps_request *request) {
+    size_t i = 0;
+    while (i < request->num_sources && ps_request_program(request, i) == NULL) {
+        i++;
+    }
+    return i < request->num_sources;
+}
+
 bool ps_request_has_samplers(const ps_request *request) {
     size_t i = 0;
     while (i < request->num_sources && request->sources[i].sampler == NULL) {
         i++;
     }
-    return i < request->num_sources;
+    return i < request->num_sources || ps_request_has_programs(request);
 }
 
 bool ps_request_has_files(const ps_request *request) {

@@ -42,19 +42,32 @@ static bool is_seed_of_files(const ps_scene_result *result, int option) {
                                         ps_scene_find_entry(result, PS_OPTION_INTEGRAND) != NULL);
 }
 
-/* Beside sets what is about samplers says nothing to these, and the reverse. */
+static bool is_program(const ps_scene_value *value) {
+    return value->set == NULL && ps_points_program(value->texts[0]) != NULL;
+}
+
+static bool has_programs(const ps_scene_entry *sources) {
+    size_t i = 0;
+    while (i < sources->num_values && !is_program(&sources->values[i])) {
+        i++;
+    }
+    return i < sources->num_values;
+}
+
+/* Beside sets what is about samplers says nothing to these, and the reverse. Both say something to
+ * programs. */
 static bool is_for_others(const ps_scene_question *question, int option) {
     const ps_scene_entry *const sources = ps_scene_find_entry(question->result, PS_OPTION_SAMPLER);
-    const size_t num_sets = sources != NULL ? ps_scene_num_sets(sources) : 0;
-    if (num_sets == 0 || ps_scene_are_sets(sources) || sources->num_more > 0 ||
-        option == PS_SCENE_FILES) {
+    if (sources == NULL || ps_scene_are_sets(sources) || sources->num_more > 0 ||
+        option == PS_SCENE_FILES || (ps_scene_num_sets(sources) == 0 && !has_programs(sources))) {
         return false;
     }
     const size_t i = (size_t)(sources - question->result->entries);
-    const bool is_set = ps_scene_value_of(question->result, question->number, i)->set != NULL;
+    const ps_scene_value *const value = ps_scene_value_of(question->result, question->number, i);
+    const bool is_set = value->set != NULL;
     const bool is_of_others =
         ps_options[option].source == (is_set ? PS_OF_SAMPLERS : PS_OF_FILES) &&
-        !(is_set && is_seed_of_files(question->result, option));
+        !(is_set && is_seed_of_files(question->result, option)) && !is_program(value);
     return is_of_others || (is_set && option == PS_OPTION_POINTS);
 }
 

@@ -55,7 +55,7 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
     echo "$stdin" >"$case/stdin"
     # Names that a sentence about a file may have: files without endings, since some lie beside others.
     { printf 'standard (in|out)put|temporary file|gnuplot|kernel source|/dev/null'
-        printf '%s\n' "${words[@]}" | tr ',' '\n' | sed -nE 's/^([a-zA-Z_:]*=)?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"
+        printf '%s\n' "${words[@]}" | tr ',' '\n' | sed -nE 's/^([a-zA-Z_:]*[=<])?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"
     for round in expected again; do
         mkdir "$run" "$run/tmp"
         cp -r "$scratch/initial" "$run/folder"

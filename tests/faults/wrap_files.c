@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -203,12 +204,29 @@ WRAPPER(posix_spawn_file_actions_adddup2, int,
                : __real_posix_spawn_file_actions_adddup2(actions, from, to);
 }
 
+WRAPPER(posix_spawnattr_init, int, (posix_spawnattr_t * attributes)) {
+    if (fails("posix_spawnattr_init", ENOMEM)) {
+        return ENOMEM;
+    }
+    fault_gain(attributes, "posix_spawnattr_init");
+    return __real_posix_spawnattr_init(attributes);
+}
+
+WRAPPER(posix_spawnattr_destroy, int, (posix_spawnattr_t * attributes)) {
+    fault_lose(attributes);
+    return __real_posix_spawnattr_destroy(attributes);
+}
+
 WRAPPER(posix_spawn, int,
         (pid_t * child, const char *file, const posix_spawn_file_actions_t *actions,
          const posix_spawnattr_t *attributes, char *const *arguments, char *const *environment)) {
     return fails("posix_spawn", EAGAIN)
                ? EAGAIN
                : __real_posix_spawn(child, file, actions, attributes, arguments, environment);
+}
+
+WRAPPER(poll, int, (struct pollfd * streams, nfds_t num, int milliseconds)) {
+    return fails("poll", ENOMEM) ? -1 : __real_poll(streams, num, milliseconds);
 }
 
 WRAPPER(waitpid, pid_t, (pid_t child, int *state, int options)) {

@@ -31,8 +31,8 @@ static pspec_status add_source(ps_table *table, const ps_request *request, size_
     if (own->sampler != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(
-        ps_header_add_files(table, own->num_paths, job->num_realizations, ", one average", error));
+    PS_TRY(ps_header_add_files(table, own->paths, own->num_paths, job->num_realizations,
+                               ", one average", error));
     PS_TRY(ps_header_add_box(table, &own->point_options.box, error));
     return ps_header_add_lift(table, &own->point_options, error);
 }

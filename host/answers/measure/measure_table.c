@@ -123,8 +123,8 @@ static pspec_status add_one(ps_table *table, const ps_request *request,
     const ps_lead lead = ps_lead_make(request, i);
     PS_TRY(ps_lead_add_source(table, request, i, error));
     if (question->sampler == NULL) {
-        PS_TRY(ps_header_add_files(table, question->num_paths, result->num_realizations,
-                                   ", one average", error));
+        PS_TRY(ps_header_add_files(table, question->paths, question->num_paths,
+                                   result->num_realizations, ", one average", error));
         PS_TRY(ps_header_add_lift(table, &question->point_options, error));
     }
     PS_TRY(ps_header_add_points(table, &range, range.smallest != range.largest, error));

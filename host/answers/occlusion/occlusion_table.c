@@ -91,8 +91,8 @@ static pspec_status add_one(ps_table *table, const ps_request *request, const ps
     PS_TRY(ps_lead_add_source(table, request, i, error));
     PS_TRY(ps_header_add_points(table, &range, range.smallest != range.largest, error));
     if (question->sampler == NULL) {
-        PS_TRY(ps_header_add_files(table, question->num_paths, result->num_realizations,
-                                   ", one average", error));
+        PS_TRY(ps_header_add_files(table, question->paths, question->num_paths,
+                                   result->num_realizations, ", one average", error));
         PS_TRY(ps_header_add_lift(table, &question->point_options, error));
     }
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));

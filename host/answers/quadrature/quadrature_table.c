@@ -49,8 +49,8 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
 /* As other commands say it. */
 static pspec_status add_files(ps_table *table, const ps_quadrature_question *question,
                               const ps_quadrature_result *result, ps_error *error) {
-    PS_TRY(ps_header_add_files(table, question->num_paths, result->num_realizations,
-                               ", one average", error));
+    PS_TRY(ps_header_add_files(table, question->paths, question->num_paths,
+                               result->num_realizations, ", one average", error));
     PS_TRY(ps_header_add_box(table, &question->point_options.box, error));
     return ps_header_add_lift(table, &question->point_options, error);
 }

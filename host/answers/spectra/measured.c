@@ -63,7 +63,7 @@ static void put_files(ps_header *self, const ps_request *arguments, const ps_pow
     self->status =
         self->status == PSPEC_OK
             ? ps_header_add_files(
-                  self->table, job->question->num_paths,
+                  self->table, job->question->paths, job->question->num_paths,
                   job->question->range.end > 0 ? job->num_all : job->spectrum.num_realizations,
                   predicts ? " to predict, the others to measure" : ", one average", self->error)
             : self->status;

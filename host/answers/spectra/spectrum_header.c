@@ -66,12 +66,16 @@ static bool is_on_sphere(const ps_frequencies *set) {
     return set->kind == PS_FREQUENCIES_DEGREES;
 }
 
-pspec_status ps_header_add_files(ps_table *table, size_t num_files, uint64_t num_realizations,
-                                 const char *are_for, ps_error *error) {
+pspec_status ps_header_add_files(ps_table *table, const char *const *paths, size_t num_paths,
+                                 uint64_t num_realizations, const char *are_for, ps_error *error) {
+    const bool are_runs = num_paths > 0 && ps_points_program(paths[0]) != NULL;
+    /* a program that prints the same in every run is run no more */
+    const uint64_t num = are_runs && num_realizations < num_paths ? num_realizations : num_paths;
     char text[128];
-    snprintf(text, sizeof text, "%zu files, %llu realization%s%s", num_files,
-             (unsigned long long)num_realizations, num_realizations == 1 ? "" : "s", are_for);
-    return num_files > 1 ? ps_table_add_meta(table, "input", PS_TEXT(text), error) : PSPEC_OK;
+    snprintf(text, sizeof text, "%llu %s, %llu realization%s%s", (unsigned long long)num,
+             are_runs ? "runs" : "files", (unsigned long long)num_realizations,
+             num_realizations == 1 ? "" : "s", are_for);
+    return num > 1 ? ps_table_add_meta(table, "input", PS_TEXT(text), error) : PSPEC_OK;
 }
 
 void ps_header_put(ps_header *head, const char *key, ps_cell value) {

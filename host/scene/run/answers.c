@@ -39,6 +39,7 @@ static pspec_status ask_one(ps_run *run, const ps_scene_result *result, size_t n
         asked->request.accuracy.no_skip = true;
     }
     asked->request.integrands_made = &run->made;
+    asked->request.reading.programs.may_run = run->arguments->reading.programs.may_run;
     asked->request.limits.device = run->arguments->limits.device;
     asked->request.limits.cache_folder = run->arguments->limits.cache_folder;
     asked->request.limits.kept_bytes = is_repeated ? 0 : run->arguments->limits.kept_bytes;

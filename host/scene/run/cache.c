@@ -119,11 +119,16 @@ static pspec_status read_answer(ps_run_question *out, const ps_npz_file *file, p
     return ps_table_take_npz(&out->answer.table, file, error);
 }
 
+/* Nobody knows what a program will print. */
+static bool is_kept(const ps_run *run, const ps_run_question *question) {
+    return run->cache != NULL && !ps_request_has_programs(&question->asked.request);
+}
+
 pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_error *error) {
     const ps_text *const key = &question->key;
     ps_npz_file *file = NULL;
     ps_error reason = {0};
-    if (run->cache == NULL) {
+    if (!is_kept(run, question)) {
         return PSPEC_OK;
     }
     PS_TRY(make_key(run, question, error));
@@ -152,7 +157,7 @@ void ps_run_keep(ps_run *run, const ps_run_question *question) {
     const ps_text *const key = &question->key;
     ps_npz *npz = NULL;
     ps_error reason = {0};
-    if (run->cache == NULL) {
+    if (!is_kept(run, question)) {
         return;
     }
     pspec_status status = ps_cache_begin(run->cache, key->data, key->length, &npz, &reason);

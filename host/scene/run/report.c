@@ -5,6 +5,7 @@
 #include "answers/output_check.h"
 #include "files/output_file.h"
 #include "jobs/source.h"
+#include "request/file_list.h"
 #include "request/point_source.h"
 #include "spectra/shape/low_end.h"
 
@@ -20,8 +21,8 @@ enum { LEAST_SHARE = 16, FEWEST_POINTS = 16 };
 
 typedef struct report {
     const ps_request *request;
-    bool on_sphere, has_files;
-    uint64_t num_points; /* of the first set */
+    bool on_sphere, has_files; /* without a name, and so not beside samplers */
+    uint64_t num_points;       /* of the first set */
     uint64_t num_realizations;
     ps_text known; /* samplers beside, ", \"white\", .." */
     ps_text name;  /* of the set of files */
@@ -30,7 +31,8 @@ typedef struct report {
 
 /* ---- what the points are ------------------------------------------------------------------- */
 
-static pspec_status look_at_files(report *self, ps_error *error) {
+/* The first set of files, or of a program that stands first. */
+static pspec_status look_at_set(report *self, const ps_file_list *files, ps_error *error) {
     const ps_request *const request = self->request;
     ps_source_options options = {.points = ps_point_options_make(request)};
     ps_source *source = NULL;
@@ -38,7 +40,7 @@ static pspec_status look_at_files(report *self, ps_error *error) {
     bool has_set = false;
     self->on_sphere = request->reading.domain == PS_DOMAIN_SPHERE;
     options.points.domain = self->on_sphere ? PS_DOMAIN_SPHERE : PS_DOMAIN_TORUS;
-    PS_TRY(ps_source_files(&source, request->files, request->num_files, &options, error));
+    PS_TRY(ps_source_files(&source, files->paths, files->num, &options, error));
     pspec_status status = ps_source_next_whole(source, &set, &has_set, error);
     if (status == PSPEC_OK && !has_set) {
         status = ps_fail(error, PSPEC_ERROR_INPUT, "the files have no point sets");
@@ -52,6 +54,19 @@ static pspec_status look_at_files(report *self, ps_error *error) {
     self->num_points = set.num_points;
     ps_point_set_free(&set);
     ps_source_destroy(source);
+    return status;
+}
+
+static pspec_status look_at_files(report *self, ps_error *error) {
+    ps_file_list files = {0};
+    pspec_status status = ps_file_list_of_question(&files, self->request, 0, error);
+    if (status == PSPEC_OK) {
+        status = look_at_set(self, &files, error);
+    }
+    ps_file_list_free(&files);
+    if (!self->has_files && !ps_request_has_own_counts(self->request)) {
+        self->num_points = self->request->counts[0]; /* as it is told */
+    }
     return status;
 }
 
@@ -128,7 +143,8 @@ static pspec_status look(report *self, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "a report is of one number of points; variances are against others, too");
     }
-    PS_TRY(self->has_files ? look_at_files(self, error) : look_at_sampler(self, error));
+    const bool are_read = self->has_files || ps_request_program(request, 0) != NULL;
+    PS_TRY(are_read ? look_at_files(self, error) : look_at_sampler(self, error));
     if (self->has_files) {
         name_files(self);
     }
@@ -176,12 +192,13 @@ static void print_reading(report *self, bool takes_domain) {
         ps_text_append(&box, "%s%.17g,%.17g", i > 0 ? "," : "", reading->box.low[i],
                        reading->box.high[i]);
     }
-    if (self->has_files) {
+    const bool are_read = self->has_files || ps_request_has_programs(self->request);
+    if (are_read) {
         print_key(self, PS_OPTION_INPUT_FORMAT, reading->format);
         print_key(self, PS_OPTION_COLUMNS, reading->columns);
         print_key(self, PS_OPTION_BOX, ps_text_string(&box));
     }
-    if (self->has_files && self->on_sphere && takes_domain) {
+    if (are_read && self->on_sphere && takes_domain) {
         ps_text_append(&self->scene, ", \"domain\": \"sphere\"");
     }
     self->scene.failed = self->scene.failed || box.failed;
@@ -234,7 +251,7 @@ static pspec_status make_scene(report *self, ps_error *error) {
                                         : ps_request_source_name(self->request, 0),
                         out);
     ps_text_append(out, ",\n \"results\": [\n");
-    if (!self->has_files) {
+    if (!self->has_files && !ps_request_has_programs(self->request)) {
         begin_result(self, "sample", "points", "Points", false);
         ps_text_append(out, "},\n");
     }
@@ -244,7 +261,8 @@ static pspec_status make_scene(report *self, ps_error *error) {
     ps_text_append(out, "},\n");
     begin_result(self, "measure", "measures", "Measures", true);
     ps_text_append(out, "},\n");
-    if (!self->has_files && self->num_points >= 2 * FEWEST_POINTS) {
+    if (!self->has_files && !ps_request_has_own_counts(self->request) &&
+        self->num_points >= 2 * FEWEST_POINTS) {
         add_rates(self, integrands);
     }
     begin_result(self, "variance", "integrals", "Variance of integrals, and ranks", true);
