@@ -1,4 +1,5 @@
-# Install rules: program, library (shared and static), headers, pkg-config and CMake package files.
+# Install rules: program, library (shared and static), headers, pkg-config and CMake package files, completion, pages with
+# their scenes and examples; and the target uninstall, which takes all of it away again.
 # The static library has an export file of its own: only its users need our dependencies.
 include(CMakePackageConfigHelpers)
 set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pointspec)
@@ -11,7 +12,11 @@ endif()
 install(TARGETS pointspec_static EXPORT pointspec_static)
 install(DIRECTORY host/include/pointspec DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h")
-install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The links of README.md are to docs/.
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  PATTERN man EXCLUDE PATTERN scripts EXCLUDE PATTERN Doxyfile EXCLUDE PATTERN mkdocs.yml EXCLUDE)
+install(FILES packages/completion/pointspec DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES LICENSE README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
 install(FILES docs/man/pointspec.3 DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
 
@@ -31,3 +36,6 @@ file(RELATIVE_PATH PREFIX_FROM_PKGCONFIG
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/pointspec.pc.in pointspec.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pointspec.pc DESTINATION ${PKGCONFIG_DIR})
+
+add_custom_target(uninstall COMMAND ${CMAKE_COMMAND} -DMANIFEST=${CMAKE_CURRENT_BINARY_DIR}/install_manifest.txt
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/uninstall.cmake)

@@ -4,6 +4,7 @@ target_link_libraries(test_arguments PRIVATE pointspec_cli)
 target_link_libraries(test_scene PRIVATE pointspec_cli)
 
 # What a script is told beside the program.
+set(cli_completion_WORDS ${PROJECT_SOURCE_DIR})
 set(cli_field_WORDS ${CMAKE_CURRENT_SOURCE_DIR}/field)
 set(cli_healpy_WORDS ${PROJECT_SOURCE_DIR}/build/peers)
 set(cli_npz_WORDS ${PROJECT_SOURCE_DIR})

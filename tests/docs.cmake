@@ -7,6 +7,7 @@ function(add_docs_test name label) # PAGE...
 endfunction()
 
 add_docs_test(docs sources)
+add_docs_test(docs_changelog sweep CHANGELOG.md)
 foreach(page user/examples user/tutorial user/recipes user/conventions user/formats user/quadrature user/occlusion user/measure user/report user/variance user/reproduction user/gate
     user/needs user/scenes user/samplers samplers/poisson_disks samplers/optimized samplers/forces)
   get_filename_component(name ${page} NAME)

@@ -18,6 +18,10 @@ add_script_test(site "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/site.sh ${PROJ
 set_tests_properties(site PROPERTIES SKIP_RETURN_CODE 77)
 add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/project/no_blas.sh
   $<TARGET_FILE:pointspec_program> $<TARGET_FILE:pointspec>)
+add_script_test(packages "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/packages.sh
+  $<TARGET_FILE:pointspec_program> ${PROJECT_SOURCE_DIR})
+set_tests_properties(packages PROPERTIES SKIP_RETURN_CODE 77)
+set_kernels(packages)
 if(NOT POINTSPEC_SANITIZE)
   add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_symbols.sh
     $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static> ${PROJECT_BINARY_DIR}/pointspec_joined.o)

@@ -86,9 +86,9 @@ const ps_command ps_command_merge = {
     .description =
         "Reads answers of power, angular or pairs to one question, which -o FILE.npz saved with "
         "their sums over realizations, or ranges of one job of these and of quadrature, variance, "
-        "shade, interpolation and occlusion, and prints the answer of all their realizations, of "
-        "the "
-        "first file first: what one job would have printed, but for last digits of the sums. "
+        "shade, interpolation, occlusion and measure, and prints the answer of all their "
+        "realizations, of the first file first: what one job would have printed, but for last "
+        "digits of the sums. "
         "Dimension, frequencies, rings, normalization, and samplers where there are several, must "
         "be the same; numbers of points, engines and tolerances may differ. Realizations of one "
         "sampler and seed are the same in every answer: give each part a seed of its own, or a "

@@ -79,7 +79,7 @@ static pspec_status take_command(ps_request *inner, const ps_command **command,
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "name the command to plan first, as in: pointspec plan power --sampler white "
-            "(" PS_KINDS_IN_SENTENCE "run, sample and convert can be planned)");
+            "(" PS_KINDS_IN_SENTENCE "run, report, sample and convert can be planned)");
     }
     *inner = *arguments;
     inner->files++;
@@ -147,7 +147,7 @@ static const ps_field_row *const fields[] = {own_fields, NULL};
 const ps_command ps_command_plan = {
     .name = "plan",
     .purpose = "what a command would do: engines, seconds, bytes, error, what is skipped",
-    .usage = "plan " PS_KINDS_IN_USAGE "run|sample|convert [options of that command]",
+    .usage = "plan " PS_KINDS_IN_USAGE "run|report|sample|convert [options of that command]",
     .description =
         "Takes the same arguments as the command named after it and prints how that "
         "command would go about it: every engine with its estimated time, memory and "

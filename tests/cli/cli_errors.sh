@@ -292,7 +292,7 @@ for kind in ${planned//|/ }; do # the sentence names all of them, and each can b
     refuses 2 "$kind" plan devices
     [[ $("$program" plan "$kind" </dev/null 2>&1) != *'name the command'* ]] || complain "plan does not take $kind"
 done
-refuses 2 'run, sample and convert can be planned' plan
+refuses 2 'run, report, sample and convert can be planned' plan
 refuses 2 'name the command to plan first' plan devices
 refuses 2 'one --sampler NAME is needed' plan sample -n 16
 refuses 2 'nothing to convert' plan convert

@@ -1,18 +1,30 @@
 #!/usr/bin/env bash
 # test_install.sh SOURCE_DIR BUILD_DIR C_COMPILER: installs into an empty folder, moves that folder,
 # and builds and runs the examples of the documentation, and those of the installed manual page, against it
-# by CMake and by pkg-config, shared and static.
+# by CMake and by pkg-config, shared and static. What was installed can be taken away again, without a trace.
 set -euo pipefail
 source_dir=$1 build_dir=$2 compiler=$3
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 examples=("$source_dir"/docs/examples/*.c)
-prefix=$scratch/moved
 
+mkdir "$scratch/used"
+touch "$scratch/used/file"
+for prefix in "$scratch/new" "$scratch/used"; do
+    cmake --install "$build_dir" --prefix "$prefix" >/dev/null
+    cmake -DMANIFEST="$build_dir/install_manifest.txt" -P "$source_dir/cmake/uninstall.cmake" 2>/dev/null
+done
+[[ $(cd "$scratch" && find .) == $'.\n./used\n./used/file' ]] || { find "$scratch" >&2; exit 1; }
+echo "installed: and uninstalled"
+
+prefix=$scratch/moved
 cmake --install "$build_dir" --prefix "$scratch/installed" >/dev/null
 mv "$scratch/installed" "$prefix" # what is installed must not know where it was put
 libdir=$(dirname "$(find "$prefix" -name libpointspec.a)")
 "$prefix/bin/pointspec" --help >/dev/null
+for file in docs/user/tutorial.md docs/scenes/rates.yaml docs/examples/sphere.c; do
+    [[ -f $prefix/share/doc/pointspec/$file ]] || { echo "$file is not installed" >&2; exit 1; }
+done
 echo "installed: program runs"
 
 # ---- the manual page: every example is a whole program; every function is named ----------------------
