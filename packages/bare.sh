@@ -15,7 +15,7 @@ trap leave EXIT
 
 enter() { # COMMANDS of the shell
     chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        DEBIAN_FRONTEND=noninteractive sh -ec "cd /root; $1"
+        DEBIAN_FRONTEND=noninteractive PIP_CERT=/root/certificates sh -ec "cd /root; $1"
 }
 make_root() {
     [[ -f $scratch/root.tar ]] || mmdebstrap --quiet --variant=minbase bookworm "$scratch/root.tar"
@@ -27,6 +27,7 @@ make_root() {
         mount --bind "/$folder" "$root/$folder"
     done
     cp /etc/resolv.conf "$root/etc/"
+    cp /etc/ssl/certs/ca-certificates.crt "$root/root/certificates" # those that this machine's network has
     cp -r "$release" "$root/root/release"
 }
 # What install_packages.sh and apt say goes to a log, which is shown where a step fails.
@@ -39,7 +40,6 @@ page='pointspec sample --sampler sobol:scramble=owen -n 256 -o mine.txt && point
 
 try_deb() {
     first_picture deb "apt-get -qq update; apt-get -qq install ./release/pointspec_*.deb ./release/libpointspec0*.deb ./release/pointspec-doc_*.deb; $page"
-    cp "$root/root/mine.html" "$release/../first.html" 2>/dev/null || true
     # every command of the list of changes, in an empty folder, by what was installed
     # shellcheck disable=SC2016 # marks of Markdown
     sed -n '/^```sh$/,/^```$/p' "$root/usr/share/doc/pointspec/CHANGELOG.md" | grep -v '^```' >"$root/root/rows.sh"

@@ -41,13 +41,16 @@ typedef pspec_status ps_make_figure(ps_figure *out, ps_pool *memory, const ps_ch
 typedef enum ps_dealing { PS_OF_CURVES, PS_OF_COUNTS, PS_OF_EACH, PS_OF_SETS } ps_dealing;
 
 /* Who draws it, and what has to be asked for: several numbers of points, --scatter, pictures (a key
- * of scenes; a command asks by --plot), --integrand, --max-degree (of commands; scenes draw it). */
+ * of scenes; a command asks by --plot), pictures: decibels, pictures of points that are read,
+ * --integrand, --max-degree (of commands; scenes draw it). */
 enum { PS_BY_SCENE = 1, PS_BY_COMMAND = 2 };
 typedef enum ps_picture_need {
     PS_NEEDS_NOTHING,
     PS_NEEDS_COUNTS,
     PS_NEEDS_SCATTER,
     PS_NEEDS_PICTURES,
+    PS_NEEDS_DECIBELS,
+    PS_NEEDS_FILES,
     PS_NEEDS_INTEGRAND,
     PS_NEEDS_DEGREE
 } ps_picture_need;
@@ -85,6 +88,7 @@ struct ps_picture_kind {
     const char *x_label, *y_label;
     bool is_of_entries;      /* x and y are header entries of a question, not columns */
     bool is_log_x, is_log_y; /* of spectra: where they are in panels */
+    bool is_in_decibels;     /* its image */
     bool is_spectrum; /* y is a power, and stands beside its anisotropy and what was fitted */
     /* What the header has of the slope of a curve; NULL: nothing */
     ps_uncertain (*find_slope)(const ps_table *table, const char *sampler, const char *panel);

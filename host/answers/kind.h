@@ -164,6 +164,7 @@ typedef struct ps_command {
     /* The question of a kind of answer. */
     bool is_of_host;      /* no device is needed, whatever is asked */
     bool may_lack_device; /* without any the host does the same work */
+    bool has_decibels;    /* its pictures may be in dB, too */
     bool has_images; /* its answers may have a picture, which scenes ask for by the key pictures */
     bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
     bool has_coefficients; /* or coefficients, by arrays: coefficients */

@@ -96,6 +96,7 @@ typedef struct ps_plot_image {
     const double *power;
     double unit;    /* integer frequencies per unit of normalized frequency, N^(1/2) */
     double maximum; /* power at the bright end of the scale; 0: as ps_plot_find_maximum finds it */
+    bool in_decibels; /* 10 log10 of the power, which shows how small small powers are */
 } ps_plot_image;
 
 /* Where the scale of an image ends that has its own: so that a few peaks do not make the rest dark.

@@ -76,8 +76,10 @@ pspec_status ps_script_make_raster(ps_script_raster *out, ps_pool *memory,
     const ptrdiff_t half_image = (ptrdiff_t)(image->size / 2);
     const ptrdiff_t half = (half_image + (ptrdiff_t)(block / 2)) / (ptrdiff_t)block;
     const size_t size = 2 * (size_t)half + 1;
-    *out = (ps_script_raster){
-        .size = size, .pixel = (double)block / image->unit, .maximum = image->maximum};
+    *out = (ps_script_raster){.size = size,
+                              .pixel = (double)block / image->unit,
+                              .maximum = image->maximum,
+                              .in_decibels = image->in_decibels};
     PS_TRY(PS_POOL_NEW(memory, &out->power, size * size, "picture", error));
     const ptrdiff_t first = half_image - (ptrdiff_t)(block / 2) - half * (ptrdiff_t)block;
     const size_t dc = image->size * image->size / 2;
@@ -118,11 +120,20 @@ static double tone(double power) {
     return log2(1 + 0.25 * sqrt(fmax(power, 0)));
 }
 
+static double decibels(double power) {
+    return 10 * log10(power);
+}
+
+/* Below this power nothing is told apart: DC, which is left out, and zeros of lattices. */
+static const double LEAST_POWER = 1e-4;
+
 static void print_raster(ps_text *out, const ps_script_raster *own) {
     ps_text_append(out, "$image << EOD\n");
     for (size_t row = 0; row < own->size; row++) {
         for (size_t column = 0; column < own->size; column++) {
-            ps_text_append(out, "%.4g ", tone(own->power[row * own->size + column]));
+            const double power = own->power[row * own->size + column];
+            ps_text_append(out, "%.4g ",
+                           own->in_decibels ? decibels(fmax(power, LEAST_POWER)) : tone(power));
         }
         ps_text_append(out, "\n");
     }
@@ -141,6 +152,24 @@ static void print_palette(ps_text *out, double maximum) {
         ps_text_append(out, ", %.6g '%s'", tone(pow(step, (double)(i + 1))), above[i]);
     }
     ps_text_append(out, ")\nset cbrange [0:%.6g]\n", tone(maximum));
+}
+
+/* The same colours, with white noise at 0 dB; steps are even. */
+static void print_decibels(ps_text *out, double maximum) {
+    const double lowest = decibels(LEAST_POWER);
+    const double highest = decibels(maximum);
+    ps_text_append(out, "set palette defined (");
+    for (size_t i = 0; i < NUM_STEPS; i++) {
+        ps_text_append(out, "%.6g '%s', ", lowest * (1 - (double)i / NUM_STEPS), below[i]);
+    }
+    ps_text_append(out, "0 '%s'", neutral);
+    for (size_t i = 0; i < NUM_STEPS; i++) {
+        ps_text_append(out, ", %.6g '%s'", highest * (double)(i + 1) / NUM_STEPS, above[i]);
+    }
+    ps_text_append(out,
+                   ")\nset cbrange [%.6g:%.6g]\nset cbtics 10\nset cblabel 'power in dB' "
+                   "offset -0.6,0\n",
+                   lowest, highest);
 }
 
 /* Is there room for a tick beside that of white noise, which is always there, and the last one? */
@@ -173,14 +202,18 @@ void ps_script_print_image(ps_text *out, const ps_script_panel *panel) {
     const double beside = 14; /* pixels, from the image to the colours, and their width */
     print_raster(out, own);
     ps_text_append(out, "set size ratio 1\n");
-    print_palette(out, own->maximum);
+    if (own->in_decibels) {
+        print_decibels(out, own->maximum);
+    } else {
+        print_palette(out, own->maximum);
+        print_colour_ticks(out, own->maximum);
+        ps_text_append(out, "set cblabel 'power' offset -0.6,0\n");
+    }
     ps_text_append(
         out, "set colorbox user origin screen %.5f, screen %.5f size screen %.5f, screen %.5f\n",
         (where->right + beside) / where->page_width, 1 - where->bottom / where->page_height,
         1.4 * beside / where->page_width, (where->bottom - where->top) / where->page_height);
-    print_colour_ticks(out, own->maximum);
-    ps_text_append(out, "set cblabel 'power' offset -0.6,0\n"
-                        "set xtics out nomirror\nset ytics out nomirror\n"
+    ps_text_append(out, "set xtics out nomirror\nset ytics out nomirror\n"
                         "set xlabel 'normalized frequency k₁ N^{-1/2}' offset 0,0.2\n"
                         "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1.2,0\n");
     ps_text_append(out, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent,

@@ -50,6 +50,7 @@ typedef struct ps_script_raster {
     double pixel;   /* width of a pixel in normalised frequency */
     double maximum; /* power at the bright end of the scale */
     double *power;  /* [size][size], second index along x_1 */
+    bool in_decibels;
 } ps_script_raster;
 
 /* A panel in its place. Series without places are entries of its key alone. */

@@ -12,7 +12,11 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
 static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
     const bool are_files = ps_request_has_files(arguments);
     const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
-    if (are_files && ps_request_has_samplers(arguments)) {
+    if (arguments->homogenize && ps_request_has_programs(arguments) &&
+        !ps_request_has_samplers(arguments)) {
+        return fail_conflict("--homogenize", "programs", "it moves the points of samplers", error);
+    }
+    if (are_files && ps_request_has_told(arguments)) {
         return PSPEC_OK;
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
@@ -64,7 +68,7 @@ pspec_status ps_sources_check(const ps_request *arguments, const char *what, ps_
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s does not go with %s: points come from one of them; --set NAME=FILES "
                          "names files whose points stand beside those of samplers",
-                         ps_request_has_samplers(arguments) ? "--sampler" : "--set",
+                         ps_request_has_told(arguments) ? "--sampler" : "--set",
                          arguments->files[0]);
 }
 
@@ -110,7 +114,7 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
     options.points_per_set = arguments->is_given[PS_OPTION_POINTS] && arguments->num_counts == 1
                                  ? (size_t)arguments->counts[0]
                                  : 0;
-    options.points_vary = ps_request_has_samplers(arguments);
+    options.points_vary = ps_request_has_told(arguments);
     options.memory_limit = arguments->limits.constraints.memory_limit;
     options.programs = limit_programs(arguments);
     return options;

@@ -229,8 +229,10 @@ const char *ps_request_name(const ps_request *request, size_t question);
 /* The command of a source that is a program, with its placeholders; NULL: it is none. */
 const char *ps_request_program(const ps_request *request, size_t source);
 bool ps_request_has_programs(const ps_request *request);
-/* Are there samplers, of which programs are some, and files in sets or alone? */
+/* Are there samplers; are there samplers or programs, which are told what to make; are there files,
+ * or programs, in sets or alone? */
 bool ps_request_has_samplers(const ps_request *request);
+bool ps_request_has_told(const ps_request *request);
 bool ps_request_has_files(const ps_request *request);
 uint64_t ps_request_points(const ps_request *request, size_t question);
 /* {0} where none are wanted. */

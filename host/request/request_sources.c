@@ -42,7 +42,11 @@ bool ps_request_has_samplers(const ps_request *request) {
     while (i < request->num_sources && request->sources[i].sampler == NULL) {
         i++;
     }
-    return i < request->num_sources || ps_request_has_programs(request);
+    return i < request->num_sources;
+}
+
+bool ps_request_has_told(const ps_request *request) {
+    return ps_request_has_samplers(request) || ps_request_has_programs(request);
 }
 
 bool ps_request_has_files(const ps_request *request) {

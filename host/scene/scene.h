@@ -58,6 +58,7 @@ typedef struct ps_scene_result {
     ps_plot_axes axes; /* what these say */
     /* The file asks for pictures of the averaged periodogram of every question. */
     bool wants_pictures;
+    bool wants_decibels;     /* of spectra in dB, too */
     bool wants_arrays;       /* the file asks for the array of every question, */
     bool wants_coefficients; /* which are then its coefficients */
 } ps_scene_result;
@@ -114,6 +115,8 @@ typedef struct ps_scene_question {
     ps_text command;    /* the command line that asks the same */
 } ps_scene_question;
 
+/* Are there points of files, sets or programs among those that it is about? */
+bool ps_scene_reads_points(const ps_scene_result *result);
 size_t ps_scene_num_questions(const ps_scene_result *result);
 /* Freed by ps_scene_question_free, also after an error. */
 pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_result *result,

@@ -66,7 +66,7 @@ static void print_result(const ps_scene_result *result, ps_text *out) {
         }
     }
     if (result->wants_pictures) {
-        ps_text_append(out, ", \"pictures\": \"true\"");
+        ps_text_append(out, ", \"pictures\": \"%s\"", result->wants_decibels ? "decibels" : "true");
     }
     if (result->wants_arrays) {
         ps_text_append(out, ", \"arrays\": \"%s\"",

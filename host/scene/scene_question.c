@@ -54,6 +54,11 @@ static bool has_programs(const ps_scene_entry *sources) {
     return i < sources->num_values;
 }
 
+bool ps_scene_reads_points(const ps_scene_result *result) {
+    const ps_scene_entry *const sources = ps_scene_find_entry(result, PS_OPTION_SAMPLER);
+    return sources == NULL || ps_scene_num_sets(sources) > 0 || has_programs(sources);
+}
+
 /* Beside sets what is about samplers says nothing to these, and the reverse. Both say something to
  * programs. */
 static bool is_for_others(const ps_scene_question *question, int option) {

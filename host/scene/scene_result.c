@@ -119,6 +119,19 @@ static pspec_status take_kind(const ps_scene_file *file, const ps_scene_node *no
                      ps_text_suggest(text, (*out)->name, distance, "; did you mean ", "?").text);
 }
 
+/* true, false or, of spectra of the plane, decibels: those of true, and the same in dB. */
+static pspec_status take_pictures(const ps_scene_file *file, const ps_scene_node *node,
+                                  ps_scene_result *out) {
+    const char *text = NULL;
+    PS_TRY(ps_scene_take_text(file, node, "pictures", &text));
+    out->wants_decibels = out->kind->has_decibels && strcmp(text, "decibels") == 0;
+    out->wants_pictures = out->wants_decibels || strcmp(text, "true") == 0;
+    return out->wants_pictures || strcmp(text, "false") == 0
+               ? PSPEC_OK
+               : ps_scene_complain(file, node->line, "pictures", "true or false%s, not \"%s\"",
+                                   out->kind->has_decibels ? " or decibels" : "", text);
+}
+
 /* true, false or coefficients, as the kind has them. */
 static pspec_status take_arrays(const ps_scene_file *file, const ps_scene_node *node,
                                 ps_scene_result *out) {
@@ -156,7 +169,7 @@ static pspec_status take_pair(const ps_scene_file *file, ps_scene_result *out, c
         return take_switch(file, value, key, &out->wants_plot);
     }
     if (strcmp(key, "pictures") == 0 && out->kind->has_images) {
-        return take_switch(file, value, key, &out->wants_pictures);
+        return take_pictures(file, value, out);
     }
     if (strcmp(key, "arrays") == 0 && (out->kind->has_arrays || out->kind->has_coefficients)) {
         return take_arrays(file, value, out);

@@ -75,6 +75,7 @@ refuses 'the program printed 1 set, and 3 are asked for' --sampler 'exec:./mine.
 refuses 'a command is wanted behind exec:' --sampler 'exec: '
 refuses 'another set or sampler has this name' --sampler exec:true --sampler exec:true
 refuses 'is told how many realizations there are at most' --sampler 'exec:./mine.sh 4 {realization}' --standard-error 0.1
+refuses '--homogenize does not go with programs' --sampler 'exec:./mine.sh 4 1' --homogenize
 refuses 'comes once' --sampler 'exec:./mine.sh 4 1' --checkpoint job.npz
 "$program" sample --sampler exec:true >out 2>err && complain 'sample of a program'
 [[ $(<err) == *'which prints its points already'* ]] || complain "sample: $(<err)"

@@ -50,11 +50,21 @@ runs 0 white.txt -o white.html
 has white.html '<h1>white_set</h1>' '<th>white_set</th>' '<th>white</th>'
 runs 0 xxx*.txt -o long.html
 
+# the periodogram in dB; what is no word of pictures
+printf 'scene: 1\nresults:\n  - {result: power, files: one.txt, pictures: decibels}\n' >decibels.yaml
+"$program" run decibels.yaml -o decibels >out 2>err || complain "decibels: $(<err)"
+grep -q 'power in dB' decibels/power-1-decibels-1.svg || complain "decibels: $(ls decibels)"
+! grep -q 'power in dB' decibels/power-1-picture-1.svg || complain 'decibels: in the picture of powers'
+has one.html 'power in dB'
+sed 's/decibels/maybe/' decibels.yaml >maybe.yaml
+"$program" run maybe.yaml -o maybe >out 2>err && complain 'pictures: maybe'
+[[ $(<err) == *'pictures: true or false or decibels, not "maybe"'* ]] || complain "maybe: $(<err)"
+
 # the sphere
 "$program" sample --sampler fibonacci -n 48 -o sphere.txt
 runs 0 --domain sphere sphere.txt -o sphere.html
 is_alone sphere.html
-has sphere.html 'separation' '<th>zphi</th>' '<th>healpix-jittered</th>'
+has sphere.html 'from below' 'separation' '<th>zphi</th>' '<th>healpix-jittered</th>'
 runs 0 --sampler zphi -n 48 -m 2 -o zphi.html
 has zphi.html '<th>white-sphere</th>' '<th>fibonacci</th>'
 

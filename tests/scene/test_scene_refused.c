@@ -97,7 +97,7 @@ static void keys_of_results(void **state) {
         {POWER "    max-degree: 3\n", 4, "max-degree: not a key of this result"},
         {POWER "    output: a.csv\n", 4, "output: unknown key"},
         {POWER "    device: cpu\n", 4, "device: unknown key"},
-        {HEAD "  - result: angular\n    pictures: true\n", 4, "pictures: not a key of this result"},
+        {HEAD "  - result: pairs\n    pictures: true\n", 4, "pictures: not a key of this result"},
         {HEAD "  - result: angular\n    arrays: true\n", 4,
          "arrays: false or coefficients, not \"true\""},
         {HEAD "  - result: quadrature\n    arrays: coefficients\n", 4,

@@ -14,9 +14,9 @@ static pspec_status begin(ps_table *table, const ps_interpolation_list *list,
     const ps_panorama *const panorama = &list->panorama;
     snprintf(pixels, sizeof pixels, "%zu x %zu", panorama->width, panorama->height);
     PS_TRY(ps_lead_add_origin(table, request->command_line, error));
-    PS_TRY(ps_table_add_meta(
-        table, "seed", ps_request_has_samplers(request) ? PS_INTEGER(request->seed) : PS_MISSING,
-        error));
+    PS_TRY(ps_table_add_meta(table, "seed",
+                             ps_request_has_told(request) ? PS_INTEGER(request->seed) : PS_MISSING,
+                             error));
     for (size_t f = 0; f < panorama->num; f++) {
         PS_TRY(
             ps_header_add_integrand(table, request->integrands[f], panorama->integrands[f], error));

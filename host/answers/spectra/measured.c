@@ -10,11 +10,10 @@
 /* ---- what is told ---------------------------------------------------------------------------- */
 
 static void put_random(ps_header *self, const ps_request *arguments) {
-    const bool has_samplers = ps_request_has_samplers(arguments);
-    if (has_samplers || arguments->frequencies.per_ring > 0) {
+    if (ps_request_has_told(arguments) || arguments->frequencies.per_ring > 0) {
         ps_header_put(self, "seed", PS_INTEGER(arguments->seed));
     }
-    if (has_samplers) {
+    if (ps_request_has_samplers(arguments)) {
         ps_header_put(self, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
     }
 }

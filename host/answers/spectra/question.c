@@ -124,7 +124,9 @@ static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) 
 static bool shows_points(const ps_request *arguments, ps_question_kind kind) {
     const char *const word = arguments->plot_points;
     const bool is_drawn_elsewhere = arguments->wants_array && arguments->wants_errors;
-    return (arguments->plot != NULL || is_drawn_elsewhere) &&
+    const bool is_of_scene = arguments->wants_picture &&
+                             ps_request_sampler(arguments, 0) == NULL; /* others `sample` has */
+    return (arguments->plot != NULL || is_drawn_elsewhere || is_of_scene) &&
            ps_request_num_questions(arguments) == 1 && kind != PS_QUESTION_PAIRS &&
            (word == NULL || strcmp(word, "no") != 0);
 }
@@ -143,7 +145,8 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .per_ring_seed = arguments->seed,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
         .wants_full_array = arguments->full != NULL || wants_coefficients(arguments) ||
-                            arguments->wants_picture || arguments->wants_array ||
+                            (arguments->wants_picture && domain_of(kind) == PS_DOMAIN_TORUS) ||
+                            arguments->wants_array ||
                             (arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
                              arguments->frequencies.per_ring == 0),
         .keeps_sums = arguments->wants_state,

@@ -64,6 +64,8 @@ pspec_status ps_spectra_merge(ps_answer *out, const ps_parts *parts, const ps_sp
 /* Curves of all jobs, as PS_FIGURE_SPECTRA; of one question alone beside its averaged periodogram
  * and the points of its first set, where the table has these. */
 ps_make_figure ps_spectra_figure;
+/* Both sides of the sphere, of the first set of each part that has read one. */
+ps_make_figure ps_first_sets_figure;
 /* The periodogram of a table of one question in the plane; false: it has none. */
 bool ps_spectra_find_image(ps_plot_image *out, const ps_table *table);
 

@@ -63,6 +63,7 @@ static pspec_status add_image(ps_figure *out, ps_pool *memory, const ps_chart *c
     PS_TRY(PS_POOL_NEW(memory, &image, 1, "a picture", error));
     if (ps_spectra_find_image(image, chart->parts[0].table)) {
         image->maximum = chart->image_maximum;
+        image->in_decibels = chart->what->is_in_decibels;
         out->image = image;
     }
     return PSPEC_OK;
@@ -92,5 +93,30 @@ pspec_status ps_spectra_figure(ps_figure *out, ps_pool *memory, const ps_chart *
     if (chart->what->dealing == PS_OF_EACH) {
         PS_TRY(add_image(out, memory, chart, error));
     }
-    return first != NULL ? add_points(out, memory, first, error) : PSPEC_OK;
+    if (chart->what->is_in_decibels && !out->axes.has_log) {
+        out->axes.has_log = out->axes.is_log_x = out->axes.is_log_y = true;
+    }
+    /* of a scene beside the image of that question alone, and once */
+    const bool is_of_scene = chart->parts[0].request->plot == NULL;
+    const bool has_place =
+        !is_of_scene || (chart->what->dealing == PS_OF_EACH && !chart->what->is_in_decibels);
+    return first != NULL && has_place ? add_points(out, memory, first, error) : PSPEC_OK;
+}
+
+pspec_status ps_first_sets_figure(ps_figure *out, ps_pool *memory, const ps_chart *chart,
+                                  ps_error *error) {
+    ps_points_picture picture = {.memory = memory};
+    for (size_t i = 0; i < chart->num_parts; i++) {
+        picture.num_sets += ps_table_find_array(chart->parts[i].table, "first_set") != NULL;
+    }
+    for (size_t i = 0; i < chart->num_parts; i++) {
+        const ps_npy_array *const set = ps_table_find_array(chart->parts[i].table, "first_set");
+        if (set != NULL) { /* samplers beside files have none */
+            const ps_drawn_set drawn = {chart->parts[i].label, PS_SAMPLES_SPHERE,
+                                        (unsigned)set->shape[1], set->shape[0], set->data};
+            PS_TRY(ps_points_picture_add(&picture, &drawn, chart->watch, error));
+        }
+    }
+    *out = ps_points_picture_figure(&picture, chart->title);
+    return PSPEC_OK;
 }

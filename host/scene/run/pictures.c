@@ -259,6 +259,9 @@ static bool is_wanted(const ps_scene_result *asked, const ps_picture_kind *kind)
            (kind->needs != PS_NEEDS_SCATTER ||
             ps_scene_find_entry(asked, PS_OPTION_SCATTER) != NULL) &&
            (kind->needs != PS_NEEDS_PICTURES || asked->wants_pictures) &&
+           (kind->needs != PS_NEEDS_DECIBELS || asked->wants_decibels) &&
+           (kind->needs != PS_NEEDS_FILES ||
+            (asked->wants_pictures && ps_scene_reads_points(asked))) &&
            (kind->needs != PS_NEEDS_INTEGRAND ||
             ps_scene_find_entry(asked, PS_OPTION_INTEGRAND) != NULL);
 }

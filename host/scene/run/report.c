@@ -256,7 +256,7 @@ static pspec_status make_scene(report *self, ps_error *error) {
         ps_text_append(out, "},\n");
     }
     begin_result(self, spectrum, "spectrum", "Spectrum", false);
-    ps_text_append(out, "%s%s},\n", fit, self->on_sphere ? "" : ", \"pictures\": true");
+    ps_text_append(out, "%s, \"pictures\": \"%s\"},\n", fit, self->on_sphere ? "true" : "decibels");
     begin_result(self, spectrum, "beside", "Spectrum beside those of known sets", true);
     ps_text_append(out, "},\n");
     begin_result(self, "measure", "measures", "Measures", true);
