@@ -38,4 +38,4 @@ configure_file(cmake/pointspec.pc.in pointspec.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pointspec.pc DESTINATION ${PKGCONFIG_DIR})
 
 add_custom_target(uninstall COMMAND ${CMAKE_COMMAND} -DMANIFEST=${CMAKE_CURRENT_BINARY_DIR}/install_manifest.txt
-  -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/uninstall.cmake)
+  -DPREFIX=${CMAKE_INSTALL_PREFIX} -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/uninstall.cmake)

@@ -18,7 +18,6 @@ make_all() { # FOLDER
     (cd "$sources" && ./dev wheel >/dev/null && cp build/wheel/*.whl "$1/")
     rm -rf "$sources"
     ./dev deb "$1" >/dev/null
-    rm "$1"/*.orig.tar.gz # the tarball under Debian's name
     (cd "$1" && sha256sum -- * >SHA256SUMS)
 }
 make_all "$folder.again"

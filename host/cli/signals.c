@@ -147,6 +147,14 @@ static void interrupt(int signal_number) {
     errno = reason;
 }
 
+/* The terminal's other signal, which ends a process at once: groups of their own do not hear it. */
+static void quit(int signal_number) {
+    char digits[NUMBER_BYTES];
+    end_children(print_number(digits, (long)getpid()));
+    (void)signal(signal_number, SIG_DFL);
+    (void)raise(signal_number);
+}
+
 /* The write fails: unfinished files go away. */
 static void note_pipe(int signal_number) {
     (void)signal_number;
@@ -177,6 +185,7 @@ void ps_signals_prepare(void) {
     handle(SIGINT, interrupt);
     handle(SIGTERM, interrupt);
     handle(SIGHUP, interrupt);
+    handle(SIGQUIT, quit);
     handle(SIGPIPE, note_pipe);
     handle(SIGXFSZ, pass_over);
 }

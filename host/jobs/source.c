@@ -269,6 +269,26 @@ static pspec_status begin_set(ps_source *source, ps_point_set *set, bool *ends, 
     return PSPEC_OK;
 }
 
+static void close_reader(ps_source *source) {
+    ps_points_close(source->reader);
+    source->reader = NULL;
+}
+
+/* A program that has printed all that is wanted is ended. */
+static pspec_status take_set(ps_source *source, ps_point_set *set, ps_source_part *part,
+                             ps_error *error) {
+    source->sets_of_file++;
+    source->num_sets++;
+    PS_TRY(ps_program_sets_check(&source->programs, source->sets_of_file,
+                                 source->paths[source->next_path - 1], error));
+    PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
+    PS_TRY(keep(source, set, part->is_whole, error));
+    if (part->is_whole && ps_program_sets_are_all(&source->programs, source->num_sets)) {
+        close_reader(source);
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
                                     bool *has_set, ps_error *error) {
     *has_set = false;
@@ -292,17 +312,10 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
         *has_set = set->num_points > 0;
         PS_TRY(source->sets_of_file == 0 ? add_columns(source, error) : PSPEC_OK);
         if (!*has_set) {
-            ps_points_close(source->reader);
-            source->reader = NULL;
+            close_reader(source);
         }
     }
-    if (*has_set) {
-        source->sets_of_file++;
-        source->num_sets++;
-        PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
-        PS_TRY(keep(source, set, part->is_whole, error));
-    }
-    return PSPEC_OK;
+    return *has_set ? take_set(source, set, part, error) : PSPEC_OK;
 }
 
 pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,

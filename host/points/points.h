@@ -150,8 +150,8 @@ typedef struct ps_point_reader ps_point_reader;
 /* Can all be read? Without opening them, as ps_input_check. */
 pspec_status ps_points_check(const char *const *paths, size_t num, const ps_point_options *options,
                              ps_error *error) PS_MUST_CHECK;
-/* Opens path: a given set, a program, else a file, standard input for "-". The texts of options must outlive
- * the reader. */
+/* Opens path: a given set, a program, else a file, standard input for "-". The texts of options
+ * must outlive the reader. */
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) PS_MUST_CHECK;
 /* Appends at most max_points of the current set to *set. *ends_set tells that the set is complete

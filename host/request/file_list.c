@@ -13,19 +13,25 @@
 
 static const char magic[] = "*?[\\";
 
-static pspec_status add_path(ps_file_list *list, const char *path, ps_error *error) {
+static pspec_status add_text(ps_file_list *list, const char *before, const char *path,
+                             ps_error *error) {
     void *grown = list->owned;
     char *copy = NULL;
-    const size_t bytes = strlen(path) + 1;
+    const size_t bytes = strlen(before) + strlen(path) + 1;
     const pspec_status status = ps_grow(&grown, &list->capacity, list->num + 1, sizeof *list->owned,
                                         "names of files", error);
     list->owned = grown;
     list->paths = (const char *const *)grown;
     PS_TRY(status);
     PS_TRY(PS_NEW(&copy, bytes, "the name of a file", error));
-    memcpy(copy, path, bytes);
+    snprintf(copy, bytes, "%s%s", before, path);
     list->owned[list->num++] = copy;
     return PSPEC_OK;
+}
+
+/* A file whose name is like that of a program is no program, whoever has put it there. */
+static pspec_status add_path(ps_file_list *list, const char *path, ps_error *error) {
+    return add_text(list, ps_points_program(path) != NULL ? "./" : "", path, error);
 }
 
 static pspec_status add_matches(ps_file_list *list, const char *pattern, const char *shown,
@@ -174,7 +180,7 @@ static pspec_status add_run(ps_file_list *list, const char *files, const run_num
     }
     pspec_status status = ps_text_check(&path, error);
     if (status == PSPEC_OK) {
-        status = add_path(list, ps_text_string(&path), error);
+        status = add_text(list, "", ps_text_string(&path), error);
     }
     ps_text_free(&path);
     return status;

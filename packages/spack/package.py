@@ -27,6 +27,9 @@ class Pointspec(CMakePackage):
     depends_on("gnuplot", type="run")
     depends_on("mpi", when="+mpi")
 
+    conflicts("platform=darwin", msg="signals need timers of POSIX, which macOS has not")
+    conflicts("platform=windows")
+
     generator("ninja")
 
     def cmake_args(self):

@@ -33,10 +33,16 @@ printf '#!/bin/sh\nexec "%s" sample --sampler white -n "$1" -s "$2"\n' "$program
 chmod +x mine.sh
 runs 0 --set mine='exec:./mine.sh {n} {realization}' --sampler white -n 4,8 -m 3 -k 2
 [[ $(rows | cut -d, -f1,2 | uniq | tr '\n' ' ') == 'sampler,points mine,4 mine,8 white,4 white,8 ' ]] || complain "beside: $(<out)"
-runs 0 --sampler 'exec:./mine.sh {n} 1' -n 8 -m 3 -k 2
+runs 0 --sampler 'exec:./mine.sh {n} 1; : {realization}' -n 8 -m 3 -k 2
 [[ $(key realizations) == 1 && $(key standard_error) == 'none: one realization' ]] || complain "alike: $(<out)"
 runs 0 --sampler 'exec:echo $$ 1 | { read p q; echo .$p .5; }' -m 2 -k 2
 [[ $(key input_format) == 'of a program that prints other points each time; utk-text' ]] || complain "other points: $(<out)"
+
+# a file is no program, whatever its name is, also where programs are allowed
+cp all.txt 'exec:touch ran.txt; cat all.txt'
+runs 0 --set theirs='*all.txt' --sampler 'exec:./mine.sh {n} {realization}' -m 2 -k 2
+[[ ! -e ran.txt && $(rows | cut -d, -f1 | uniq | tr '\n' ' ') == 'sampler theirs exec:./mine.sh {n} {realization} ' ]] || complain "a file: $(<out)"
+rm exec:*
 
 # other questions, which read sets twice
 for question in 'measure --measures least_distance,peak_power -k 4' 'variance --integrand disk' 'angular --lift sphere -l 3'; do
@@ -72,6 +78,7 @@ refuses 'printed nothing' --sampler 'exec:true'
 refuses 'is not a finite number' --sampler 'exec:echo nan 1'
 refuses 'goes on after 64 points, far more than were asked for' --sampler 'exec:yes .5 .25' -n 4
 refuses 'the program printed 1 set, and 3 are asked for' --sampler 'exec:./mine.sh 4 1; : {realizations}' -m 3
+refuses 'printed more than one set; {realizations}' --sampler 'exec:./mine.sh 4 {realization}; echo "#"; ./mine.sh 4 1' -m 3
 refuses 'a command is wanted behind exec:' --sampler 'exec: '
 refuses 'another set or sampler has this name' --sampler exec:true --sampler exec:true
 refuses 'is told how many realizations there are at most' --sampler 'exec:./mine.sh 4 {realization}' --standard-error 0.1

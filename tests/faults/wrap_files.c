@@ -5,7 +5,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -223,10 +222,6 @@ WRAPPER(posix_spawn, int,
     return fails("posix_spawn", EAGAIN)
                ? EAGAIN
                : __real_posix_spawn(child, file, actions, attributes, arguments, environment);
-}
-
-WRAPPER(poll, int, (struct pollfd * streams, nfds_t num, int milliseconds)) {
-    return fails("poll", ENOMEM) ? -1 : __real_poll(streams, num, milliseconds);
 }
 
 WRAPPER(waitpid, pid_t, (pid_t child, int *state, int options)) {

@@ -86,7 +86,7 @@ static void exact_integrals(void **state) {
         ps_brdf *brdf = NULL;
         ps_light light;
         assert_ok(ps_brdf_parse(&brdf, lobes[i], error));
-        assert_ok(ps_light_make(&light, "coefficients:file=light.txt", brdf, error));
+        assert_ok(ps_light_make(&light, "coefficients:file=light.txt", NULL, brdf, error));
         assert_int_equal(light.max_degree, 7);
         for (size_t k = 0; k < sizeof normals / sizeof normals[0]; k++) {
             const double expected = integrate(&light, brdf, normals[k]);
@@ -113,7 +113,7 @@ static void ask(asked *out, const char *lobe, const char *integrand, const char 
                 size_t num_points, uint64_t num_realizations) {
     *out = (asked){.request = {.num_points = num_points, .seed = SEED}};
     assert_ok(ps_brdf_parse(&out->brdf, lobe, error));
-    assert_ok(ps_light_make(&out->light, integrand, out->brdf, error));
+    assert_ok(ps_light_make(&out->light, integrand, NULL, out->brdf, error));
     assert_ok(ps_sampler_parse(&out->request, sampler, error));
     assert_ok(ps_sampler_resolve(&out->request, error));
     out->request.morph = ps_brdf_morph(out->brdf);
@@ -332,13 +332,14 @@ static void light_about_an_axis(void **state) {
     ps_error failure = {0};
     (void)state;
     assert_ok(ps_brdf_parse(&brdf, "diffuse", error));
-    assert_ok(ps_light_make(&light, "square:axis=1x2x-2", brdf, error));
+    assert_ok(ps_light_make(&light, "square:axis=1x2x-2", NULL, brdf, error));
     for (size_t i = 0; i < sizeof r / sizeof r[0]; i++) {
         const double z = (r[i][0] + 2 * r[i][1] - 2 * r[i][2]) / 3;
         assert_true(fabs(ps_light_shading(&light, r[i]) - 0.25 * (1 + z * z)) < 1e-15);
     }
     ps_light_free(&light);
-    assert_int_equal(ps_light_make(&light, "disk", brdf, &failure), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_light_make(&light, "disk", NULL, brdf, &failure),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
     ps_light_free(&light);
     ps_brdf_destroy(brdf);
 }

@@ -40,6 +40,7 @@ pointspec devices 2>/dev/null | grep -q '^[0-9]' || exit $((bad ? bad : 77))
 pointspec power --sampler jittered -n 64 -m 64 -k 12 -o saved.npz
 step() { # EXIT ARGUMENTS
     local code=0
+    rm -f verdict.csv
     ARGUMENTS=$2 bash -e step.sh >out 2>&1 || code=$?
     [[ $code == "$1" && -s verdict.csv ]] || complain "step: exit $code, not $1: $(<out)"
 }

@@ -10,11 +10,11 @@ examples=("$source_dir"/docs/examples/*.c)
 
 mkdir "$scratch/used"
 touch "$scratch/used/file"
-for prefix in "$scratch/new" "$scratch/used"; do
+for prefix in "$scratch/für alle" "$scratch/used"; do
     cmake --install "$build_dir" --prefix "$prefix" >/dev/null
-    cmake -DMANIFEST="$build_dir/install_manifest.txt" -P "$source_dir/cmake/uninstall.cmake" 2>/dev/null
+    cmake -DMANIFEST="$build_dir/install_manifest.txt" -DPREFIX="$prefix" -P "$source_dir/cmake/uninstall.cmake" 2>/dev/null
 done
-[[ $(cd "$scratch" && find .) == $'.\n./used\n./used/file' ]] || { find "$scratch" >&2; exit 1; }
+[[ $(cd "$scratch" && find . | sort) == $'.\n./für alle\n./used\n./used/file' ]] || { find "$scratch" >&2; exit 1; }
 echo "installed: and uninstalled"
 
 prefix=$scratch/moved

@@ -162,7 +162,7 @@ static void pixels(void **state) {
         ps_brdf *const brdf = lobe_of(lobes[i / 2]);
         ps_light light;
         ps_horizon horizon;
-        assert_ok(ps_light_make(&light, lights[i % 2], brdf, error));
+        assert_ok(ps_light_make(&light, lights[i % 2], NULL, brdf, error));
         assert_ok(ps_horizon_make(&horizon, brdf, views[i / 2], light.max_degree, error));
         const ps_rotation turn = ps_rotation_random(&random);
         const double exact = integrate(&light, &horizon, &turn);

@@ -23,7 +23,7 @@ check_page() { # PAGE PICTURES
     loaded=$(grep -oE '<title>[^<]*' <<<"$dom" | head -1)
     [[ $loaded == "<title>$2 true 0" ]] || complain "$1: pictures, fits, loads: $loaded"
     browse --print-to-pdf="$1.pdf" "file://$PWD/$1" || complain "$1: $(tail -n 3 log)"
-    [[ $(grep -acE '/Type */Page( |$|/)' "$1.pdf") == 2 ]] || complain "$1: $(grep -acE '/Type */Page( |$|/)' "$1.pdf") sheets"
+    [[ $(grep -acE '/Type */Page( |$|/)' "$1.pdf") == [12] ]] || complain "$1: $(grep -acE '/Type */Page( |$|/)' "$1.pdf") sheets"
 }
 "$program" sample --sampler jittered -n 256 -m 9 -o mine.txt
 runs 0 mine.txt -o mine.html

@@ -126,6 +126,7 @@ static pspec_status answer_part(member *self, uint64_t part, ps_error *error) {
     ps_part_end(&own->part, false); /* that of a device that was dropped */
     hooks.device = self->device;
     request.limits.device = self->selector;
+    request.integrands_made = NULL; /* which one thread may make and ask */
     /* The answer tells of the comparison with the referee that the first part has made. */
     request.accuracy.no_self_check |= self->has_checked && part > 0;
     pspec_status status = ps_part_begin(&own->part, task->kind, &request, task->num_realizations,

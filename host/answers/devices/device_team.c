@@ -153,6 +153,7 @@ static pspec_status answer(member *self, ps_error *error) {
     hooks.device = self->device;
     hooks.team = &self->team;
     request.limits.device = self->selector;
+    request.integrands_made = NULL; /* which one thread may make and ask */
     return task->answer(&self->answer, task->kind, &request, &hooks, error);
 }
 

@@ -44,7 +44,8 @@ static pspec_status ask(work *self, const ps_request *request, ps_error *error) 
     ps_rule_list *const list = &self->list;
     PS_TRY(ps_rule_list_make(list, request, PS_COMMAND_shade, error));
     PS_TRY(ps_light_check(request, true, error));
-    PS_TRY(ps_light_make(&self->light, request->integrands[0], list->brdf, error));
+    PS_TRY(ps_light_make(&self->light, request->integrands[0], request->integrands_made, list->brdf,
+                         error));
     if (request->view_angle > 0) {
         PS_TRY(ps_horizon_make(&self->horizon, list->brdf, request->view_angle,
                                self->light.max_degree, error));

@@ -32,8 +32,8 @@ typedef struct ps_points_range {
 pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* "2 files, 200 realizations, one average", where files, or runs of a program, are several; are_for:
- * these realizations. */
+/* "2 files, 200 realizations, one average", where files, or runs of a program, are several;
+ * are_for: these realizations. */
 pspec_status ps_header_add_files(ps_table *table, const char *const *paths, size_t num_paths,
                                  uint64_t num_realizations, const char *are_for,
                                  ps_error *error) PS_MUST_CHECK;

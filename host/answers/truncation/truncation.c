@@ -87,7 +87,8 @@ static pspec_status shade(products *self, const ps_request *request, const ps_an
                           ps_error *error) {
     const ps_truncation_question *const question = &self->job.question;
     const size_t num = question->max_degree + 1;
-    PS_TRY(ps_light_make(&self->light, request->integrands[0], self->job.brdf, error));
+    PS_TRY(ps_light_make(&self->light, request->integrands[0], request->integrands_made,
+                         self->job.brdf, error));
     PS_TRY(PS_NEW(&self->errors, 2 * num, "errors", error));
     self->points = self->errors + num;
     PS_TRY(ps_truncation_of_light(self->job.brdf, question->is_hemispherical, question->max_degree,

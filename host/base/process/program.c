@@ -75,6 +75,8 @@ int ps_child_start(pid_t *child, const char *path, char *const arguments[],
 /* ---- a command whose output is read --------------------------------------------------------- */
 
 enum { LINE_BYTES = 200, COMMAND_SHOWN = 120 };
+/* Between two looks at standard error; of reads of 4 KiB as many as a pipe holds. */
+enum { MILLISECONDS = 10, MOST_READS = 16 };
 
 /* A descriptor is -1 where the stream has ended. */
 struct ps_program {
@@ -190,22 +192,34 @@ static pspec_status hear(ps_program *self, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Standard output has ended: hears the rest of what is said, which may be held open by what the
- * command has left behind, and waits for the end of the command itself. */
-static pspec_status wait_for_end(ps_program *self, int *state, ps_error *error) {
-    enum { MILLISECONDS = 10 };
-    pid_t ended = 0;
-    while (ended == 0) {
-        struct pollfd stream = {.fd = self->complaints, .events = POLLIN};
-        if (stream.fd >= 0 && poll(&stream, 1, MILLISECONDS) < 0) {
-            return fail_waiting(self, error);
-        }
-        if (stream.revents != 0) {
-            PS_TRY(hear(self, error));
-        } else {
-            ended = waitpid(self->child, state, self->complaints >= 0 ? WNOHANG : 0);
-        }
+/* Hears what is said within so many milliseconds, one read of it. */
+static pspec_status hear_within(ps_program *self, int milliseconds, bool *heard, ps_error *error) {
+    struct pollfd stream = {.fd = self->complaints, .events = POLLIN};
+    if (stream.fd >= 0 && poll(&stream, 1, milliseconds) < 0) {
+        return fail_waiting(self, error);
     }
+    *heard = stream.revents != 0;
+    return *heard ? hear(self, error) : PSPEC_OK;
+}
+
+/* Looks, and leaves its status to be taken. */
+static bool has_ended(pid_t child) {
+    siginfo_t info = {.si_pid = 0};
+    return waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
+}
+
+/* Standard output has ended: hears what the command says till its own end. What it has left behind
+ * may go on, and hold the stream open. */
+static pspec_status wait_for_end(ps_program *self, int *state, ps_error *error) {
+    bool heard = true;
+    while (self->complaints >= 0 && !has_ended(self->child)) {
+        PS_TRY(hear_within(self, MILLISECONDS, &heard, error));
+    }
+    heard = true;
+    for (unsigned i = 0; heard && i < MOST_READS; i++) {
+        PS_TRY(hear_within(self, 0, &heard, error));
+    }
+    const pid_t ended = waitpid(self->child, state, 0);
     if (ended < 0 && errno == EINTR) {
         return fail_waiting(self, error);
     }
@@ -236,28 +250,37 @@ static pspec_status finish(ps_program *self, ps_error *error) {
                    self->last[0] != '\0' ? "; its last line: " : ", and said nothing", self->last);
 }
 
+/* What is said while nothing is printed, for a pipe that is full stops the command. */
+static pspec_status hear_what_is_there(ps_program *self, ps_error *error) {
+    struct pollfd stream = {.fd = self->complaints, .events = POLLIN, .revents = POLLIN};
+    for (unsigned i = 0; i < MOST_READS && (stream.revents & POLLIN) != 0; i++) {
+        if (poll(&stream, 1, 0) < 0) {
+            return fail_waiting(self, error);
+        }
+        PS_TRY((stream.revents & POLLIN) != 0 ? hear(self, error) : PSPEC_OK);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_program_read(ps_program *program, void *out, size_t max_bytes, size_t *count,
                              ps_error *error) {
     *count = 0;
     while (program->output >= 0) {
-        struct pollfd streams[] = {{.fd = program->output, .events = POLLIN},
-                                   {.fd = program->complaints, .events = POLLIN}};
-        if (poll(streams, 2, -1) < 0) {
-            return fail_waiting(program, error);
-        }
-        PS_TRY(streams[1].revents != 0 ? hear(program, error) : PSPEC_OK);
-        if (streams[0].revents == 0) {
-            continue;
-        }
-        const ssize_t got = read(program->output, out, max_bytes);
-        if (got < 0) {
+        struct pollfd stream = {.fd = program->output, .events = POLLIN};
+        const int num = poll(&stream, 1, MILLISECONDS);
+        const ssize_t got = num > 0 ? read(program->output, out, max_bytes) : 0;
+        if (num < 0 || got < 0) {
             return fail_waiting(program, error);
         }
         *count = (size_t)got;
         if (got > 0) {
             return PSPEC_OK;
         }
-        close_stream(&program->output);
+        if (num == 0) {
+            PS_TRY(hear_what_is_there(program, error));
+        } else {
+            close_stream(&program->output);
+        }
     }
     return finish(program, error);
 }
@@ -277,17 +300,13 @@ void ps_program_end(ps_program *program) {
     free(program);
 }
 
-/* ---- does it print the same again? ---------------------------------------------------------- */
+/* ---- all of it ------------------------------------------------------------------------------ */
 
-/* As much as tells one draw of points from another, whatever the size of sets. */
-enum { COMPARED_BYTES = 1 << 24 };
-
-/* At most COMPARED_BYTES of it. */
 static pspec_status read_all(ps_program *program, ps_text *out, ps_error *error) {
     char block[1 << 14];
     size_t count = 1;
-    while (count > 0 && out->length < COMPARED_BYTES) {
-        const size_t left = COMPARED_BYTES - out->length;
+    while (count > 0 && out->length < PS_PROGRAM_TRIED_BYTES) {
+        const size_t left = PS_PROGRAM_TRIED_BYTES - out->length;
         const size_t most = left < sizeof block ? left : sizeof block;
         PS_TRY(ps_program_read(program, block, most, &count, error));
         ps_text_append_bytes(out, block, count);
@@ -296,24 +315,10 @@ static pspec_status read_all(ps_program *program, ps_text *out, ps_error *error)
     return PSPEC_OK;
 }
 
-static pspec_status run_once(ps_text *out, const char *command, ps_error *error) {
+pspec_status ps_program_try(ps_text *out, const char *command, ps_error *error) {
     ps_program *program = NULL;
     PS_TRY(ps_program_start(&program, command, error));
     const pspec_status status = read_all(program, out, error);
     ps_program_end(program);
-    return status;
-}
-
-pspec_status ps_program_repeats(bool *repeats, const char *command, ps_error *error) {
-    ps_text first = {0};
-    ps_text second = {0};
-    pspec_status status = run_once(&first, command, error);
-    if (status == PSPEC_OK) {
-        status = run_once(&second, command, error);
-    }
-    *repeats = status == PSPEC_OK && first.length == second.length &&
-               (first.length == 0 || memcmp(first.data, second.data, first.length) == 0);
-    ps_text_free(&first);
-    ps_text_free(&second);
     return status;
 }

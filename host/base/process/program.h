@@ -4,6 +4,7 @@
 #define PS_BASE_PROCESS_PROGRAM_H
 
 #include "base/status.h"
+#include "base/text.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -37,7 +38,10 @@ pspec_status ps_program_read(ps_program *program, void *out, size_t max_bytes, s
 /* Kills what still runs of it. NULL is allowed. */
 void ps_program_end(ps_program *program);
 
-/* Runs the command twice: is what it prints the same, as far as the first 16 MiB? */
-pspec_status ps_program_repeats(bool *repeats, const char *command, ps_error *error) PS_MUST_CHECK;
+/* As much as tells one draw of points from another, whatever the size of sets. */
+enum { PS_PROGRAM_TRIED_BYTES = 1 << 24 };
+
+/* Runs the command, and appends what it prints, PS_PROGRAM_TRIED_BYTES at most. */
+pspec_status ps_program_try(ps_text *out, const char *command, ps_error *error) PS_MUST_CHECK;
 
 #endif

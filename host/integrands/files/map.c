@@ -20,6 +20,8 @@ typedef struct map {
     char *path;        /* NULL: of no file */
     ps_sphere_map map; /* on the sphere and the hemisphere */
     ps_map_moments moments;
+    double *harmonics; /* coefficients up to a degree, which were asked for last; NULL: none */
+    size_t harmonics_degree;
     ps_torus_map image; /* on the torus, with what was found of its powers so far */
     ps_torus_map_powers powers;
     size_t powers_cutoff;
@@ -123,6 +125,7 @@ static void destroy(ps_integrand *self) {
     map *const own = self->own;
     if (own != NULL) {
         ps_sphere_map_free(&own->map);
+        free(own->harmonics);
         ps_torus_map_free(&own->image);
         ps_torus_map_powers_free(&own->powers);
         free(own->path);
@@ -178,20 +181,39 @@ static pspec_status powers(const ps_integrand *self, const int32_t *vectors, siz
     return PSPEC_OK;
 }
 
+/* Questions of a scene ask for the same ones, which take seconds of a large map. */
+static pspec_status find_harmonics(const ps_integrand *self, size_t max_degree, ps_error *error) {
+    map *const own = self->own;
+    if (own->harmonics != NULL && own->harmonics_degree == max_degree) {
+        return PSPEC_OK;
+    }
+    free(own->harmonics);
+    own->harmonics = NULL;
+    own->harmonics_degree = max_degree;
+    PS_TRY(PS_NEW(&own->harmonics, (max_degree + 1) * (max_degree + 2), "coefficients of a map",
+                  error));
+    const pspec_status status = ps_sphere_map_coefficients(
+        &own->map, ps_integrand_is_on_hemisphere(self), max_degree, own->harmonics, error);
+    if (status != PSPEC_OK) {
+        free(own->harmonics);
+        own->harmonics = NULL;
+    }
+    return status;
+}
+
 static pspec_status coefficients(const ps_integrand *self, size_t max_degree, double *out,
                                  ps_error *error) {
-    return ps_sphere_map_coefficients(&own_of(self)->map, ps_integrand_is_on_hemisphere(self),
-                                      max_degree, out, error);
+    PS_TRY(find_harmonics(self, max_degree, error));
+    memcpy(out, own_of(self)->harmonics, (max_degree + 1) * (max_degree + 2) * sizeof *out);
+    return PSPEC_OK;
 }
 
 /* The even extension has twice the integrals over the hemisphere at even degrees, else 0. */
 static pspec_status degrees(const ps_integrand *self, size_t max_degree, double *out,
                             ps_error *error) {
     const bool is_upper = ps_integrand_is_on_hemisphere(self);
-    const size_t num = (max_degree + 1) * (max_degree + 2) / 2;
-    double *all = NULL;
-    PS_TRY(PS_NEW(&all, 2 * num, "coefficients of a map", error));
-    const pspec_status status = coefficients(self, max_degree, all, error);
+    PS_TRY(find_harmonics(self, max_degree, error));
+    const double *const all = own_of(self)->harmonics;
     for (size_t l = 0; l <= max_degree; l++) {
         const double factor = !is_upper ? 1 : l % 2 == 0 ? 4 : 0;
         out[l] = 0;
@@ -200,8 +222,7 @@ static pspec_status degrees(const ps_integrand *self, size_t max_degree, double 
             out[l] += factor * (m > 0 ? 2 : 1) * (f[0] * f[0] + f[1] * f[1]);
         }
     }
-    free(all);
-    return status;
+    return PSPEC_OK;
 }
 
 static void values(const ps_integrand *self, const double *points, size_t num, double *out) {

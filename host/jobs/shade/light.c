@@ -50,14 +50,16 @@ static pspec_status fill(ps_light *self, const ps_brdf *brdf, double *b, double 
     return ps_sphere_series_make(&self->shading, self->max_degree, f, error);
 }
 
-pspec_status ps_light_make(ps_light *out, const char *integrand, const ps_brdf *brdf,
-                           ps_error *error) {
+pspec_status ps_light_make(ps_light *out, const char *integrand, ps_made_integrands *made,
+                           const ps_brdf *brdf, ps_error *error) {
+    const ps_given_integrands none = {0};
     double *b = NULL;
     double *f = NULL;
     pspec_status status = PSPEC_OK;
     *out = (ps_light){0};
     const ps_integrand_place sphere = {PS_SAMPLES_SPHERE, 3};
-    PS_TRY(ps_integrand_parse(&out->integrand, integrand, sphere, error));
+    PS_TRY(ps_integrand_take(&out->integrand, made != NULL ? made : &out->own, &none, integrand,
+                             sphere, 0, error));
     out->max_degree = choose_degree(out->integrand);
     const size_t num = out->max_degree + 1;
     PS_TRY(PS_NEW(&out->powers, num, "powers of light", error));
@@ -71,7 +73,7 @@ out:
 }
 
 void ps_light_free(ps_light *light) {
-    ps_integrand_destroy(light->integrand);
+    ps_made_integrands_free(&light->own);
     ps_sphere_series_destroy(light->shading);
     free(light->powers);
     *light = (ps_light){0};

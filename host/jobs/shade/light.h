@@ -12,7 +12,8 @@
 typedef struct ps_sphere_series ps_sphere_series; /* integrands/files/series.h */
 
 typedef struct ps_light {
-    ps_integrand *integrand;
+    ps_integrand *integrand; /* of those that were made */
+    ps_made_integrands own;  /* where no others are shared */
     size_t max_degree;
     double *powers;            /* [max_degree + 1]: sum_m |F_lm|^2/(2l+1) */
     ps_sphere_series *shading; /* I(r) up to max_degree */
@@ -20,9 +21,10 @@ typedef struct ps_light {
 } ps_light;
 
 /* Of an integrand of the sphere whose coefficients are known: all of them, or up to degree 256.
- * Others are PSPEC_ERROR_INVALID_ARGUMENT. *out is freed by ps_light_free, also after an error. */
-pspec_status ps_light_make(ps_light *out, const char *integrand, const ps_brdf *brdf,
-                           ps_error *error) PS_MUST_CHECK;
+ * Others are PSPEC_ERROR_INVALID_ARGUMENT. made: integrands that questions share, and the text
+ * outlives these; NULL: none. *out is freed by ps_light_free, also after an error. */
+pspec_status ps_light_make(ps_light *out, const char *integrand, ps_made_integrands *made,
+                           const ps_brdf *brdf, ps_error *error) PS_MUST_CHECK;
 void ps_light_free(ps_light *light);
 
 /* I(r) */

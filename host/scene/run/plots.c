@@ -255,6 +255,16 @@ out:
     return status;
 }
 
+/* Samplers beside files have none, nor have files of many points. */
+static bool has_first_set(const artist *self, const ps_picture *what) {
+    size_t i = 0;
+    while (i < what->num_curves &&
+           ps_table_find_array(table_of(self, what->curves[i]), "first_set") == NULL) {
+        i++;
+    }
+    return i < what->num_curves;
+}
+
 /* Lists of frequencies have no normalized ones, subsets of rings no array; of few degrees there is
  * no line. */
 static bool is_there(const artist *self, const ps_picture *what) {
@@ -263,9 +273,11 @@ static bool is_there(const artist *self, const ps_picture *what) {
     const ps_picture_kind *const kind = what->kind;
     size_t column = 0;
     ps_plot_image image;
+    const bool has_image =
+        kind->is_spectrum && (kind->needs == PS_NEEDS_PICTURES || kind->needs == PS_NEEDS_DECIBELS);
     return (!kind->is_spectrum || ps_table_find_column(table, kind->x, &column)) &&
-           (!kind->is_spectrum || kind->needs != PS_NEEDS_PICTURES ||
-            ps_spectra_find_image(&image, table)) &&
+           (!has_image || ps_spectra_find_image(&image, table)) &&
+           (kind->needs != PS_NEEDS_FILES || has_first_set(self, what)) &&
            (kind->make != ps_lines_figure || kind->dealing == PS_OF_COUNTS ||
             ps_table_num_rows(table) >= FEWEST_ROWS);
 }
