@@ -86,8 +86,9 @@ static void ranges_of_devices_are_the_job(void **state) {
     ps_device *const device = answers_open_device();
     for (int is_gpu = 0; is_gpu < 2; is_gpu++) {
         ps_device_set_dedicated_local_memory(device, is_gpu > 0);
-        check_ranges(NULL, "power -k 2 --precision single --full f.npy" OF_SAMPLER("torus_nufft"),
-                     three_ranges);
+        check_ranges(
+            NULL, "power -k 2 --precision single --tol 1e-5 --full f.npy" OF_SAMPLER("torus_nufft"),
+            three_ranges);
         check_ranges(NULL, "power -k 2 --precision double --full f.npy" OF_SAMPLER("torus_direct"),
                      late_ranges);
         check_ranges(NULL,
@@ -95,9 +96,11 @@ static void ranges_of_devices_are_the_job(void **state) {
                      late_ranges);
     }
     ps_device_set_dedicated_local_memory(device, false);
-    check_ranges(NULL, "angular -l 2 --sampler white-sphere -n 8 -m 700 --engine sphere_direct",
-                 three_ranges);
-    check_ranges(NULL, "pairs -l 2 --sampler white-sphere -n 8 -m 700 --engine pairs_direct",
+    check_ranges(
+        NULL, "angular -l 2 --sampler white-sphere -n 8 -m 700 --tol 1e-5 --engine sphere_direct",
+        three_ranges);
+    check_ranges(NULL,
+                 "pairs -l 2 --sampler white-sphere -n 8 -m 700 --tol 1e-5 --engine pairs_direct",
                  late_ranges);
     answers_close_device();
 }
