@@ -14,8 +14,8 @@ leave() {
 trap leave EXIT
 
 enter() { # COMMANDS of the shell
-    chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        DEBIAN_FRONTEND=noninteractive PIP_CERT=/root/certificates sh -ec "cd /root; $1"
+    chroot "$root" /usr/bin/env -i HOME=/srv PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
+        DEBIAN_FRONTEND=noninteractive PIP_CERT=/srv/certificates sh -ec "cd /srv; $1"
 }
 make_root() {
     [[ -f $scratch/root.tar ]] || mmdebstrap --quiet --variant=minbase bookworm "$scratch/root.tar"
@@ -27,8 +27,8 @@ make_root() {
         mount --bind "/$folder" "$root/$folder"
     done
     cp /etc/resolv.conf "$root/etc/"
-    cp /etc/ssl/certs/ca-certificates.crt "$root/root/certificates" # those that this machine's network has
-    cp -r "$release" "$root/root/release"
+    cp /etc/ssl/certs/ca-certificates.crt "$root/srv/certificates" # those that this machine's network has
+    cp -r "$release" "$root/srv/release"
 }
 # What install_packages.sh and apt say goes to a log, which is shown where a step fails.
 first_picture() { # WAY COMMANDS
@@ -42,9 +42,9 @@ try_deb() {
     first_picture deb "apt-get -qq update; apt-get -qq install ./release/pointspec_*.deb ./release/libpointspec0*.deb ./release/pointspec-doc_*.deb; $page"
     # every command of the list of changes, in an empty folder, by what was installed
     # shellcheck disable=SC2016 # marks of Markdown
-    sed -n '/^```sh$/,/^```$/p' "$root/usr/share/doc/pointspec/CHANGELOG.md" | grep -v '^```' >"$root/root/rows.sh"
+    sed -n '/^```sh$/,/^```$/p' "$root/usr/share/doc/pointspec/CHANGELOG.md" | grep -v '^```' >"$root/srv/rows.sh"
     enter 'mkdir rows; cd rows; sh -e ../rows.sh' >"$scratch/log" 2>&1 || { tail -n 20 "$scratch/log" >&2; return 1; }
-    echo "deb: commands of CHANGELOG.md: $(grep -c pointspec "$root/root/rows.sh")"
+    echo "deb: commands of CHANGELOG.md: $(grep -c pointspec "$root/srv/rows.sh")"
     enter 'apt-get -qq purge pointspec libpointspec0.9 pointspec-doc' >"$scratch/log" 2>&1
     find "$root/usr" "$root/etc" "$root/var/lib/dpkg/info" -name '*pointspec*' >"$scratch/left"
     [[ ! -s $scratch/left ]] || { cat "$scratch/left" >&2; return 1; }
@@ -55,7 +55,7 @@ try_wheel() {
         v/bin/python -c 'import pointspec; pointspec.plot(pointspec.power(sampler=\"jittered\", points=256, realizations=20)).figure.savefig(\"mine.png\")'; test -s mine.png"
 }
 try_source() {
-    first_picture source 'apt-get -qq update; tar xf release/pointspec-*.tar.gz; cd pointspec-*; ./dev demo; test -s demo-output/index.html || ls demo-output'
+    first_picture source 'apt-get -qq update; tar xf release/pointspec-*.tar.gz; cd pointspec-*; ./dev demo; test -s demo-output/comparison.png'
 }
 for way in "$@"; do
     make_root

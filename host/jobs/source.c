@@ -84,17 +84,6 @@ pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t n
     return PSPEC_OK;
 }
 
-/* Points from `first` on. */
-static void turn(const ps_source *source, ps_point_set *set, size_t first) {
-    for (size_t j = first; source->is_turned && j < set->num_points; j++) {
-        double *const point = set->points + j * PS_SPHERE_DIMENSION;
-        const double x = point[0];
-        point[0] = point[1];
-        point[1] = point[2];
-        point[2] = x;
-    }
-}
-
 void ps_source_turn(ps_source *source) {
     source->is_turned = true;
 }
@@ -118,7 +107,7 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     set->has_weights = false;
     source->next_realization++;
     PS_TRY(ps_sets_next(source->sampled, set->points, &set->num_points, &source->watch, error));
-    turn(source, set, 0);
+    ps_point_set_turn(set, source->is_turned ? 0 : set->num_points);
     return PSPEC_OK;
 }
 
@@ -145,7 +134,7 @@ pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_poi
         PS_TRY(ps_points_read_on(source->reader, set, max_points, ends, NULL, error));
     }
     source->is_inside = !*ends;
-    turn(source, set, before);
+    ps_point_set_turn(set, source->is_turned ? before : set->num_points);
     return PSPEC_OK;
 }
 
@@ -265,7 +254,7 @@ static pspec_status begin_set(ps_source *source, ps_point_set *set, bool *ends, 
     const uint64_t bytes = ps_kept_inputs_bytes(set);
     source->set_bytes = bytes > source->set_bytes ? bytes : source->set_bytes;
     source->is_inside = !*ends;
-    turn(source, set, 0);
+    ps_point_set_turn(set, source->is_turned ? 0 : set->num_points);
     return PSPEC_OK;
 }
 

@@ -245,6 +245,16 @@ pspec_status ps_points_check(const char *const *paths, size_t num, const ps_poin
     return PSPEC_OK;
 }
 
+void ps_point_set_turn(ps_point_set *set, size_t first) {
+    for (size_t j = first; j < set->num_points; j++) {
+        double *const point = set->points + j * set->dimension;
+        const double x = point[0];
+        point[0] = point[1];
+        point[1] = point[2];
+        point[2] = x;
+    }
+}
+
 const char *ps_points_program(const char *path) {
     static const char begin[] = PS_POINT_PROGRAM;
     return strncmp(path, begin, sizeof begin - 1) == 0 ? path + sizeof begin - 1 : NULL;

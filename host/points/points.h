@@ -49,6 +49,8 @@ typedef struct ps_point_set {
 } ps_point_set;
 
 void ps_point_set_free(ps_point_set *set);
+/* Points (x, y, z) from number `first` on become (y, z, x). */
+void ps_point_set_turn(ps_point_set *set, size_t first);
 /* Makes room for num_points points (and weights) in all, what is there is kept. */
 pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *error) PS_MUST_CHECK;
 

@@ -192,14 +192,26 @@ static pspec_status hear(ps_program *self, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Hears what is said within so many milliseconds, one read of it. */
-static pspec_status hear_within(ps_program *self, int milliseconds, bool *heard, ps_error *error) {
+/* Events of standard error: the end of the stream is one. */
+enum { SAID = POLLIN, SAID_OR_ENDED = POLLIN | POLLHUP };
+
+/* One read, if such an event comes within so many milliseconds. */
+static pspec_status hear_within(ps_program *self, int milliseconds, int events, bool *heard,
+                                ps_error *error) {
     struct pollfd stream = {.fd = self->complaints, .events = POLLIN};
     if (stream.fd >= 0 && poll(&stream, 1, milliseconds) < 0) {
         return fail_waiting(self, error);
     }
-    *heard = stream.revents != 0;
+    *heard = (stream.revents & events) != 0;
     return *heard ? hear(self, error) : PSPEC_OK;
+}
+
+static pspec_status hear_what_is_there(ps_program *self, int events, ps_error *error) {
+    bool heard = true;
+    for (unsigned i = 0; heard && i < MOST_READS; i++) {
+        PS_TRY(hear_within(self, 0, events, &heard, error));
+    }
+    return PSPEC_OK;
 }
 
 /* Looks, and leaves its status to be taken. */
@@ -211,14 +223,11 @@ static bool has_ended(pid_t child) {
 /* Standard output has ended: hears what the command says till its own end. What it has left behind
  * may go on, and hold the stream open. */
 static pspec_status wait_for_end(ps_program *self, int *state, ps_error *error) {
-    bool heard = true;
+    bool heard = false;
     while (self->complaints >= 0 && !has_ended(self->child)) {
-        PS_TRY(hear_within(self, MILLISECONDS, &heard, error));
+        PS_TRY(hear_within(self, MILLISECONDS, SAID_OR_ENDED, &heard, error));
     }
-    heard = true;
-    for (unsigned i = 0; heard && i < MOST_READS; i++) {
-        PS_TRY(hear_within(self, 0, &heard, error));
-    }
+    PS_TRY(hear_what_is_there(self, SAID_OR_ENDED, error));
     const pid_t ended = waitpid(self->child, state, 0);
     if (ended < 0 && errno == EINTR) {
         return fail_waiting(self, error);
@@ -250,18 +259,6 @@ static pspec_status finish(ps_program *self, ps_error *error) {
                    self->last[0] != '\0' ? "; its last line: " : ", and said nothing", self->last);
 }
 
-/* What is said while nothing is printed, for a pipe that is full stops the command. */
-static pspec_status hear_what_is_there(ps_program *self, ps_error *error) {
-    struct pollfd stream = {.fd = self->complaints, .events = POLLIN, .revents = POLLIN};
-    for (unsigned i = 0; i < MOST_READS && (stream.revents & POLLIN) != 0; i++) {
-        if (poll(&stream, 1, 0) < 0) {
-            return fail_waiting(self, error);
-        }
-        PS_TRY((stream.revents & POLLIN) != 0 ? hear(self, error) : PSPEC_OK);
-    }
-    return PSPEC_OK;
-}
-
 pspec_status ps_program_read(ps_program *program, void *out, size_t max_bytes, size_t *count,
                              ps_error *error) {
     *count = 0;
@@ -277,7 +274,8 @@ pspec_status ps_program_read(ps_program *program, void *out, size_t max_bytes, s
             return PSPEC_OK;
         }
         if (num == 0) {
-            PS_TRY(hear_what_is_there(program, error));
+            /* a pipe of complaints that is full would stop the command */
+            PS_TRY(hear_what_is_there(program, SAID, error));
         } else {
             close_stream(&program->output);
         }
