@@ -1,9 +1,11 @@
 /* Pairs of near points: the nearest neighbour of every point, how many pairs there are at each
  * distance, and what windows have of them. Launch: one work-item for each NEAR_BLOCK points.
  *
- * Points lie in the order of cells, whose edges are as long as the largest distance that counts:
- * neighbours are in the same cell or in one beside it. With PERIODIC=1 space is the unit torus and
- * a distance that to the nearest image, else there is nothing beyond the cells.
+ * Points lie in the order of cells, NEAR_SPAN of which are as long as the largest distance that
+ * counts, the reach: neighbours are in the same cell or no further than that from it. Cells that
+ * follow each other on the last axis are a run, of which what the reach does not come to is left
+ * out. With PERIODIC=1 space is the unit torus and a distance that to the nearest image, else there
+ * is nothing beyond the cells.
  *
  * A window is a ball of radius R, anywhere: of the centres that have one of two points at the
  * distance r in it, a share alpha(r / 2R) has the other, too (docs/user/measure.md).
@@ -32,18 +34,13 @@
 #define WINDOWS NEAR_WINDOWS /* or 0: none are looked at */
 #endif
 
-enum {
-    NEIGHBOURS = DIMENSION == 1   ? 3
-                 : DIMENSION == 2 ? 9
-                 : DIMENSION == 3 ? 27
-                 : DIMENSION == 4 ? 81
-                 : DIMENSION == 5 ? 243
-                                  : 729
-};
+#define SPAN NEAR_SPAN(DIMENSION)
+#define LAST (DIMENSION - 1)
 
 /* Of one point. */
 typedef struct near_point {
     real x[DIMENSION];
+    real image[DIMENSION]; /* -1, 0 or 1: of what the cells at hand are an image, to be added */
     ulong index;
     realv least;
 } near_point;
@@ -74,12 +71,15 @@ static inline realv leave_out(const ulong first, const ulong begin, const ulong 
     return LOADV(0, lanes);
 }
 
+/* Where all points are looked at, each of them has an image of its own. */
 static inline realv square_to(const near_point *of, const near_sizes sizes,
-                              __global const real *points, const ulong first) {
+                              __global const real *points, const ulong first, const bool all) {
     realv square = 0;
     for (uint axis = 0; axis < DIMENSION; axis++) {
         realv apart = load_global(points + axis * sizes.capacity + first, 0) - of->x[axis];
-        apart -= PERIODIC ? rint(apart) : (realv)0;
+        if (PERIODIC) {
+            apart = all ? apart - rint(apart) : apart + of->image[axis];
+        }
         square = square + apart * apart;
     }
     return square;
@@ -103,11 +103,11 @@ static inline void add_shares(near_shares *shares, const near_lengths *lengths,
  * every pair once, with the later of its points. */
 static inline void look_at(near_point *of, near_shares *shares, const near_sizes sizes,
                            const near_lengths *lengths, __global const real *points,
-                           const ulong first, const ulong end, uint *counts) {
+                           const ulong first, const ulong end, const bool all, uint *counts) {
     real bins[LANES];
     const ulong next = first + LANES;
     const bool has_self = of->index >= first && of->index < next;
-    realv square = square_to(of, sizes, points, first);
+    realv square = square_to(of, sizes, points, first, all);
     if (next > end) {
         square += leave_out(first, 0, end);
     }
@@ -134,21 +134,94 @@ static inline uint cell_of(const real x, const near_sizes sizes, const near_leng
     return min(cell, (uint)sizes.side - 1);
 }
 
-/* Number n of the cells about a point; false: there is none. */
-static inline bool find_cell(ulong *cell, const uint *own, const uint n, const ulong side) {
-    bool is_inside = true;
+/* Number n of the runs about a point: the first cell of its row, and the square of the distance of
+ * the row. False: there is none. */
+static inline bool find_row(ulong *row, real *square, near_point *of, const uint *own, const uint n,
+                            const near_sizes sizes, const near_lengths *lengths) {
+    const long side = (long)sizes.side;
     uint rest = n;
-    *cell = 0;
-    for (uint axis = 0; axis < DIMENSION; axis++) {
-        long at = (long)own[axis] + (long)(rest % 3) - 1;
-        rest /= 3;
-        if (PERIODIC) {
-            at = at < 0 ? at + (long)side : at >= (long)side ? at - (long)side : at;
+    *row = 0;
+    *square = 0;
+    for (uint axis = 0; axis < LAST; axis++) {
+        const uint others = rest / (2 * SPAN + 1);
+        const int step = (int)(rest - (2 * SPAN + 1) * others) - SPAN;
+        const long at = (long)own[axis] + step;
+        const real place = (of->x[axis] - lengths->first) * lengths->cells - (real)own[axis];
+        const real gap = step > 0 ? step - place : step < 0 ? place - (step + 1) : 0;
+        rest = others;
+        if (!PERIODIC && (at < 0 || at >= side)) {
+            return false;
         }
-        is_inside = is_inside && at >= 0 && at < (long)side;
-        *cell = *cell * side + (ulong)at;
+        of->image[axis] = at < 0 ? -1 : at >= side ? 1 : 0;
+        *row = *row * sizes.side + (ulong)(at < 0 ? at + side : at >= side ? at - side : at);
+        *square += gap > 0 ? gap * gap : 0;
     }
-    return is_inside;
+    *row *= sizes.side;
+    return true;
+}
+
+/* Cells from `from` to `to` of a row, as many as there are. */
+static inline void look_at_cells(near_point *of, near_shares *shares, const near_sizes sizes,
+                                 const near_lengths *lengths, __global const real *points,
+                                 __global const uint *offsets, const ulong row, const long from,
+                                 const long to, const real image, uint *counts) {
+    const long first = max(from, (long)0);
+    const long last = min(to, (long)sizes.side - 1);
+    of->image[LAST] = image;
+    if (first <= last) {
+        const ulong end = offsets[row + (ulong)last + 1];
+        for (ulong j = offsets[row + (ulong)first]; j < end; j += LANES) {
+            look_at(of, shares, sizes, lengths, points, j, end, false, counts);
+        }
+    }
+}
+
+/* The points of a run that may be within the reach. */
+static inline void look_at_run(near_point *of, near_shares *shares, const near_sizes sizes,
+                               const near_lengths *lengths, __global const real *points,
+                               __global const uint *offsets, const ulong row, const real square,
+                               const long own, uint *counts) {
+    const real rounding = 1e-6; /* of an edge: places have 1e-16 of 2^32 edges */
+    const long side = (long)sizes.side;
+    const real apart = sqrt(fmax((real)(SPAN * SPAN) - square, (real)0)) + rounding;
+    const real place = (of->x[LAST] - lengths->first) * lengths->cells;
+    const long from = max((long)floor(place - apart), own - SPAN);
+    const long to = min((long)floor(place + apart), own + SPAN);
+    look_at_cells(of, shares, sizes, lengths, points, offsets, row, from, to, 0, counts);
+    if (PERIODIC && from < 0) {
+        look_at_cells(of, shares, sizes, lengths, points, offsets, row, from + side, side - 1, -1,
+                      counts);
+    }
+    if (PERIODIC && to >= side) {
+        look_at_cells(of, shares, sizes, lengths, points, offsets, row, 0, to - side, 1, counts);
+    }
+}
+
+static inline void look_at_all(near_point *of, near_shares *shares, const near_sizes sizes,
+                               const near_lengths *lengths, __global const real *points,
+                               uint *counts) {
+    for (ulong j = 0; j < sizes.num_points; j += LANES) {
+        look_at(of, shares, sizes, lengths, points, j, sizes.num_points, true, counts);
+    }
+}
+
+static inline void look_about(near_point *of, near_shares *shares, const near_sizes sizes,
+                              const near_lengths *lengths, __global const real *points,
+                              __global const uint *offsets, uint *counts) {
+    uint own[DIMENSION];
+    uint rows = 1;
+    for (uint axis = 0; axis < DIMENSION; axis++) {
+        own[axis] = cell_of(of->x[axis], sizes, lengths);
+        rows *= axis < LAST ? 2 * SPAN + 1 : 1;
+    }
+    for (uint n = 0; n < rows; n++) {
+        ulong row = 0;
+        real square = 0;
+        if (find_row(&row, &square, of, own, n, sizes, lengths)) {
+            look_at_run(of, shares, sizes, lengths, points, offsets, row, square, own[LAST],
+                        counts);
+        }
+    }
 }
 
 static inline void store_shares(const near_shares *shares, __global real *to) {
@@ -177,7 +250,6 @@ __kernel void measure_near(const near_sizes sizes, const near_lengths lengths,
     if (begin >= sizes.num_points) {
         return;
     }
-    const uint all = sizes.side < 3 ? 0 : NEIGHBOURS;
     near_shares own_shares;
     uint own_counts[NEAR_COUNTS];
     for (uint i = 0; i < NEAR_COUNTS; i++) {
@@ -189,20 +261,13 @@ __kernel void measure_near(const near_sizes sizes, const near_lengths lengths,
     }
     for (ulong i = begin; i < min(begin + NEAR_BLOCK, sizes.num_points); i++) {
         near_point of = {.index = i, .least = INFINITY};
-        uint own[DIMENSION];
         for (uint axis = 0; axis < DIMENSION; axis++) {
             of.x[axis] = points[axis * sizes.capacity + i];
-            own[axis] = cell_of(of.x[axis], sizes, &lengths);
         }
-        for (uint n = 0; n < max(all, (uint)1); n++) {
-            ulong cell = 0;
-            if (all > 0 && !find_cell(&cell, own, n, sizes.side)) {
-                continue;
-            }
-            const ulong end = all > 0 ? offsets[cell + 1] : sizes.num_points;
-            for (ulong j = all > 0 ? offsets[cell] : 0; j < end; j += LANES) {
-                look_at(&of, &own_shares, sizes, &lengths, points, j, end, own_counts);
-            }
+        if (sizes.side == 1) {
+            look_at_all(&of, &own_shares, sizes, &lengths, points, own_counts);
+        } else {
+            look_about(&of, &own_shares, sizes, &lengths, points, offsets, own_counts);
         }
         real lanes[LANES];
         real least = INFINITY;

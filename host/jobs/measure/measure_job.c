@@ -350,7 +350,7 @@ void ps_measure_result_free(ps_measure_result *result) {
 
 /* Of a point of a set, one core of a Zen 4 (PoCL 3.1, a white set of a million points of the
  * plane): near pairs, windows of them, Voronoi cells; of a pair of points, discrepancies. */
-static const double near_seconds = 1e-6, window_seconds = 2e-6;
+static const double near_seconds = 3e-7, window_seconds = 2e-6;
 static const double cell_seconds = 1e-6, paired_seconds = 2.5e-10;
 
 void ps_measure_phases(const ps_measure_question *question, ps_phases *phases) {

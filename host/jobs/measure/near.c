@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FEWEST_CELLS = 3 }; /* on an axis: a cell and those beside it are all different */
-
 struct ps_near {
     ps_device *device;
     ps_kernel *kernel;
@@ -47,15 +45,18 @@ static double unit_of_length(const ps_near *self) {
     return self->on_sphere ? sqrt(PS_FOUR_PI / num) : pow(num, -1.0 / self->dimension);
 }
 
-/* Cells as long as the reach, but not many more than points. */
+/* Cells that are no shorter than their part of the reach, and not many more than points. A cell and
+ * those about it are all different, or there is one. */
 static void choose_cells(ps_near *self) {
-    const double rounding = 1e-12; /* an edge is never shorter than the reach */
+    const double rounding = 1e-12; /* an edge is never shorter */
+    const unsigned span = NEAR_SPAN(self->dimension);
+    const unsigned fewest = 2 * span + 1;
     const double extent = self->on_sphere ? 2 : 1;
     const double reach = ps_near_reach(self->dimension, self->on_sphere) * unit_of_length(self);
     const double most = pow(2 * (double)self->num, 1.0 / self->dimension);
-    const double side = floor(fmin(extent / reach * (1 - rounding), most));
+    const double side = floor(fmin(span * extent / reach * (1 - rounding), most));
     self->sizes.num_points = self->num;
-    self->sizes.side = side < FEWEST_CELLS ? 1 : (uint64_t)side;
+    self->sizes.side = side < fewest ? 1 : (uint64_t)side;
     self->lengths = (near_lengths){.first = self->on_sphere ? -1 : 0,
                                    .cells = (double)self->sizes.side / extent,
                                    .bins = NEAR_BINS / reach};
@@ -236,12 +237,12 @@ static double search(const ps_near *self, size_t i) {
     return least;
 }
 
-/* What is farther than an edge of the cells may have a nearer one beyond those looked at. */
+/* What is farther than the reach may have a nearer one beyond those looked at. */
 static void finish_distances(ps_near *self) {
-    const double edge = 1 / self->lengths.cells;
+    const double reach = NEAR_BINS / self->lengths.bins;
     for (size_t i = 0; i < self->num; i++) {
         double square = self->distances[i];
-        square = self->sizes.side > 1 && !(square < edge * edge) ? search(self, i) : square;
+        square = self->sizes.side > 1 && !(square < reach * reach) ? search(self, i) : square;
         self->distances[i] = sqrt(square);
     }
 }
