@@ -72,7 +72,7 @@ typedef struct ps_work {
     double node_degrees; /* (node of a histogram of pairs, degree) */
     double binned_pairs; /* pairs of points put into a histogram */
     double launches;     /* kernel launches */
-    double kernels;      /* programs that the driver loads for it, once in a process */
+    double programs;     /* of kernels, which the driver loads once in a process */
     double fixed_bytes;  /* memory, whatever the batch */
     double host_bytes;   /* part of that on the host */
     /* On the host besides, unless memory is unified: twins of buffers that it fills */

@@ -56,11 +56,9 @@ static void set_bytes(ps_candidate *candidate, const ps_memory *sum, const ps_de
     candidate->is_crowded = candidate->host_bytes > candidate->host_room;
 }
 
-/* Where rows stay on the device, two kernels average them there, and one makes weighted sums
- * (spectra/accumulate/). */
-static double kernels_of_averages(const ps_engine *engine, const ps_problem *problem) {
-    const bool has_rows = engine->needs_device && !engine->rows_on_host;
-    return has_rows ? 2 + (problem->num_weighted > 0 ? 1 : 0) : 0;
+/* Where rows stay on the device, a program averages them there (spectra/accumulate/). */
+static double programs_of_averages(const ps_engine *engine) {
+    return engine->needs_device && !engine->rows_on_host ? 1 : 0;
 }
 
 /* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the
@@ -87,7 +85,7 @@ static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_
         set_bytes(candidate, &sum, used, constraints->room);
     } while (candidate->batch > 1 &&
              (candidate->is_crowded || (limit > 0 && candidate->bytes > limit)));
-    candidate->kernels = work.kernels + kernels_of_averages(candidate->engine, problem);
+    candidate->programs = work.programs + programs_of_averages(candidate->engine);
     candidate->cost = ps_cost_typical(&work, used, candidate->precision);
     candidate->seconds = ps_cost_seconds(&work, used, candidate->precision) *
                          ps_figures_scale(limits != NULL ? limits->figures : NULL,

@@ -28,7 +28,7 @@ typedef struct ps_candidate {
     double host_room; /* what there is of that; infinite when nobody looked */
     /* it may be chosen, but there is no room for it now, not even for one realization at a time */
     bool is_crowded;
-    double kernels; /* programs that the driver loads, those of averages included */
+    double programs; /* of kernels, which the driver loads, those of averages included */
     size_t batch;
     char reason[160]; /* one phrase: why chosen, why not */
 } ps_candidate;

@@ -26,6 +26,10 @@
 #include "shared/lanes.h"
 #include "shared/transpose.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "accumulate/fold.cl"
+#include "accumulate/weighted.cl"
+
 typedef struct ring {
     uint first, end; /* members */
     uint piece;

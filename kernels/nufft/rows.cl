@@ -18,6 +18,11 @@
 
 #define DIMENSION 3 /* two axes are transformed */
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "nufft/columns.cl"
+#include "nufft/lines.cl"
+#include "nufft/sort.cl"
+
 /* LANES places from `place` on, nothing where the list has ended. */
 static inline void fill_touching(const chunk to, const uint part, __global const ulong *sorted,
                                  __global const real *heights, const size_t place, const size_t end,

@@ -18,6 +18,10 @@
 #include "nufft/transform/finish.h"
 #include "nufft/line.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "nufft/lines.cl"
+#include "nufft/sort.cl"
+
 __kernel void
 nufft_tile(const tile_numbers numbers, __global const ulong *restrict places,
            __global const ulong *restrict sorted, __global const real *restrict heights,

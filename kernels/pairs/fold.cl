@@ -3,7 +3,7 @@
  * One work-item owns LANES degrees of one realization. Launch: (vectors of degrees, realizations),
  * the first rounded up at will; no local memory.
  *
- *   partials  [realization][num_runs][high, low][num_degrees], without the low parts if PARTS is 1: degrees of
+ *   partials  [realization][num_runs][high, low][num_degrees], without the low parts if `parts` is 1: degrees of
  *             pairs/sums.cl and nodes_sums.cl, moments of pairs/histogram.cl
  *   sums      [realization][high, low][num_degrees], begun anew with is_first
  */
@@ -11,12 +11,9 @@
 #include "shared/lanes.h"
 #include "shared/pair.h"
 
-#ifndef PARTS
-#define PARTS 2
-#endif
-
 __kernel void pairs_fold(__global const real *restrict partials, __global real *restrict sums,
-                         const ulong num_runs, const uint num_degrees, const uint is_first) {
+                         const ulong num_runs, const uint num_degrees, const uint parts,
+                         const uint is_first) {
     const size_t vector = get_global_id(0);
     const size_t realization = get_global_id(1);
     if (vector * LANES >= num_degrees) {
@@ -26,11 +23,11 @@ __kernel void pairs_fold(__global const real *restrict partials, __global real *
     realv high = is_first ? (realv)0 : load_global(to, vector);
     realv low = is_first ? (realv)0 : load_global(to + num_degrees, vector);
     for (ulong run = 0; run < num_runs; run++) {
-        __global const real *from = partials + (realization * num_runs + run) * PARTS * num_degrees;
+        __global const real *from = partials + (realization * num_runs + run) * parts * num_degrees;
         pair_add(&high, &low, load_global(from, vector));
-#if PARTS == 2
-        low += load_global(from + num_degrees, vector);
-#endif
+        if (parts > 1) {
+            low += load_global(from + num_degrees, vector);
+        }
     }
     store_global(to, vector, high);
     store_global(to + num_degrees, vector, low);

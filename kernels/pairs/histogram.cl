@@ -18,9 +18,14 @@
 #include "pairs/layout.h"
 #include "pairs/rows.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "pairs/fold.cl"
+#include "pairs/nodes.cl"
+#include "pairs/nodes_sums.cl"
+
 /* Vectors of pairs at a time: chords, their places, which wait for roots, and adding, which waits
  * for memory, are loops of their own, short enough that rounds overlap. */
-#define CHUNK 32
+#define HELD 32
 
 /* Moments of LANES pairs of places x, T_k(x) weight: T_(k+2) = 2 T_2 T_k - T_(k-2) waits for half
  * as many products as the recurrence by one. */
@@ -62,8 +67,8 @@ __kernel __attribute__((reqd_work_group_size(1, 1, 1))) void
 pairs_histogram(__global const real *restrict points, __global const ulong *restrict counts,
                 __global real *restrict partials, const ulong stride, const ulong first_run,
                 const ulong run_vectors, const uint num_bins, __global const real *restrict scale) {
-    __local real weights[CHUNK * LANES], places[CHUNK * LANES];
-    __local int rows[CHUNK * LANES];
+    __local real weights[HELD * LANES], places[HELD * LANES];
+    __local int rows[HELD * LANES];
     const size_t realization = get_group_id(1);
     const ulong num_points = counts[realization];
     const ulong all = pair_vectors(num_points);
@@ -81,8 +86,8 @@ pairs_histogram(__global const real *restrict points, __global const ulong *rest
     pair_place at;
     pair_begin(&at, points + realization * POINT_ARRAYS * stride, stride, num_points, begin);
     const real per_chord = scale[0];
-    for (ulong from = begin; from < end; from += CHUNK) {
-        const size_t num_vectors = min(end - from, (ulong)CHUNK);
+    for (ulong from = begin; from < end; from += HELD) {
+        const size_t num_vectors = min(end - from, (ulong)HELD);
         for (size_t v = 0; v < num_vectors; v++) {
             find_squares(&at, weights + v * LANES, places + v * LANES);
             pair_next(&at);

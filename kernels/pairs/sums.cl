@@ -18,6 +18,9 @@
 #include "pairs/layout.h"
 #include "pairs/walk.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "pairs/fold.cl"
+
 /* The state of the vectors of a chunk at degree 0. */
 PAIRS_INLINE void begin_chunk(pair_place *at, __local real *memory, const size_t num_vectors) {
     for (size_t v = 0; v < num_vectors; v++) {

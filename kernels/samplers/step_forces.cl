@@ -10,6 +10,10 @@
  */
 #include "samplers/step.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "samplers/step_counts.cl"
+#include "samplers/step_fold.cl"
+
 STEP_INLINE double sum_lanes(const double8 x) {
     const double4 four = x.lo + x.hi;
     const double2 two = four.lo + four.hi;

@@ -36,6 +36,9 @@
 #include "sphere/order.h"
 #include "sphere/sums.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "sphere/power.cl"
+
 #define VECTORS (CHUNK / LANES)
 #define SUMS (2 * DEGREES)
 #define SUM_ALIGNMENT 16

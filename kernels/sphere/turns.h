@@ -5,12 +5,8 @@
 #define PS_SPHERE_TURNS_H
 
 #include "nufft/cells.h"
+#include "sphere/doubles.h"
 
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-typedef PS_VECTOR(double) doublev;
-typedef PS_VECTOR(long) longv;
-#define TO_DOUBLEV(x) PS_JOIN(convert_, PS_VECTOR(double))(x)
-#define TO_LONGV(x) PS_JOIN(convert_, PS_VECTOR(long))(x)
 #define AS_ULONGV(x) PS_JOIN(as_, PS_VECTOR(ulong))(x)
 
 /* atan(t) / t in units of 2^-62 turns, by powers of t^2 for |t| <= tan(pi / 8): off by 2^-54.7 of

@@ -26,6 +26,10 @@
 #include "torus/layout.h"
 #include "torus/phase.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "torus/fold.cl"
+#include "torus/power.cl"
+
 #ifndef STORE_TABLE
 #define STORE_TABLE 0
 #endif

@@ -28,6 +28,9 @@
 #include "torus/powers.h"
 #include "torus/product.h"
 
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "torus/list.cl"
+
 /* With two operands, 4 STRIP accumulators are to fit into registers: 32 of them where vectors have
  * 512 bits, else 16 (half the time on AVX2, at N = 256 and K = 64). Results are equal to the bit.
  */

@@ -166,9 +166,8 @@ static void check_histogram(const pairs_case *one) {
     test_memory partials = test_reals_create(device, one->precision, NULL, SETS * 2 * LAST);
     ps_kernel *histogram = test_kernel(device, "pairs/histogram.cl", "pairs_histogram",
                                        "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    ps_kernel *fold =
-        test_kernel(device, "pairs/fold.cl", "pairs_fold", "-DPRECISION=%u -DLANES=%u -DPARTS=1",
-                    one->precision, one->lanes);
+    ps_kernel *fold = test_kernel(device, "pairs/fold.cl", "pairs_fold",
+                                  "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     ps_kernel *to_nodes =
         test_kernel(device, "pairs/nodes.cl", "pairs_nodes", "-DPRECISION=%u", one->precision);
     ps_kernel *sum = test_kernel(device, "pairs/nodes_sums.cl", "pairs_nodes_sums",
@@ -178,7 +177,7 @@ static void check_histogram(const pairs_case *one) {
                  PS_BUFFER(histograms.buffer), PS_U64(data.stride), PS_U64(0), PS_U64(RUN_VECTORS),
                  PS_U32(BINS), PS_BUFFER(scale.buffer));
     TEST_LAUNCH(device, fold, 4, NODES / one->lanes, SETS, 1, PS_BUFFER(histograms.buffer),
-                PS_BUFFER(moments.buffer), PS_U64(1), PS_U32(NODES), PS_U32(1));
+                PS_BUFFER(moments.buffer), PS_U64(1), PS_U32(NODES), PS_U32(1), PS_U32(1));
     TEST_LAUNCH(device, to_nodes, 4, 2 * BINS, SETS, 1, PS_BUFFER(moments.buffer),
                 PS_BUFFER(table.buffer), PS_BUFFER(weights.buffer), PS_U64(2 * BINS),
                 PS_U64(NODES));

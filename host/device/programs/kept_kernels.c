@@ -112,7 +112,7 @@ pspec_status ps_kept_list(glob_t *out, ps_error *error) {
     const pspec_status status = ps_drivers_pocl_cache(&top, error);
     if (status == PSPEC_OK && top.length > 0) {
         snprintf(pattern, sizeof pattern, "%s/[A-P][A-P]/*/*/", ps_text_string(&top));
-        if (glob(pattern, 0, NULL, out) != 0) {
+        if (glob(pattern, GLOB_NOSORT, NULL, out) != 0) {
             globfree(out);
             *out = (glob_t){0};
         }

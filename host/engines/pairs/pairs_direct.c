@@ -43,12 +43,11 @@ static ps_work work_of(const ps_pairs_layout *layout, const ps_problem *problem,
     const double pairs =
         (double)ps_pairs_vectors(problem->num_points, layout->lanes) * layout->lanes * realizations;
     const double slabs = ceil((double)layout->num_runs / (double)layout->slab);
-    const double kernels = 2; /* sums, and their sum */
     const double idle = limits->has_dedicated_local_memory
                             ? ps_engine_idle_factor((double)layout->num_runs * realizations, limits)
                             : 1; /* whose runs are many */
     return (ps_work){
-        .kernels = kernels,
+        .programs = limits->has_dedicated_local_memory ? 2 : 1,
         .pair_degrees = pairs * ((double)layout->num_degrees + PS_PAIR_BEGIN_DEGREES) * idle,
         .launches = 2 * slabs,
         .fixed_bytes = layout->row_bytes,
@@ -91,7 +90,8 @@ static pspec_status create(void *state, const ps_problem *problem, ps_precision 
     const ps_device_limits *limits = ps_device_get_limits(device);
     const ps_pairs_layout layout = make_layout(problem, limits, precision);
     self->is_shared = limits->has_dedicated_local_memory;
-    PS_TRY(ps_pairs_create(&self->pairs, problem, precision, &layout, batch, device, error));
+    PS_TRY(ps_pairs_create(&self->pairs, self->is_shared ? "pairs/fold.cl" : "pairs/sums.cl",
+                           problem, precision, &layout, batch, device, error));
     ps_defines defines = ps_pairs_defines(&self->pairs);
     if (self->is_shared) {
         ps_defines_add(&defines, "-DJOBS=%d", GPU_ITEMS);

@@ -33,11 +33,13 @@ typedef struct histogram_layout {
     double histogram_bytes;
 } histogram_layout;
 
+static const char program[] = "pairs/histogram.cl";
+
 typedef struct pairs_histogram {
     ps_pairs_state pairs;
     double bound;
     histogram_layout layout;
-    ps_kernel *histogram_kernel, *fold_kernel, *nodes_kernel, *sums_kernel;
+    ps_kernel *histogram_kernel, *nodes_kernel, *sums_kernel;
     ps_buffer scale, matrix, nodes;
     ps_buffer moments, weights, node_partials;
 } pairs_histogram;
@@ -85,9 +87,8 @@ static ps_work work_of(const histogram_layout *layout, const ps_problem *problem
         2 * layout->histogram_bytes + layout->pairs.row_bytes; /* nodes have two numbers */
     const double histograms = ((double)layout->pairs.slab + 3) * layout->histogram_bytes;
     const double rows = ((double)layout->node_runs + 1 + PS_READINGS) * layout->pairs.row_bytes;
-    const double kernels = 5; /* histogram, nodes, their sums, two folds */
     return (ps_work){
-        .kernels = kernels,
+        .programs = 1,
         .binned_pairs = (pairs + pairs_per_set +
                          (double)(layout->pairs.num_runs * layout->num_nodes) / PAIRS_PER_NUMBER) *
                         realizations,
@@ -154,16 +155,12 @@ static void destroy(void *state) {
 }
 
 static pspec_status create_kernels(pairs_histogram *self, ps_error *error) {
-    ps_defines defines = ps_pairs_defines(&self->pairs);
+    const ps_defines defines = ps_pairs_defines(&self->pairs);
     ps_device *const device = self->pairs.device;
-    PS_TRY(ps_kernel_get(device, &self->histogram_kernel, "pairs/histogram.cl", "pairs_histogram",
-                         defines.text, error));
-    PS_TRY(ps_kernel_get(device, &self->nodes_kernel, "pairs/nodes.cl", "pairs_nodes", defines.text,
+    PS_TRY(ps_kernel_get(device, &self->histogram_kernel, program, "pairs_histogram", defines.text,
                          error));
-    PS_TRY(ps_kernel_get(device, &self->sums_kernel, "pairs/nodes_sums.cl", "pairs_nodes_sums",
-                         defines.text, error));
-    ps_defines_add(&defines, "-DPARTS=1");
-    return ps_kernel_get(device, &self->fold_kernel, "pairs/fold.cl", "pairs_fold", defines.text,
+    PS_TRY(ps_kernel_get(device, &self->nodes_kernel, program, "pairs_nodes", defines.text, error));
+    return ps_kernel_get(device, &self->sums_kernel, program, "pairs_nodes_sums", defines.text,
                          error);
 }
 
@@ -204,8 +201,8 @@ static pspec_status create(void *state, const ps_problem *problem, ps_precision 
     pairs_histogram *const self = state;
     self->layout = make_layout(problem, ps_device_get_limits(device), precision);
     self->bound = ps_pairs_bins_bound(problem->frequencies->max_frequency, self->layout.num_bins);
-    PS_TRY(ps_pairs_create(&self->pairs, problem, precision, &self->layout.pairs, batch, device,
-                           error));
+    PS_TRY(ps_pairs_create(&self->pairs, program, problem, precision, &self->layout.pairs, batch,
+                           device, error));
     PS_TRY(create_kernels(self, error));
     PS_TRY(upload_tables(self, error));
     return create_buffers(self, batch, error);
@@ -234,9 +231,9 @@ static pspec_status add_slab(void *state, size_t num_patterns, uint64_t first, s
                      PS_BUFFER(pairs->partials), PS_U64(layout->pairs.stride), PS_U64(first),
                      PS_U64(layout->pairs.run_vectors), PS_U32(layout->num_bins),
                      PS_BUFFER(self->scale)));
-    return PS_LAUNCH(pairs->device, self->fold_kernel, &fold, error, PS_BUFFER(pairs->partials),
+    return PS_LAUNCH(pairs->device, pairs->fold, &fold, error, PS_BUFFER(pairs->partials),
                      PS_BUFFER(self->moments), PS_U64(num_runs), PS_U32(layout->num_nodes),
-                     PS_U32(first == 0));
+                     PS_U32(1), PS_U32(first == 0));
 }
 
 /* Legendre sums from the histograms. */

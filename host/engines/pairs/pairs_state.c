@@ -90,15 +90,15 @@ static pspec_status create_points(ps_pairs_state *self, size_t batch, ps_error *
                             "numbers of points", error);
 }
 
-pspec_status ps_pairs_create(ps_pairs_state *self, const ps_problem *problem,
+pspec_status ps_pairs_create(ps_pairs_state *self, const char *program, const ps_problem *problem,
                              ps_precision precision, const ps_pairs_layout *layout, size_t batch,
                              ps_device *device, ps_error *error) {
     const size_t row_bytes = (size_t)layout->row_bytes;
     *self = (ps_pairs_state){
         .device = device, .problem = *problem, .precision = precision, .layout = *layout};
     PS_TRY(create_points(self, batch, error));
-    PS_TRY(ps_kernel_get(device, &self->fold, "pairs/fold.cl", "pairs_fold",
-                         ps_pairs_defines(self).text, error));
+    PS_TRY(ps_kernel_get(device, &self->fold, program, "pairs_fold", ps_pairs_defines(self).text,
+                         error));
     PS_TRY(upload_inverses(self, error));
     self->rows = (ps_late_rows){.engine = self,
                                 .make = make_row,
@@ -154,7 +154,7 @@ pspec_status ps_pairs_fold(ps_pairs_state *self, const ps_buffer *partials, size
         flops_per_degree * rows * (double)self->layout.num_degrees, rows * self->layout.row_bytes);
     return PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(*partials),
                      PS_BUFFER(self->sums), PS_U64(num_runs), PS_U32(self->layout.num_degrees),
-                     PS_U32(is_first));
+                     PS_U32(PS_PAIRS_PARTS), PS_U32(is_first));
 }
 
 pspec_status ps_pairs_read(ps_pairs_state *self, const ps_batch *batch, ps_rows *rows,

@@ -66,8 +66,9 @@ typedef struct ps_pairs_state {
     ps_buffer inverses, sums; /* [batch][PS_PAIRS_PARTS][num_degrees] */
 } ps_pairs_state;
 
-/* Zeroed memory must be given, which stays where it is; free it also after a failure. */
-pspec_status ps_pairs_create(ps_pairs_state *self, const ps_problem *problem,
+/* Zeroed memory must be given, which stays where it is; free it also after a failure. program: a
+ * source that has kernels/pairs/fold.cl. */
+pspec_status ps_pairs_create(ps_pairs_state *self, const char *program, const ps_problem *problem,
                              ps_precision precision, const ps_pairs_layout *layout, size_t batch,
                              ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_pairs_free(void *state); /* a ps_pairs_state, or what begins with one */

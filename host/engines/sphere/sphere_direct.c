@@ -38,9 +38,8 @@ static ps_work work_of(const ps_sphere_layout *layout, const ps_problem *problem
                        const ps_device_limits *limits) {
     const double slabs = ceil((double)problem->num_points / (double)layout->slab);
     const double launches = 2 * slabs + 1;
-    const double kernels = 3; /* vectors, sums, powers */
     return (ps_work){.harmonics = ps_sphere_harmonics(layout, problem, limits),
-                     .kernels = kernels,
+                     .programs = 2, /* vectors; sums and powers */
                      .launches = launches * (double)layout->num_passes,
                      .fixed_bytes = layout->fixed_bytes,
                      .host_bytes = layout->fixed_bytes / 2,
@@ -93,7 +92,7 @@ static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
                    layout->group_items, layout->group_orders, layout->only_even);
     PS_TRY(ps_kernel_get(self->device, &self->sums_kernel, "sphere/sums.cl", "sphere_sums",
                          defines.text, error));
-    return ps_kernel_get(self->device, &self->power_kernel, "sphere/power.cl", "sphere_power",
+    return ps_kernel_get(self->device, &self->power_kernel, "sphere/sums.cl", "sphere_power",
                          defines.text, error);
 }
 

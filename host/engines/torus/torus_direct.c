@@ -90,14 +90,13 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem,
         has_corners ? fmin(1, (double)problem->frequencies->num / (2 * left * right + left + right))
                     : 1;
     const double product = product_points((double)problem->num_points);
-    const double of_list = 3; /* sums, their sum, powers */
     const double read_back =
         problem->harmonics == PS_NO_HARMONICS
             ? 0
             : ps_torus_coefficient_bytes(layout->is_grid ? (double)layout->max_pairs : 0,
                                          (double)(layout->left_tiles + layout->right_tiles), lanes);
     return (ps_work){
-        .kernels = of_list + (layout->is_grid ? 1 : 0),
+        .programs = layout->is_shared ? 2 : 1,
         .phases = num_points * lanes * (double)(layout->left_tiles + layout->right_tiles),
         .product_flops = (layout->is_shared ? shared_flops(layout, product, realizations, share)
                                             : 8 * realizations * product * box * share) *

@@ -72,9 +72,6 @@ static pspec_status create_kernel(ps_torus_product *self, const ps_torus_layout 
     const bool has_units = layout->units != PS_UNITS_NONE;
     const char *const *const kernel = kernels[has_units ? 2 : layout->is_shared];
     ps_defines defines = ps_torus_defines(layout, dimension);
-    if (layout->is_shared) {
-        ps_defines_add(&defines, "-DLEFT_AXES=%u", layout->left_axes);
-    }
     if (has_units) {
         ps_defines_add(&defines, "-DTILES=%u %s", layout->block_tiles,
                        ps_units_option(layout->units));

@@ -9,6 +9,8 @@ ps_defines ps_torus_defines(const ps_torus_layout *layout, unsigned dimension) {
     ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
     ps_defines_add(&defines, "-DDIMENSION=%u -DRUN=%d -DLIST_RUN=%d", dimension, PS_TORUS_RUN,
                    PS_TORUS_LIST_RUN);
+    ps_defines_add(&defines, "-DSTORE_TABLE=%d -DLEFT_AXES=%u", layout->has_table,
+                   layout->is_grid ? layout->left_axes : dimension);
     return defines;
 }
 
@@ -36,15 +38,11 @@ static pspec_status upload_frequencies(ps_torus_sums *self, const int32_t *vecto
 
 static pspec_status create_kernels(ps_torus_sums *self, const ps_torus_layout *layout,
                                    ps_device *device, ps_error *error) {
-    ps_defines list = ps_torus_defines(layout, self->dimension);
-    /* Of passes that know no coordinates: the same for every dimension. */
-    const ps_defines last = ps_defines_of(layout->real_bytes, layout->lanes);
-    ps_defines_add(&list, "-DSTORE_TABLE=%d -DLEFT_AXES=%u", self->has_table,
-                   self->has_table ? layout->left_axes : self->dimension);
-    PS_TRY(ps_kernel_get(device, &self->list, "torus/list.cl", "torus_list", list.text, error));
-    PS_TRY(ps_kernel_get(device, &self->fold, "torus/fold.cl", "torus_fold", last.text, error));
-    return ps_kernel_get(device, &self->power, "torus/power.cl", "torus_power_list", last.text,
-                         error);
+    const ps_defines defines = ps_torus_defines(layout, self->dimension);
+    const char *const program = layout->has_table ? "torus/product.cl" : "torus/list.cl";
+    PS_TRY(ps_kernel_get(device, &self->list, program, "torus_list", defines.text, error));
+    PS_TRY(ps_kernel_get(device, &self->fold, program, "torus_fold", defines.text, error));
+    return ps_kernel_get(device, &self->power, program, "torus_power_list", defines.text, error);
 }
 
 static pspec_status create_buffers(ps_torus_sums *self, size_t batch, size_t group,

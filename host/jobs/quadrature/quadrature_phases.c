@@ -122,7 +122,7 @@ double ps_quadrature_job_phases(const ps_quadrature_job *job, ps_phases *phases)
     const ps_device_limits *const limits = ps_device_get_limits(setup->device);
     ps_phases_start(phases, chosen, limits);
     /* coefficients come by another build of the engine's last kernel */
-    ps_phases_load_kernels(phases, chosen != NULL && !setup->by_pairs ? 1 : 0);
+    ps_phases_load_programs(phases, chosen != NULL && !setup->by_pairs ? 1 : 0);
     ps_phases_lobe(phases, &setup->representer);
     const double sets = add_points(setup, job->question, phases);
     const double planned = (double)setup->problem.num_realizations;

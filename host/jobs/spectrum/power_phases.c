@@ -24,9 +24,9 @@ static unsigned bit_of(const ps_engine *engine) {
 
 static const char start_name[] = "start";
 
-void ps_phases_load_kernels(ps_phases *phases, double kernels) {
-    const double kernel_seconds = 34e-3;
-    ps_phases_add(phases, start_name, kernels * kernel_seconds);
+void ps_phases_load_programs(ps_phases *phases, double programs) {
+    const double seconds_of_one = 34e-3; /* PoCL's preprocessor, whatever the text is */
+    ps_phases_add(phases, start_name, programs * seconds_of_one);
 }
 
 /* Each once in a process. */
@@ -46,7 +46,7 @@ void ps_phases_start(ps_phases *phases, const ps_candidate *chosen,
         const bool is_gpu = limits->has_dedicated_local_memory;
         ps_phases_add(phases, start_name,
                       begun->driver ? 0 : driver_seconds + (is_gpu ? gpu_seconds : 0));
-        ps_phases_load_kernels(phases, is_there ? 0 : chosen->kernels);
+        ps_phases_load_programs(phases, is_there ? 0 : chosen->programs);
         ps_phases_say(phases, start_name, "driver and kernels, which the driver's cache has");
         begun->driver = true;
         begun->engines |= bit;

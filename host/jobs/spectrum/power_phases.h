@@ -23,8 +23,8 @@ typedef struct ps_phases_load {
 void ps_phases_run(ps_phases *phases, const ps_candidate *chosen, const ps_device_limits *limits,
                    const ps_phases_load *load);
 
-/* Adds so many more kernels to that beginning. */
-void ps_phases_load_kernels(ps_phases *phases, double kernels);
+/* Adds so many more programs of kernels to that beginning. */
+void ps_phases_load_programs(ps_phases *phases, double programs);
 
 /* Adds zonal sums of a realization (engines/pairs/pairs_zonal.h) of so many points and degrees. */
 void ps_phases_sum_zonal(ps_phases *phases, double points, double degrees);

@@ -42,11 +42,10 @@ double ps_step_pairs_bytes(size_t num, size_t num_bins) {
 
 static pspec_status create_kernels(ps_step_pairs *p, ps_error *error) {
     const char *const options = p->has_shared_counts ? "-DSHARED=1" : "-DSHARED=0";
-    PS_TRY(ps_kernel_get(p->device, &p->count, "samplers/step_counts.cl", "step_counts", options,
-                         error));
-    PS_TRY(
-        ps_kernel_get(p->device, &p->force, "samplers/step_forces.cl", "step_forces", "", error));
-    return ps_kernel_get(p->device, &p->fold, "samplers/step_fold.cl", "step_fold", "", error);
+    static const char program[] = "samplers/step_forces.cl";
+    PS_TRY(ps_kernel_get(p->device, &p->count, program, "step_counts", options, error));
+    PS_TRY(ps_kernel_get(p->device, &p->force, program, "step_forces", options, error));
+    return ps_kernel_get(p->device, &p->fold, program, "step_fold", options, error);
 }
 
 static pspec_status create_buffers(ps_step_pairs *p, ps_error *error) {

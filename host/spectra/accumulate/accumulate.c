@@ -73,7 +73,7 @@ static pspec_status create_on_device(ps_accumulator *self, ps_device *device, ps
     on_device.mean_only = no_squares(&self->options);
     PS_TRY(ps_device_accumulator_create(&self->on_device, &on_device, device, error));
     return self->options.num_weighted > 0
-               ? ps_device_weighted_create(&self->weighted, &self->options, device, error)
+               ? ps_device_weighted_create(&self->weighted, &on_device, device, error)
                : PSPEC_OK;
 }
 

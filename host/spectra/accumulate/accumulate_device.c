@@ -70,9 +70,9 @@ static bool has_strips(const ps_device_accumulator *self) {
 
 static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error) {
     ps_defines defines = ps_defines_of(self->real_bytes, self->options.lanes);
-    PS_TRY(ps_kernel_get(self->device, &self->fold, "accumulate/fold.cl", "accumulate_fold",
-                         defines.text, error));
     ps_defines_add(&defines, "-DSQUARES=%d", self->options.mean_only ? 0 : 1);
+    PS_TRY(ps_kernel_get(self->device, &self->fold, "accumulate/blocks.cl", "accumulate_fold",
+                         defines.text, error));
     return ps_kernel_get(self->device, &self->blocks, "accumulate/blocks.cl",
                          self->options.want_frequencies && !self->is_gpu
                              ? "accumulate_bins_and_frequencies"

@@ -60,9 +60,10 @@ static pspec_status upload_weights(ps_device_weighted *self, ps_error *error) {
 
 static pspec_status create_kernel(ps_device_weighted *self, ps_error *error) {
     const ps_accumulator_options *options = &self->options;
-    const ps_defines defines = ps_defines_of(ps_real_bytes(options->precision), options->lanes);
-    return ps_kernel_get(self->device, &self->kernel, "accumulate/weighted.cl",
-                         "accumulate_weighted", defines.text, error);
+    ps_defines defines = ps_defines_of(ps_real_bytes(options->precision), options->lanes);
+    ps_defines_add(&defines, "-DSQUARES=%d", options->mean_only ? 0 : 1); /* as of the bins */
+    return ps_kernel_get(self->device, &self->kernel, "accumulate/blocks.cl", "accumulate_weighted",
+                         defines.text, error);
 }
 
 /* Numbers in the pieces of one weighted sum. */

@@ -7,7 +7,7 @@
  * slot, slot + slots, ...
  *
  *   numbers    of numbers.h; their names are used here
- *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
+ *   points     [..][2] of orders_ends.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   window     of nufft/window.h, the same on both axes
  *   radices, twiddles, position  of nufft/transform/fft.h, of length n / 2
  *   gains      [L + 1][3]: around_gains of orders.cl
@@ -25,6 +25,11 @@
 #include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_grid.h"
 #include "sphere/values.h"
+
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "sphere/grid/begins.cl"
+#include "sphere/grid/sums.cl"
+#include "sphere/nufft/orders_ends.cl"
 
 #if LANES == 2
 #define REVERSED(v) ((v).s10)

@@ -1,5 +1,7 @@
-/* From c_lm of degrees.cl to sum_m |c_lm|^2, in double precision: of the orders of a group, which
- * are its number modulo the number of groups, as orders_sum.cl leaves them for orders_fold.cl.
+/* The program of sphere_nufft on GPUs, but for what it has of other engines.
+ *
+ * From c_lm of degrees.cl to sum_m |c_lm|^2, in double precision: of the orders of a group, which
+ * are its number modulo the number of groups, as orders_sum.cl leaves them for orders_ends.cl.
  * Launch: (degrees, rounded up at will, groups, realizations); with KEEP (degrees, orders, 1).
  *
  *   sums    [realization][order][degree from the order on][re, im] of degrees.cl
@@ -9,6 +11,7 @@
  */
 #include "shared/real.h"
 #include "sphere/nufft/degrees.h"
+#include "sphere/nufft/orders_ends.cl"
 
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 

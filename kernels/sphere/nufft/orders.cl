@@ -10,7 +10,7 @@
  * more than 1, each share does some columns or tiles of it, and steps come in launches of their
  * own.
  *
- *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
+ *   points     [..][2] of orders_ends.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   numbers    of orders.h; their names are used here
  *   window     of nufft/window.h, the same on both axes
  *   radices, twiddles, position        of nufft/transform/fft.h, of length n / 2
@@ -33,6 +33,12 @@
 #include "sphere/nufft/orders_rings.h"
 #include "sphere/nufft/orders_strips.h"
 #include "sphere/values.h"
+
+/* Kernels of the same program (docs/developer/decisions.md). */
+#include "sphere/nufft/orders_bands.cl"
+#include "sphere/nufft/orders_ends.cl"
+#include "sphere/nufft/orders_sort.cl"
+#include "sphere/nufft/orders_sum.cl"
 
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 

@@ -17,11 +17,9 @@ static cells *of(const ps_sphere_state *self) {
 }
 
 static pspec_status create(ps_sphere_state *self, ps_error *error) {
-    static const ps_sphere_source values = {.file = "sphere/grid/values.cl",
-                                            .name = "sphere_grid_values"};
     PS_TRY(ps_sphere_grid_table_create(&of(self)->table, &self->shape, self->only_even,
                                        self->precision, self->device, error));
-    return ps_sphere_kernel_get(self, &of(self)->make, &values, false, error);
+    return ps_sphere_kernel_get(self, &of(self)->make, "sphere_grid_values", error);
 }
 
 static void free_own(void *own) {
@@ -88,15 +86,14 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
                    (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
 }
 
-static const ps_sphere_source sums = {.file = "sphere/grid/sums.cl", .name = "sphere_grid_sums"};
-
-/* Kernels: points, values, sums of orders and degrees; the table of cells and where it begins. */
-const ps_sphere_variant ps_sphere_cells = {.kernels = 6,
+/* The table of cells is made by a program of its own, in double precision. */
+const ps_sphere_variant ps_sphere_cells = {.programs = 2,
+                                           .program = "sphere/grid/values.cl",
                                            .count_table_flops = ps_sphere_grid_table_flops,
                                            .own_bytes = sizeof(cells),
                                            .create = create,
                                            .free = free_own,
                                            .make_values = make_values,
-                                           .sources_of_sums = {&sums, &sums},
+                                           .sums = "sphere_grid_sums",
                                            .launch_sums = launch_sums,
                                            .describe = describe};

@@ -197,15 +197,14 @@ static pspec_status create_buffers(ps_sphere_grid_table *table, making *self, ps
 static pspec_status create_kernels(making *self, ps_error *error) {
     const size_t target_bytes = ps_real_bytes(self->precision);
     ps_defines making_defines = ps_defines_of(sizeof(double), self->rings.lanes);
-    ps_defines target = ps_defines_of(target_bytes, self->shape->lanes);
+    const ps_defines target = ps_sphere_defines(self->shape, self->precision);
     ps_defines_add(&making_defines, "-DRUN_VECTORS=%u -DTARGET_PRECISION=%zu",
                    self->rings.run_vectors, 8 * target_bytes);
     ps_defines_add(&making_defines, "-DTARGET_LANES=%u -DTARGET_VECTORS=%u", self->shape->lanes,
                    self->shape->run_vectors);
-    ps_defines_add(&target, "-DRUN_VECTORS=%u", self->shape->run_vectors);
     PS_TRY(ps_kernel_get(self->device, &self->make, "sphere/grid/table.cl", "sphere_grid_table",
                          making_defines.text, error));
-    return ps_kernel_get(self->device, &self->begin, "sphere/grid/begins.cl", "sphere_grid_begins",
+    return ps_kernel_get(self->device, &self->begin, "sphere/grid/values.cl", "sphere_grid_begins",
                          target.text, error);
 }
 

@@ -153,16 +153,14 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
     shape->plane.choice.variant->describe(&shape->plane, text);
 }
 
-static const ps_sphere_source powers = {.file = "sphere/nufft/degree_powers.cl",
-                                        .name = "sphere_degree_powers"};
-
-/* Kernels: turns, keys and their order, boxes, two axes, rings, coefficients, powers of groups and
- * of all. */
-const ps_sphere_variant ps_sphere_gridded = {.kernels = 10,
+/* Programs: its own of turns and powers; keys and their order, boxes, two axes, rings,
+ * coefficients. */
+const ps_sphere_variant ps_sphere_gridded = {.programs = 8,
+                                             .program = "sphere/nufft/degree_powers.cl",
                                              .own_bytes = sizeof(gridded),
                                              .create = create,
                                              .free = free_own,
                                              .make_values = make_values,
-                                             .sources_of_sums = {&powers, &powers},
+                                             .sums = "sphere_degree_powers",
                                              .launch_sums = launch_sums,
                                              .describe = describe};

@@ -73,16 +73,16 @@ static uint64_t shift_of(const ps_sphere_shape *shape) {
     return (uint64_t)(((wide)shape->half_poles << 63) / shape->axis.n);
 }
 
-static pspec_status create_kernels(ps_sphere_places *self, ps_error *error) {
-    const bool sorts = self->shape->is_sorted;
-    const ps_defines defines = ps_defines_of(ps_real_bytes(self->precision), self->lanes);
-    return ps_kernel_get(self->device, &self->turn,
-                         sorts ? "sphere/nufft/orders_sort.cl" : "sphere/nufft/orders_turns.cl",
-                         sorts ? "sphere_orders_sort" : "sphere_orders_turns", defines.text, error);
+static pspec_status create_kernel(ps_sphere_places *self, const char *program, ps_error *error) {
+    const ps_defines defines = ps_sphere_defines(self->shape, self->precision);
+    return ps_kernel_get(self->device, &self->turn, program,
+                         self->shape->is_sorted ? "sphere_orders_sort" : "sphere_orders_turns",
+                         defines.text, error);
 }
 
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
-                                     ps_precision precision, ps_device *device, ps_error *error) {
+                                     const char *program, ps_precision precision, ps_device *device,
+                                     ps_error *error) {
     *out = (ps_sphere_places){.device = device,
                               .precision = precision,
                               .shape = shape,
@@ -90,7 +90,7 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
                               .lanes = shape->lanes,
                               .shift = shift_of(shape)};
     PS_TRY(PS_NEW(&out->host_offsets, shape->together + 1, "offsets", error));
-    PS_TRY(create_kernels(out, error));
+    PS_TRY(create_kernel(out, program, error));
     PS_TRY(create_buffers(out, error));
     return upload_unit_weights(out, error);
 }

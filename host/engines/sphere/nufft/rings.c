@@ -26,13 +26,9 @@ static rings *of(const ps_sphere_state *self) {
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_sphere_state *self, ps_error *error) {
-    static const ps_sphere_source orders = {.file = "sphere/nufft/orders.cl",
-                                            .name = "sphere_orders"};
-    static const ps_sphere_source bands = {.file = "sphere/nufft/orders_bands.cl",
-                                           .name = "sphere_orders_bands"};
-    PS_TRY(ps_sphere_kernel_get(self, &of(self)->orders, &orders, false, error));
+    PS_TRY(ps_sphere_kernel_get(self, &of(self)->orders, "sphere_orders", error));
     return self->shape.is_sorted
-               ? ps_sphere_kernel_get(self, &of(self)->bands, &bands, false, error)
+               ? ps_sphere_kernel_get(self, &of(self)->bands, "sphere_orders_bands", error)
                : PSPEC_OK;
 }
 
@@ -238,18 +234,13 @@ static void describe(const ps_sphere_state *self, ps_text *text) {
     }
 }
 
-static const ps_sphere_source sums = {.file = "sphere/nufft/orders_sum.cl",
-                                      .name = "sphere_orders_sum"};
-static const ps_sphere_source sums_one = {
-    .file = "sphere/nufft/orders_sum_one.cl", .name = "sphere_orders_sum_one", .sums_one = true};
-
-/* Kernels: points, values, sums of orders and degrees; and the bands of sorted points. */
-#define RINGS_ROW(KERNELS, MAKE_VALUES)                                                            \
+#define RINGS_ROW(MAKE_VALUES)                                                                     \
     {                                                                                              \
-        .kernels = (KERNELS), .own_bytes = sizeof(rings), .create = create, .free = free_own,      \
-        .make_values = (MAKE_VALUES), .sources_of_sums = {&sums, &sums_one},                       \
-        .launch_sums = launch_sums, .describe = describe                                           \
+        .programs = 1, .program = "sphere/nufft/orders.cl", .own_bytes = sizeof(rings),            \
+        .create = create, .free = free_own, .make_values = (MAKE_VALUES),                          \
+        .sums = "sphere_orders_sum", .has_sums_one = true, .launch_sums = launch_sums,             \
+        .describe = describe                                                                       \
     }
 
-const ps_sphere_variant ps_sphere_rings = RINGS_ROW(4, make_values);
-const ps_sphere_variant ps_sphere_sorted_rings = RINGS_ROW(5, make_sorted);
+const ps_sphere_variant ps_sphere_rings = RINGS_ROW(make_values);
+const ps_sphere_variant ps_sphere_sorted_rings = RINGS_ROW(make_sorted);

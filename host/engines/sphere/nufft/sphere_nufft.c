@@ -76,12 +76,13 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                             : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
                                   (double)sizeof(double);
     const ps_sphere_variant *variant = variant_of(shape);
-    const double kernels = variant->kernels + (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
+    const double programs = variant->programs + (problem->harmonics != PS_NO_HARMONICS ? 1 : 0) +
+                            (variant->has_sums_one && shape->is_one_set ? 1 : 0);
     const double flops = ps_sphere_nufft_flops(shape, problem, precision, realizations);
     const double of_table =
         variant->count_table_flops != NULL ? variant->count_table_flops(shape) : 0;
     return (ps_work){.transform_flops = realizations * flops + of_table,
-                     .kernels = kernels,
+                     .programs = programs,
                      .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
                      .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
                      .host_bytes = (double)shape->host_bytes + kept,
@@ -191,7 +192,8 @@ static pspec_status create_buffers(ps_sphere_state *self, ps_error *error) {
 static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     PS_TRY(create_rows(self, batch, error));
-    PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
+    PS_TRY(ps_sphere_places_create(&self->points, shape, self->variant->program, self->precision,
+                                   self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
     PS_TRY(ps_allocate(&self->own, 1, self->variant->own_bytes, "an engine", error));

@@ -4,37 +4,48 @@
 
 #include "device/reals.h"
 
-pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
-                                  const ps_sphere_source *source, bool keeps, ps_error *error) {
+ps_defines ps_sphere_defines(const ps_sphere_shape *shape, ps_precision precision) {
+    ps_defines defines = ps_defines_of(ps_real_bytes(precision), shape->lanes);
+    ps_defines_add(&defines, "-DRUN_VECTORS=%u", shape->run_vectors);
+    return defines;
+}
+
+pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out, const char *name,
+                                  ps_error *error) {
+    const ps_defines defines = ps_sphere_defines(&self->shape, self->precision);
+    return ps_kernel_get(self->device, out, self->variant->program, name, defines.text, error);
+}
+
+/* In double precision, with lanes of its own. */
+static ps_defines defines_of_sums_one(const ps_sphere_state *self) {
     const ps_sphere_shape *shape = &self->shape;
-    const size_t value_bytes = ps_real_bytes(self->precision);
-    ps_defines defines = source->sums_one ? ps_defines_of(sizeof(double), shape->sum_lanes)
-                                          : ps_defines_of(value_bytes, shape->lanes);
-    ps_defines_add(&defines, "-DRUN_VECTORS=%u",
-                   source->sums_one ? PS_SPHERE_ONE_RUN : shape->run_vectors);
-    if (source->sums_one) {
-        ps_defines_add(&defines,
-                       "-DVALUE_PRECISION=%zu -DVALUE_LANES=%u -DRING_VECTORS=%u -DPARITIES=%u "
-                       "-DSTATE_PRECISION=%u",
-                       8 * value_bytes, shape->lanes, ps_sphere_one_vectors(shape),
-                       self->only_even ? 1u : 2u, shape->is_single_chain ? 32u : 64u);
-    }
+    ps_defines defines = ps_defines_of(sizeof(double), shape->sum_lanes);
+    ps_defines_add(&defines, "-DRUN_VECTORS=%u -DVALUE_PRECISION=%zu -DVALUE_LANES=%u",
+                   PS_SPHERE_ONE_RUN, 8 * ps_real_bytes(self->precision), shape->lanes);
+    ps_defines_add(&defines, "-DRING_VECTORS=%u -DPARITIES=%u -DSTATE_PRECISION=%u",
+                   ps_sphere_one_vectors(shape), self->only_even ? 1u : 2u,
+                   shape->is_single_chain ? 32u : 64u);
+    return defines;
+}
+
+/* keeps: coefficients, instead of sums of their squares. */
+static pspec_status get_sums(const ps_sphere_state *self, ps_kernel **out, bool keeps,
+                             ps_error *error) {
+    const bool is_one = self->shape.is_one_set && self->variant->has_sums_one;
+    ps_defines defines =
+        is_one ? defines_of_sums_one(self) : ps_sphere_defines(&self->shape, self->precision);
     if (keeps) {
         ps_defines_add(&defines, "-DKEEP=1");
     }
-    return ps_kernel_get(self->device, out, source->file, source->name, defines.text, error);
-}
-
-static const ps_sphere_source *source_of_sums(const ps_sphere_state *self) {
-    return self->variant->sources_of_sums[self->shape.is_one_set];
+    return ps_kernel_get(
+        self->device, out, is_one ? "sphere/nufft/orders_sum_one.cl" : self->variant->program,
+        is_one ? "sphere_orders_sum_one" : self->variant->sums, defines.text, error);
 }
 
 pspec_status ps_sphere_powers_create(ps_sphere_state *self, ps_error *error) {
-    static const ps_sphere_source fold = {.file = "sphere/nufft/orders_fold.cl",
-                                          .name = "sphere_orders_fold"};
     const uint64_t each = (uint64_t)PS_SPHERE_GROUPS * 2 * self->shape.half_pitch * sizeof(double);
-    PS_TRY(ps_sphere_kernel_get(self, &self->fold, &fold, false, error));
-    PS_TRY(ps_sphere_kernel_get(self, &self->sum, source_of_sums(self), false, error));
+    PS_TRY(ps_sphere_kernel_get(self, &self->fold, "sphere_orders_fold", error));
+    PS_TRY(get_sums(self, &self->sum, false, error));
     return ps_buffer_create(self->device, &self->sums, self->shape.at_once * each,
                             "powers of orders", error);
 }
@@ -58,7 +69,7 @@ pspec_status ps_sphere_powers_keep(ps_sphere_state *self, double *coefficients, 
     const size_t num = ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch;
     ps_kernel *kernel = NULL;
     ps_buffer kept = {0};
-    PS_TRY(ps_sphere_kernel_get(self, &kernel, source_of_sums(self), true, error));
+    PS_TRY(get_sums(self, &kernel, true, error));
     PS_TRY(ps_buffer_create(self->device, &kept, num * sizeof(double), "coefficients", error));
     pspec_status status = self->variant->launch_sums(self, kernel, &kept, 1, error);
     if (status == PSPEC_OK) {

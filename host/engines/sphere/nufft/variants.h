@@ -12,7 +12,7 @@
 #include "engines/sphere/nufft/tables.h"
 
 /* Directions on their way to the device, where they become places on a torus
- * (kernels/sphere/nufft/orders_turns.cl). */
+ * (kernels/sphere/nufft/orders_ends.cl). */
 
 typedef struct ps_sphere_places {
     ps_device *device;
@@ -36,7 +36,7 @@ typedef struct ps_sphere_places {
 
 /* shape is borrowed. */
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
-                                     ps_precision precision, ps_device *device,
+                                     const char *program, ps_precision precision, ps_device *device,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_places_free(ps_sphere_places *points);
 
@@ -88,18 +88,13 @@ void ps_sphere_grid_table_free(ps_sphere_grid_table *table);
 /* Additions and multiplications of making it. */
 double ps_sphere_grid_table_flops(const ps_sphere_shape *shape);
 
-/* A kernel of kernels/sphere/nufft. */
-typedef struct ps_sphere_source {
-    const char *file, *name;
-    bool sums_one; /* orders_sum_one.cl: in double precision, with sum_lanes */
-} ps_sphere_source;
-
 /* Launches a kernel of sums for the first num realizations. */
 typedef pspec_status ps_sphere_launch_sums(ps_sphere_state *state, ps_kernel *kernel,
                                            const ps_buffer *to, size_t num, ps_error *error);
 
 typedef struct ps_sphere_variant {
-    double kernels; /* programs, without the one of coefficients */
+    double programs;     /* without those of coefficients and of sums_one */
+    const char *program; /* source of the kernels of ps_sphere_defines */
     double (*count_table_flops)(const ps_sphere_shape *); /* once for all realizations; NULL: 0 */
     size_t own_bytes; /* of ps_sphere_state.own, which begins as zeros */
     pspec_status (*create)(ps_sphere_state *, ps_error *);
@@ -108,8 +103,10 @@ typedef struct ps_sphere_variant {
      */
     pspec_status (*make_values)(ps_sphere_state *, size_t first_value, const ps_batch *some,
                                 ps_error *);
-    /* The kernels of sums of several sets, and of one alone, and what launches either. */
-    const ps_sphere_source *sources_of_sums[2];
+    /* The kernel of sums, and what launches it; has_sums_one: of one set there is another, of
+     * orders_sum_one.cl. */
+    const char *sums;
+    bool has_sums_one;
     ps_sphere_launch_sums *launch_sums;
     void (*describe)(const ps_sphere_state *, ps_text *);
 } ps_sphere_variant;
@@ -137,9 +134,9 @@ struct ps_sphere_state {
 
 /* ---- from sums of orders to powers or coefficients (sphere_powers.c) ---------------------- */
 
-/* A kernel for this precision, these lanes and work-groups; keeps: with -DKEEP=1. */
-pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out,
-                                  const ps_sphere_source *source, bool keeps,
+ps_defines ps_sphere_defines(const ps_sphere_shape *shape, ps_precision precision);
+/* A kernel of the variant's program. */
+pspec_status ps_sphere_kernel_get(const ps_sphere_state *self, ps_kernel **out, const char *name,
                                   ps_error *error) PS_MUST_CHECK;
 
 /* The kernels of sums, and room for what they leave. */

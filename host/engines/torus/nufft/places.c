@@ -18,12 +18,19 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
     return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
+ps_defines ps_nufft_defines(const ps_nufft_layout *layout, unsigned dimension) {
+    ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
+    ps_defines_add(&defines, "-DDIMENSION=%u -DBOXES=%u -DLINE=%u", dimension, layout->has_boxes,
+                   layout->choice.has_line);
+    return defines;
+}
+
 static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
     const ps_nufft_layout *const layout = self->layout;
     const bool has_order = layout->order.tile > 0;
-    ps_defines defines = ps_defines_of(layout->real_bytes, layout->lanes);
-    ps_defines_add(&defines, "-DDIMENSION=%u -DBOXES=%u", self->dimension, layout->has_boxes);
-    PS_TRY(ps_kernel_get(self->device, &self->sort, "nufft/sort.cl",
+    const char *const program = layout->choice.variant->program[layout->choice.num_axes > 1];
+    const ps_defines defines = ps_nufft_defines(layout, self->dimension);
+    PS_TRY(ps_kernel_get(self->device, &self->sort, program != NULL ? program : "nufft/sort.cl",
                          has_order ? "nufft_keys" : "nufft_sort", defines.text, error));
     return has_order ? ps_nufft_order_create(&self->order, &layout->order, layout->parts,
                                              self->dimension, precision, self->device, error)

@@ -40,11 +40,6 @@ static const char *refuse_layout(const ps_nufft_layout *layout, const ps_device_
     return has_large_buffer ? "needs a larger buffer than the device allows" : NULL;
 }
 
-/* A transform each. */
-static double kernels_of_line(const ps_nufft_choice *choice) {
-    return choice->has_line ? choice->num_axes : 0;
-}
-
 static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
                        ps_precision precision) {
     const ps_nufft_variant *const variant = layout->choice.variant;
@@ -54,8 +49,8 @@ static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
         .transform_flops =
             realizations * ps_nufft_flops_of_layout(layout, precision, (double)problem->num_points),
         .launches = variant->count_launches(layout, (double)problem->num_points, realizations),
-        .kernels = variant->kernels[layout->choice.num_axes > 1] +
-                   kernels_of_line(&layout->choice) + (layout->order.tile > 0 ? 1 : 0),
+        .programs =
+            variant->programs[layout->choice.num_axes > 1] + (layout->order.tile > 0 ? 1 : 0),
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
         .twin_bytes = 2.0 * (double)(layout->parts * layout->part_points *

@@ -31,6 +31,9 @@ typedef struct ps_nufft_places {
     ps_buffer places, sorted, heights, starts;
 } ps_nufft_places;
 
+/* What kernels that know the cells of a layout are compiled with. */
+ps_defines ps_nufft_defines(const ps_nufft_layout *layout, unsigned dimension);
+
 /* layout is borrowed. */
 pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
                                     unsigned dimension, ps_precision precision, ps_device *device,
@@ -89,7 +92,8 @@ struct ps_nufft_variant {
     /* Where in a row the power of frequency k stands. */
     uint32_t (*slot)(const ps_nufft_layout *, const int32_t *k, unsigned dimension);
     double (*count_launches)(const ps_nufft_layout *, double num_points, double realizations);
-    double kernels[2]; /* programs, with one axis and with more */
+    double programs[2];     /* of kernels, with one axis and with more */
+    const char *program[2]; /* the same, those that have kernels/nufft/sort.cl; NULL: that alone */
     void (*describe)(const ps_nufft_layout *, ps_text *);
 
     const ps_nufft_launcher *launcher;

@@ -236,7 +236,7 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
         .on_gpus = true, .is_gridded = true, .are_alike = true, .most_cells = 1 << 24,             \
         .offer = (OFFER), .unit = unit, .complete = (COMPLETE), .count = count,                    \
         .has_lattices = true, .measure = measure, .local_bytes = local_bytes, .slot = slot,        \
-        .count_launches = count_launches, .kernels = {3, 5}, .describe = describe,                 \
+        .count_launches = count_launches, .programs = {3, 5}, .describe = describe,                \
         .launcher = (LAUNCHER)                                                                     \
     }
 

@@ -234,6 +234,6 @@ const ps_nufft_variant ps_nufft_large = {.on_cpus = true,
                                          .local_bytes = local_bytes,
                                          .slot = ps_nufft_tile_slot,
                                          .count_launches = count_launches,
-                                         .kernels = {5, 5},
+                                         .programs = {5, 5},
                                          .describe = describe,
                                          .launcher = &ps_nufft_large_launcher};

@@ -139,6 +139,6 @@ const ps_nufft_variant ps_nufft_strips = {.on_cpus = true,
                                           .local_bytes = local_bytes,
                                           .slot = ps_nufft_tile_slot,
                                           .count_launches = count_launches,
-                                          .kernels = {2, 2},
+                                          .programs = {2, 2},
                                           .describe = describe,
                                           .launcher = &ps_nufft_strips_launcher};

@@ -26,16 +26,22 @@ typedef struct lines {
     ps_buffer grid;  /* between the two transforms */
 } lines;
 
+/* A kernel of the program of all. */
+static pspec_status get_kernel(const ps_nufft_layout *layout, ps_device *device, ps_kernel **out,
+                               const char *name, ps_error *error) {
+    const unsigned num_axes = layout->choice.num_axes;
+    const ps_defines defines = ps_nufft_defines(layout, num_axes + 1); /* axis 0 has none */
+    return ps_kernel_get(device, out, layout->choice.variant->program[num_axes > 1], name,
+                         defines.text, error);
+}
+
 static pspec_status create_line_kernels(lines *self, ps_error *error) {
-    static const char file[] = "nufft/lines.cl";
-    const ps_defines defines = ps_defines_of(self->layout->real_bytes, self->layout->lanes);
+    ps_device *const device = self->device;
     if (self->layout->choice.num_axes == 1) {
-        return ps_kernel_get(self->device, &self->powers, file, "nufft_line_powers", defines.text,
-                             error);
+        return get_kernel(self->layout, device, &self->powers, "nufft_line_powers", error);
     }
-    PS_TRY(ps_kernel_get(self->device, &self->rows, file, "nufft_line_rows", defines.text, error));
-    return ps_kernel_get(self->device, &self->columns, file, "nufft_line_columns", defines.text,
-                         error);
+    PS_TRY(get_kernel(self->layout, device, &self->rows, "nufft_line_rows", error));
+    return get_kernel(self->layout, device, &self->columns, "nufft_line_columns", error);
 }
 
 /* Room for the lines of a batch; kernels that fill them have an argument for them in any case. */
@@ -149,16 +155,12 @@ static tiles *of(const ps_nufft_state *self) {
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_nufft_state *self, ps_error *error) {
-    ps_defines defines = ps_defines_of(self->layout.real_bytes, self->layout.lanes);
-    ps_defines_add(&defines, "-DLINE=%u", self->layout.choice.has_line);
+    tiles *const own = of(self);
     if (self->layout.choice.num_axes == 1) {
-        return ps_kernel_get(self->device, &of(self)->tile, "nufft/tile.cl", "nufft_tile",
-                             defines.text, error);
+        return get_kernel(&self->layout, self->device, &own->tile, "nufft_tile", error);
     }
-    PS_TRY(ps_kernel_get(self->device, &of(self)->rows, "nufft/rows.cl", "nufft_rows", defines.text,
-                         error));
-    return ps_kernel_get(self->device, &of(self)->columns, "nufft/columns.cl", "nufft_columns",
-                         defines.text, error);
+    PS_TRY(get_kernel(&self->layout, self->device, &own->rows, "nufft_rows", error));
+    return get_kernel(&self->layout, self->device, &own->columns, "nufft_columns", error);
 }
 
 /* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis

@@ -165,7 +165,6 @@ static void describe(const ps_nufft_layout *layout, ps_text *text) {
                    (unsigned long)layout->group);
 }
 
-/* Kernels: the sort, and rows and columns of tiles. */
 const ps_nufft_variant ps_nufft_tiles = {.on_cpus = true,
                                          .most_cells = PS_NUFFT_MOST_ROW_CELLS,
                                          .offer = offer,
@@ -175,6 +174,7 @@ const ps_nufft_variant ps_nufft_tiles = {.on_cpus = true,
                                          .local_bytes = ps_nufft_tiles_local_bytes,
                                          .slot = ps_nufft_tile_slot,
                                          .count_launches = count_launches,
-                                         .kernels = {2, 3},
+                                         .programs = {1, 1},
+                                         .program = {"nufft/tile.cl", "nufft/rows.cl"},
                                          .describe = describe,
                                          .launcher = &ps_nufft_tiles_launcher};

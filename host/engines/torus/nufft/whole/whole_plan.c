@@ -219,6 +219,6 @@ const ps_nufft_variant ps_nufft_whole = {.on_cpus = true,
                                          .local_bytes = local_bytes,
                                          .slot = slot,
                                          .count_launches = count_launches,
-                                         .kernels = {1, 1},
+                                         .programs = {1, 1},
                                          .describe = describe,
                                          .launcher = &ps_nufft_whole_launcher};
