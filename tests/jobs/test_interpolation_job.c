@@ -56,7 +56,8 @@ typedef struct asked {
 static void ask_given(asked *out, const ps_given_integrands *given, const char *integrand,
                       const char *source, size_t num_points) {
     *out = (asked){.request = {.num_points = num_points, .seed = SEED}, .path = source};
-    assert_ok(ps_panorama_make(&out->panorama, given, &integrand, 1, error));
+    assert_ok(ps_panorama_make(&out->panorama, NULL, given, &integrand, 1, error));
+    assert_ok(ps_panorama_fill(&out->panorama, error));
     out->question = (ps_interpolation_question){.panorama = &out->panorama,
                                                 .num_smoothness = MOST_SMOOTHNESS,
                                                 .smoothness = smoothness,

@@ -111,8 +111,8 @@ static pspec_status ask(ps_interpolation_list *self, const ps_request *request, 
     for (size_t i = 0; i < num; i++) {
         PS_TRY(fill_question(self, i, request, error));
     }
-    return ps_panorama_make(&self->panorama, &request->integrands_given, request->integrands,
-                            request->num_integrands, error);
+    return ps_panorama_make(&self->panorama, request->integrands_made, &request->integrands_given,
+                            request->integrands, request->num_integrands, error);
 }
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
@@ -188,6 +188,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     PS_TRY(ps_allocate(out, 1, sizeof(ps_interpolation_list), "an answer", error));
     ps_interpolation_list *const self = *out;
     PS_TRY(ask(self, request, error));
+    PS_TRY(ps_panorama_fill(&self->panorama, error));
     PS_TRY(PS_NEW(&self->jobs, self->num, "jobs", error));
     PS_TRY(open_device(self, request, hooks, error));
     for (size_t i = 0; i < self->num; i++) {

@@ -55,8 +55,8 @@ static pspec_status check_arguments(const ps_request *request, ps_error *error) 
 static pspec_status ask(functions *self, const ps_request *request, ps_error *error) {
     PS_TRY(check_arguments(request, error));
     self->max_degree = request->max_degree > 0 ? (size_t)request->max_degree : DEFAULT_DEGREE;
-    return ps_panorama_make(&self->panorama, &request->integrands_given, request->integrands,
-                            request->num_integrands, error);
+    return ps_panorama_make(&self->panorama, request->integrands_made, &request->integrands_given,
+                            request->integrands, request->num_integrands, error);
 }
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
@@ -101,6 +101,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     functions *const self = *out;
     ps_answer_begin_next(hooks);
     PS_TRY(ask(self, request, error));
+    PS_TRY(ps_panorama_fill(&self->panorama, error));
     const size_t num = self->max_degree + 1;
     PS_TRY(PS_NEW(&self->powers, self->panorama.num * num, "powers", error));
     for (size_t f = 0; f < self->panorama.num; f++) {

@@ -84,28 +84,30 @@ static pspec_status fill_rows(ps_panorama *self, double *directions, ps_error *e
     return PSPEC_OK;
 }
 
-pspec_status ps_panorama_make(ps_panorama *out, const ps_given_integrands *given,
-                              const char *const *texts, size_t num, ps_error *error) {
+pspec_status ps_panorama_make(ps_panorama *out, ps_made_integrands *made,
+                              const ps_given_integrands *given, const char *const *texts,
+                              size_t num, ps_error *error) {
     const ps_integrand_place sphere = {PS_SAMPLES_SPHERE, 3};
-    double *directions = NULL;
     PS_TRY(PS_NEW(&out->integrands, num, "integrands", error));
     for (; out->num < num; out->num++) {
-        PS_TRY(ps_integrand_make(&out->integrands[out->num], given, texts[out->num], sphere, 0,
-                                 error));
+        PS_TRY(ps_integrand_take(&out->integrands[out->num], made != NULL ? made : &out->own, given,
+                                 texts[out->num], sphere, 0, error));
     }
-    PS_TRY(choose_size(out, texts, error));
-    PS_TRY(ps_allocate_for(&out->values, out->width * out->height, num * sizeof(double), "images",
-                           error));
-    PS_TRY(PS_NEW(&directions, out->width * 3, "directions", error));
-    const pspec_status status = fill_rows(out, directions, error);
+    return choose_size(out, texts, error);
+}
+
+pspec_status ps_panorama_fill(ps_panorama *self, ps_error *error) {
+    double *directions = NULL;
+    PS_TRY(ps_allocate_for(&self->values, self->width * self->height, self->num * sizeof(double),
+                           "images", error));
+    PS_TRY(PS_NEW(&directions, self->width * 3, "directions", error));
+    const pspec_status status = fill_rows(self, directions, error);
     free(directions);
     return status;
 }
 
 void ps_panorama_free(ps_panorama *self) {
-    for (size_t i = 0; self->integrands != NULL && i < self->num; i++) {
-        ps_integrand_destroy(self->integrands[i]);
-    }
+    ps_made_integrands_free(&self->own);
     free(self->integrands);
     free(self->values);
     *self = (ps_panorama){0};

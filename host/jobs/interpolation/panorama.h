@@ -10,14 +10,19 @@
 typedef struct ps_panorama {
     size_t width, height;
     size_t num;                /* functions */
-    ps_integrand **integrands; /* [num] */
-    double *values;            /* [num][height][width] */
+    ps_integrand **integrands; /* [num], of made ones */
+    ps_made_integrands own;    /* where no others are shared */
+    double *values;            /* [num][height][width] of ps_panorama_fill; NULL before */
 } ps_panorama;
 
 /* With the pixels of the maps among the functions, which all have the same; without any map 512 x
- * 256. *out is {0} before, and freed by ps_panorama_free, also after an error. */
-pspec_status ps_panorama_make(ps_panorama *out, const ps_given_integrands *given,
-                              const char *const *texts, size_t num, ps_error *error) PS_MUST_CHECK;
+ * 256. made: shared with others, and outlives it; NULL: none. *out is {0} before, and freed by
+ * ps_panorama_free, also after an error. */
+pspec_status ps_panorama_make(ps_panorama *out, ps_made_integrands *made,
+                              const ps_given_integrands *given, const char *const *texts,
+                              size_t num, ps_error *error) PS_MUST_CHECK;
+/* Its values, which plans and checks do without. */
+pspec_status ps_panorama_fill(ps_panorama *panorama, ps_error *error) PS_MUST_CHECK;
 void ps_panorama_free(ps_panorama *panorama);
 
 /* Unit vectors [num_rows][width][3] of the centres of some rows. */
