@@ -1,6 +1,8 @@
 """Recipe for Spack. In a checkout: spack repo create here, this file as here/packages/pointspec/package.py, spack repo add
 here, and spack dev-build pointspec@0.9.0."""
 
+from spack_repo.builtin.build_systems.cmake import CMakePackage, generator
+
 from spack.package import *
 
 
