@@ -9,7 +9,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 export POINTSPEC_CACHE_DIR=$scratch/no-cache ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
 unset POINTSPEC_FAULT POINTSPEC_FAULT_REPORT
-most=12 # faults of a class, evenly over its calls
+most=6 # faults of a class, evenly over its calls
 
 complain() { echo "devices: $1, fault $2 of: ${*:3}: $(<err)" >&2; exit 1; }
 try() { # CLASS SUFFIX WORD...: SUFFIX @: that call and all after it of the same thread

@@ -9,7 +9,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 export POINTSPEC_CACHE_DIR=$scratch/no-cache ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
 unset POINTSPEC_FAULT POINTSPEC_FAULT_REPORT
-most=8 # kills of a command line, evenly over its calls
+most=3 # kills of a command line, evenly over its calls
 
 for i in 1 2 3; do
     "$program" sample --sampler jittered -n 16 --seed $i -o "$i.dat"

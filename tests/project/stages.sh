@@ -55,7 +55,7 @@ grep -qE '^after .* ok$' out || fail "behind what hangs: $(<out)"
 
 # Every check of ./dev is a stage, and a sample says how it is repeated.
 for command in test sweep lint gpu faults sanitize tsan oclgrind fuzz demo; do
-    grep -qE "^[a-z]+ +\./dev $command( |\$)" "$source_dir/.ci/run" || fail ".ci/run lacks ./dev $command"
+    grep -qE "^[a-z]+ +(env [^ ]+ )?\./dev $command( |\$)" "$source_dir/.ci/run" || fail ".ci/run lacks ./dev $command"
 done
 # shellcheck disable=SC2016 # as it stands there
 [[ $(grep -cE '^(faults|fuzz) .*--seed \$seed' "$source_dir/.ci/run") == 2 ]] || fail "a sample without the commit's seed"

@@ -9,17 +9,16 @@ if ! "$program" power --engine torus_direct --sampler white -n 4 -k 1 --device c
     exit 77
 fi
 
-tables=(answer.npz answer.csv)
-is_same() { # ARGS...: tables and arrays of one device and of two
-    local file table
+table=answer.npz # of averages
+devices=(cpu:split=2 'cpu:split=2/1,cpu:split=2/0')
+is_same() { # ARGS...: tables and arrays of one device and of two, in either order
+    local file
     rm -rf one several
     mkdir one several
-    for table in "${tables[@]}"; do
-        (cd one && "$program" "$@" --device cpu -o "$table") || complain "one device: $*"
-        (cd several && "$program" "$@" --device cpu:split=2 -o "$table" 2>err) || complain "two devices: $*: $(<several/err)"
-        [[ ! -s several/err ]] || complain "$(<several/err)"
-    done
-    (cd several && "$program" "$@" --device cpu:split=2/1,cpu:split=2/0 -o answer.csv) || complain "two devices: $*"
+    devices=("${devices[1]}" "${devices[0]}")
+    (cd one && "$program" "$@" --device cpu -o "$table") || complain "one device: $*"
+    (cd several && "$program" "$@" --device "${devices[0]}" -o "$table" 2>err) || complain "two devices: $*: $(<several/err)"
+    [[ ! -s several/err ]] || complain "$(<several/err)"
     rm several/err
     checked=$((checked + 1))
     [[ $(ls one) == "$(ls several)" ]] || complain "files of two devices: $(ls several)"
@@ -47,11 +46,11 @@ is_same power --engine host_direct -m 300 --sampler white -n 4 -k 1
 awk 'BEGIN { for (r = 0; r < 300; r++) { if (r) print "#"
     for (j = 0; j < 300; j++) print 0.5 + 1e-4 * (j % 17) + 1e-6 * r, 0.5 + 1e-4 * (j % 19) } }' >clusters.txt
 is_same power -k 8 "$PWD/clusters.txt"
-grep -q planned_twice several/answer.csv || complain 'clusters are planned once'
+"$program" merge several/answer.npz 2>&1 | grep -q planned_twice || complain 'clusters are planned once'
 is_same power --sampler white --sampler regular -n 64,256 --no-skip --no-self-check -m 300 -k 20
 
 # Rows of realizations.
-tables=(answer.csv)
+table=answer.csv
 printf '2,0,1,0\n' >light.txt
 printf 'v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\nf 1 5 4\n' >corner.obj
 light=coefficients:file=$PWD/light.txt
