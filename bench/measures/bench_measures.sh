@@ -14,5 +14,6 @@ cd "$bench/../build/peers"
 [[ -d psa ]] || { mkdir psa.part && git -C "$clone" archive HEAD | tar -x -C psa.part && mv psa.part psa; }
 [[ -x psa/psa ]] || make -C psa HAVE_CGAL=0 CXXFLAGS='-w -fopenmp -O3 -march=native' >psa.log 2>&1
 [[ -d measures ]] || { python3 -m venv measures && measures/bin/pip install -q freud-analysis; }
-export POINTSPEC_CACHE_DIR=$PWD/measures/cache
+# Caches of its own: PoCL's is listed at every start, and that of a developer has thousands of kernels.
+export POINTSPEC_CACHE_DIR=$PWD/measures/cache POCL_CACHE_DIR=$PWD/measures/kernels
 exec env PYTHONPYCACHEPREFIX="$PWD/measures/pycache" measures/bin/python "$here/peers.py" "$program" "$PWD/psa/psa"

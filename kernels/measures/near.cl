@@ -11,11 +11,11 @@
  * distance r in it, a share alpha(r / 2R) has the other, too (docs/user/measure.md).
  *
  *   sizes, lengths  of measures/near.h; their names are used here
- *   points   [DIMENSION][capacity]
- *   offsets  [cell]: the first point of each cell, then num_points; the last axis is the innermost
- *   nearest  [point]: the squared distance of its nearest neighbour among those that are looked at
- *   counts   [item][NEAR_COUNTS]: ordered pairs by distance, those beyond the last bin at the end
- *   shares   [item][NEAR_WINDOWS][high, low]: alpha over pairs
+ *   given    points [DIMENSION][capacity], and behind them, words: the first point of each cell, then
+ *            num_points; the last axis is the innermost
+ *   found    [point]: the squared distance of its nearest neighbour among those that are looked at;
+ *            behind it shares [item][WINDOWS][high, low]: alpha over pairs; then words, [item][NEAR_COUNTS]:
+ *            ordered pairs by distance, those beyond the last bin at the end
  */
 #ifndef PRECISION
 #define PRECISION 64
@@ -242,14 +242,17 @@ static inline void store_shares(const near_shares *shares, __global real *to) {
 }
 
 __kernel void measure_near(const near_sizes sizes, const near_lengths lengths,
-                           __global const real *restrict points,
-                           __global const uint *restrict offsets, __global real *restrict nearest,
-                           __global uint *restrict counts, __global real *restrict shares) {
+                           __global const real *restrict given, __global real *restrict found) {
     const ulong item = get_global_id(0);
     const ulong begin = item * NEAR_BLOCK;
+    const ulong items = (sizes.num_points + NEAR_BLOCK - 1) / NEAR_BLOCK;
     if (begin >= sizes.num_points) {
         return;
     }
+    __global const real *points = given;
+    __global const uint *offsets = (__global const uint *)(given + DIMENSION * sizes.capacity);
+    __global real *shares = found + sizes.num_points;
+    __global uint *counts = (__global uint *)(shares + items * WINDOWS * 2);
     near_shares own_shares;
     uint own_counts[NEAR_COUNTS];
     for (uint i = 0; i < NEAR_COUNTS; i++) {
@@ -275,10 +278,10 @@ __kernel void measure_near(const near_sizes sizes, const near_lengths lengths,
         for (uint l = 0; l < LANES; l++) {
             least = fmin(least, lanes[l]);
         }
-        nearest[i] = least;
+        found[i] = least;
     }
     for (uint i = 0; i < NEAR_COUNTS; i++) {
         counts[item * NEAR_COUNTS + i] = own_counts[i];
     }
-    store_shares(&own_shares, shares + 2 * NEAR_WINDOWS * item);
+    store_shares(&own_shares, shares + 2 * WINDOWS * item);
 }

@@ -10,8 +10,8 @@
 #define NEAR_BINS 200
 #define NEAR_WINDOWS 16
 #define NEAR_COUNTS (NEAR_BINS + 16) /* a lane each for what is farther */
-/* Cells that the reach has: with two a white set of the plane has 4.7 instead of 9 candidates for
- * each square of the reach; from four dimensions on there would be more runs than points. */
+/* Cells that the reach has: with two, runs that end with the reach have 5.4 squares of the reach in
+ * the plane instead of 9; from four dimensions on there would be more runs than points. */
 #define NEAR_SPAN(dimension) ((dimension) < 4 ? 2 : 1)
 
 typedef struct near_sizes {

@@ -15,17 +15,15 @@ struct ps_near {
     ps_kernel *kernel;
     unsigned dimension, lanes;
     bool on_sphere, has_windows;
-    size_t room; /* points that there is memory for */
-    ps_buffer points, offsets, nearest, counts, shares;
-    double *coordinates;      /* [dimension][capacity], then what is read back of the nearest */
-    uint32_t *cells, *firsts; /* of each point; [cell + 1] */
-    uint32_t *item_counts;    /* [item][NEAR_COUNTS] */
-    double *item_shares;      /* [item][NEAR_WINDOWS][2] */
+    size_t room;            /* points that there is memory for */
+    ps_buffer given, found; /* as the two arrays that follow */
+    double *coordinates;    /* [dimension][capacity], then the first points of cells */
+    double *distances;      /* [num], then shares [item][windows][2] and counts of items */
+    uint32_t *cells;        /* of each point */
     /* of the set */
     size_t num;
     near_sizes sizes;
     near_lengths lengths;
-    double *distances;
     double counted[NEAR_BINS], shared[NEAR_WINDOWS];
 };
 
@@ -75,39 +73,42 @@ static size_t most_cells(size_t num) {
     return 2 * num + 1;
 }
 
-static void release_room(ps_near *self) {
-    PS_BUFFERS_RELEASE(&self->points, &self->offsets, &self->nearest, &self->counts, &self->shares);
-    free(self->coordinates);
-    free(self->cells);
-    free(self->firsts);
-    free(self->item_counts);
-    free(self->item_shares);
-    free(self->distances);
-    self->coordinates = self->item_shares = self->distances = NULL;
-    self->cells = self->firsts = self->item_counts = NULL;
-    self->room = 0;
-}
-
 static size_t find_capacity(const ps_near *self, size_t num) {
     return ps_round_up(num, self->lanes) + self->lanes;
 }
 
+static size_t num_shares(const ps_near *self, size_t num) {
+    return self->has_windows ? count_items(num) * NEAR_WINDOWS * 2 : 0;
+}
+
+/* Doubles of `given`, and of `found`. */
+static size_t count_given(const ps_near *self, size_t num) {
+    const size_t words = most_cells(num) + 1;
+    return self->dimension * find_capacity(self, num) + ps_divide_up(words, 2);
+}
+
+static size_t count_found(const ps_near *self, size_t num) {
+    return num + num_shares(self, num) + count_items(num) * NEAR_COUNTS / 2;
+}
+
+static void release_room(ps_near *self) {
+    PS_BUFFERS_RELEASE(&self->given, &self->found);
+    free(self->coordinates);
+    free(self->distances);
+    free(self->cells);
+    self->coordinates = self->distances = NULL;
+    self->cells = NULL;
+    self->room = 0;
+}
+
 static pspec_status allocate(ps_near *self, size_t num, ps_error *error) {
-    const size_t numbers = self->dimension * find_capacity(self, num);
-    const size_t counts = count_items(num) * NEAR_COUNTS;
-    const size_t shares = count_items(num) * NEAR_WINDOWS * 2;
-    PS_TRY(PS_NEW(&self->coordinates, numbers, "points", error));
+    const size_t given = count_given(self, num);
+    const size_t found = count_found(self, num);
+    PS_TRY(PS_NEW(&self->coordinates, given, "points", error));
     PS_TRY(PS_NEW(&self->cells, num, "cells of points", error));
-    PS_TRY(PS_NEW(&self->firsts, most_cells(num) + 1, "cells", error));
-    PS_TRY(PS_NEW(&self->item_counts, counts, "counts of pairs", error));
-    PS_TRY(PS_NEW(&self->item_shares, shares, "windows", error));
-    PS_TRY(PS_NEW(&self->distances, num, "distances", error));
-    const ps_wanted_buffer wanted[] = {
-        {&self->points, numbers * sizeof(double), "points"},
-        {&self->offsets, (most_cells(num) + 1) * sizeof(uint32_t), "cells"},
-        {&self->nearest, num * sizeof(double), "distances"},
-        {&self->counts, counts * sizeof(uint32_t), "counts of pairs"},
-        {&self->shares, shares * sizeof(double), "windows"}};
+    PS_TRY(PS_NEW(&self->distances, found, "distances", error));
+    const ps_wanted_buffer wanted[] = {{&self->given, given * sizeof(double), "points"},
+                                       {&self->found, found * sizeof(double), "distances"}};
     return PS_BUFFERS_CREATE(self->device, wanted, error);
 }
 
@@ -168,26 +169,27 @@ static uint32_t cell_of(const ps_near *self, const double *point) {
 /* Counts, then places: a stable sort by cells. */
 static void sort_points(ps_near *self, const double *points) {
     const size_t capacity = self->sizes.capacity;
+    uint32_t *const firsts = (uint32_t *)(self->coordinates + self->dimension * capacity);
     size_t num_cells = 1;
     for (unsigned axis = 0; axis < self->dimension; axis++) {
         num_cells *= self->sizes.side;
     }
-    memset(self->firsts, 0, (num_cells + 1) * sizeof *self->firsts);
+    memset(firsts, 0, (num_cells + 1) * sizeof *firsts);
     for (size_t j = 0; j < self->num; j++) {
         self->cells[j] = cell_of(self, points + j * self->dimension);
-        self->firsts[self->cells[j] + 1]++;
+        firsts[self->cells[j] + 1]++;
     }
     for (size_t c = 0; c < num_cells; c++) {
-        self->firsts[c + 1] += self->firsts[c];
+        firsts[c + 1] += firsts[c];
     }
     for (size_t j = 0; j < self->num; j++) {
-        const size_t at = self->firsts[self->cells[j]]++;
+        const size_t at = firsts[self->cells[j]]++;
         for (unsigned axis = 0; axis < self->dimension; axis++) {
             self->coordinates[axis * capacity + at] = points[j * self->dimension + axis];
         }
     }
-    memmove(self->firsts + 1, self->firsts, num_cells * sizeof *self->firsts);
-    self->firsts[0] = 0;
+    memmove(firsts + 1, firsts, num_cells * sizeof *firsts);
+    firsts[0] = 0;
 }
 
 static pspec_status launch(ps_near *self, ps_error *error) {
@@ -196,23 +198,23 @@ static pspec_status launch(ps_near *self, ps_error *error) {
     const double flops = pairs * (3 * self->dimension + (self->has_windows ? 20.0 : 0));
     const ps_range range = ps_range_heavy(self->device, items, 1, 1, flops, pairs);
     return PS_LAUNCH(self->device, self->kernel, &range, error, PS_STRUCT(self->sizes),
-                     PS_STRUCT(self->lengths), PS_BUFFER(self->points), PS_BUFFER(self->offsets),
-                     PS_BUFFER(self->nearest), PS_BUFFER(self->counts), PS_BUFFER(self->shares));
+                     PS_STRUCT(self->lengths), PS_BUFFER(self->given), PS_BUFFER(self->found));
 }
 
 static void add_items(ps_near *self) {
     const size_t items = count_items(self->num);
+    const double *const shares = self->distances + self->num;
+    const uint32_t *const counts = (const uint32_t *)(shares + num_shares(self, self->num));
     memset(self->counted, 0, sizeof self->counted);
     for (size_t i = 0; i < items; i++) {
-        const uint32_t *const counts = self->item_counts + i * NEAR_COUNTS;
         for (size_t b = 0; b < NEAR_BINS; b++) {
-            self->counted[b] += counts[b]; /* whole numbers below 2^53 */
+            self->counted[b] += counts[i * NEAR_COUNTS + b]; /* whole numbers below 2^53 */
         }
     }
-    for (size_t w = 0; w < NEAR_WINDOWS; w++) {
+    for (size_t w = 0; self->has_windows && w < NEAR_WINDOWS; w++) {
         ps_neumaier sum = {0, 0};
         for (size_t i = 0; i < items; i++) {
-            const double *const pair = self->item_shares + 2 * (i * NEAR_WINDOWS + w);
+            const double *const pair = shares + 2 * (i * NEAR_WINDOWS + w);
             ps_neumaier_add(&sum, pair[0]);
             ps_neumaier_add(&sum, pair[1]);
         }
@@ -248,23 +250,16 @@ static void finish_distances(ps_near *self) {
 }
 
 pspec_status ps_near_look(ps_near *near, const double *points, size_t num, ps_error *error) {
-    const size_t items = count_items(num);
     PS_TRY(make_room(near, num, error));
     near->num = num;
     near->sizes.capacity = find_capacity(near, num);
     choose_cells(near);
     sort_points(near, points);
-    PS_TRY(ps_buffer_write(near->device, &near->points, 0, near->coordinates,
-                           near->dimension * near->sizes.capacity * sizeof(double), error));
-    PS_TRY(ps_buffer_write(near->device, &near->offsets, 0, near->firsts,
-                           (most_cells(num) + 1) * sizeof(uint32_t), error));
+    PS_TRY(ps_buffer_write(near->device, &near->given, 0, near->coordinates,
+                           count_given(near, num) * sizeof(double), error));
     PS_TRY(launch(near, error));
-    PS_TRY(ps_buffer_read(near->device, &near->nearest, 0, near->distances, num * sizeof(double),
-                          error));
-    PS_TRY(ps_buffer_read(near->device, &near->counts, 0, near->item_counts,
-                          items * NEAR_COUNTS * sizeof(uint32_t), error));
-    PS_TRY(ps_buffer_read(near->device, &near->shares, 0, near->item_shares,
-                          items * NEAR_WINDOWS * 2 * sizeof(double), error));
+    PS_TRY(ps_buffer_read(near->device, &near->found, 0, near->distances,
+                          count_found(near, num) * sizeof(double), error));
     add_items(near);
     finish_distances(near);
     return PSPEC_OK;
