@@ -158,9 +158,9 @@ static pspec_status create_factor_sums(torus_direct *self, ps_error *error) {
     memcpy(vectors, split->left.vectors, split->left.num * dimension * sizeof(int32_t));
     memcpy((int32_t *)vectors + num_left * dimension, split->right.vectors,
            split->right.num * dimension * sizeof(int32_t));
-    const pspec_status status = ps_torus_sums_create(
-        &self->sums, &self->layout, dimension, num, vectors, self->batch, self->layout.group,
-        self->layout.has_table, split->left.num_tiles, self->device, error);
+    const pspec_status status =
+        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors, self->batch,
+                             self->layout.group, split->left.num_tiles, self->device, error);
     free(vectors);
     return status;
 }
@@ -176,7 +176,7 @@ static pspec_status create_grid(torus_direct *self, ps_error *error) {
 static pspec_status create_list(torus_direct *self, ps_error *error) {
     PS_TRY(ps_torus_sums_create(&self->sums, &self->layout, self->frequencies->dimension,
                                 self->frequencies->num, self->frequencies->vectors, self->batch,
-                                self->layout.group, false, 0, self->device, error));
+                                self->layout.group, 0, self->device, error));
     self->stride = self->sums.num_tiles * self->layout.lanes;
     return PSPEC_OK;
 }

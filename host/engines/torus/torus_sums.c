@@ -64,8 +64,8 @@ static pspec_status create_buffers(ps_torus_sums *self, size_t batch, size_t gro
 
 pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *layout,
                                   unsigned dimension, size_t num, const int32_t *vectors,
-                                  size_t batch, size_t group, bool with_table,
-                                  size_t weighted_tiles, ps_device *device, ps_error *error) {
+                                  size_t batch, size_t group, size_t weighted_tiles,
+                                  ps_device *device, ps_error *error) {
     *out = (ps_torus_sums){.num = num,
                            .num_tiles = ps_divide_up(num, layout->lanes),
                            .num_chunks = layout->num_chunks,
@@ -74,7 +74,7 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
                            .dimension = dimension,
                            .lanes = layout->lanes,
                            .real_bytes = layout->real_bytes,
-                           .has_table = with_table};
+                           .has_table = layout->has_table};
     PS_TRY(create_kernels(out, layout, device, error));
     PS_TRY(create_buffers(out, batch, group, device, error));
     return upload_frequencies(out, vectors, device, error);
