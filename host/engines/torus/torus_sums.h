@@ -20,8 +20,8 @@ typedef struct ps_torus_sums {
 /* What kernels of a job are compiled with. */
 ps_defines ps_torus_defines(const ps_torus_layout *layout, unsigned dimension);
 
-/* vectors: [num][dimension], whole tiles of lanes except at the end. Where the layout has a table it
- * is filled, too, weights in the first weighted_tiles. */
+/* vectors: [num][dimension], whole tiles of lanes except at the end. Where the layout has a table
+ * it is filled, too, weights in the first weighted_tiles. */
 pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *layout,
                                   unsigned dimension, size_t num, const int32_t *vectors,
                                   size_t batch, size_t group, size_t weighted_tiles,
