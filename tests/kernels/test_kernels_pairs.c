@@ -146,6 +146,13 @@ static void check_pair_sums(const pairs_case *one) {
     check_runs(one, "pairs/sums_shared.cl", "pairs_sums_shared", ITEMS, 2 * ROUND);
 }
 
+/* Of the program that pairs_histogram has, with a run of so many chunks. */
+static ps_kernel *chain_kernel(const pairs_case *one, const char *name, int run) {
+    return test_kernel(device, "pairs/histogram.cl", name,
+                       "-DPRECISION=%u -DLANES=%u -DCHUNK=64 -DRUN=%d", one->precision, one->lanes,
+                       run);
+}
+
 /* From pairs to moments to nodes to sums. */
 static void check_histogram(const pairs_case *one) {
     enum { BINS = 24, NODES = 2 * BINS * PS_PAIRS_MOMENTS, RUN_VECTORS = 1000 };
@@ -164,15 +171,10 @@ static void check_histogram(const pairs_case *one) {
     test_memory moments = test_reals_create(device, one->precision, NULL, SETS * 2 * NODES);
     test_memory weights = test_reals_create(device, one->precision, NULL, SETS * NODES);
     test_memory partials = test_reals_create(device, one->precision, NULL, SETS * 2 * LAST);
-    ps_kernel *histogram = test_kernel(device, "pairs/histogram.cl", "pairs_histogram",
-                                       "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    ps_kernel *fold = test_kernel(device, "pairs/fold.cl", "pairs_fold",
-                                  "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    ps_kernel *to_nodes =
-        test_kernel(device, "pairs/nodes.cl", "pairs_nodes", "-DPRECISION=%u", one->precision);
-    ps_kernel *sum = test_kernel(device, "pairs/nodes_sums.cl", "pairs_nodes_sums",
-                                 "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DRUN=%d", one->precision,
-                                 one->lanes, 64, NODES);
+    ps_kernel *histogram = chain_kernel(one, "pairs_histogram", NODES);
+    ps_kernel *fold = chain_kernel(one, "pairs_fold", NODES);
+    ps_kernel *to_nodes = chain_kernel(one, "pairs_nodes", NODES);
+    ps_kernel *sum = chain_kernel(one, "pairs_nodes_sums", NODES);
     LAUNCH_ALONE(histogram, 1, PS_BUFFER(data.on_device.buffer), PS_BUFFER(data.counts.buffer),
                  PS_BUFFER(histograms.buffer), PS_U64(data.stride), PS_U64(0), PS_U64(RUN_VECTORS),
                  PS_U32(BINS), PS_BUFFER(scale.buffer));
