@@ -83,6 +83,11 @@ static void add_question(ps_text *key, const ps_request *request, const ps_kind 
 static pspec_status add_file(void *payload, const ps_request_file *input, ps_error *error) {
     ps_text *const key = payload;
     char digest[PS_DIGEST_BYTES];
+    if (ps_points_program(input->path) != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "a checkpoint does not go with programs: nobody knows whether they will "
+                       "print the same");
+    }
     if (ps_request_file_comes_once(input)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s \"%s\" comes once, and a job with --checkpoint reads its input again",

@@ -263,19 +263,17 @@ static void close_reader(ps_source *source) {
     source->reader = NULL;
 }
 
-/* A program that has printed all that is wanted is ended. */
 static pspec_status take_set(ps_source *source, ps_point_set *set, ps_source_part *part,
                              ps_error *error) {
+    const char *const path = source->paths[source->next_path - 1];
     source->sets_of_file++;
     source->num_sets++;
-    PS_TRY(ps_program_sets_check(&source->programs, source->sets_of_file,
-                                 source->paths[source->next_path - 1], error));
+    PS_TRY(ps_program_sets_check(&source->programs, source->sets_of_file, path, error));
     PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
     PS_TRY(keep(source, set, part->is_whole, error));
-    if (part->is_whole && ps_program_sets_are_all(&source->programs, source->num_sets)) {
-        close_reader(source);
-    }
-    return PSPEC_OK;
+    return part->is_whole ? ps_program_sets_end_run(&source->programs, source->num_sets, path,
+                                                    &source->reader, error)
+                          : PSPEC_OK;
 }
 
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,

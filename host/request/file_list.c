@@ -196,7 +196,16 @@ static pspec_status list_runs(ps_file_list *out, const ps_request *request, size
                            .realizations = request->num_realizations};
     const uint64_t num_runs =
         strstr(files, PS_PROGRAM_REALIZATIONS) != NULL ? 1 : request->num_realizations;
+    const uint64_t most_runs = 1000000; /* of which the names take 100 MB, and the runs an hour */
     *out = (ps_file_list){0};
+    if (num_runs > most_runs) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s %llu: a program is run %llu times at most; with %s in its command it is "
+                       "run once, and prints all",
+                       ps_option_show(request, PS_OPTION_REALIZATIONS).text,
+                       (unsigned long long)num_runs, (unsigned long long)most_runs,
+                       PS_PROGRAM_REALIZATIONS);
+    }
     if (request->accuracy.standard_error > 0 && !request->is_given[PS_OPTION_REALIZATIONS]) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: a program is told how many realizations there are at most: %s",

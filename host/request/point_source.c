@@ -16,6 +16,10 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
         !ps_request_has_samplers(arguments)) {
         return fail_conflict("--homogenize", "programs", "it moves the points of samplers", error);
     }
+    if (arguments->is_given[PS_OPTION_RANGE] && ps_request_has_programs(arguments)) {
+        return fail_conflict(ps_option_show(arguments, PS_OPTION_RANGE).text, "programs",
+                             "nobody knows whether they will print the same", error);
+    }
     if (are_files && ps_request_has_told(arguments)) {
         return PSPEC_OK;
     }
@@ -90,7 +94,11 @@ bool ps_request_has_own_counts(const ps_request *arguments) {
 pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_other_source(arguments, error));
     if (ps_request_has_own_counts(arguments)) {
-        PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
+        PS_TRY(ps_request_check_one_count(arguments,
+                                          ps_request_has_programs(arguments)
+                                              ? "of which a program is told by " PS_PROGRAM_POINTS
+                                              : "and point files have their own",
+                                          error));
     }
     return check_lift(arguments, error);
 }

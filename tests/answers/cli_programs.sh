@@ -34,7 +34,7 @@ chmod +x mine.sh
 runs 0 --set mine='exec:./mine.sh {n} {realization}' --sampler white -n 4,8 -m 3 -k 2
 [[ $(rows | cut -d, -f1,2 | uniq | tr '\n' ' ') == 'sampler,points mine,4 mine,8 white,4 white,8 ' ]] || complain "beside: $(<out)"
 runs 0 --sampler 'exec:./mine.sh {n} 1; : {realization}' -n 8 -m 3 -k 2
-[[ $(key realizations) == 1 && $(key standard_error) == 'none: one realization' ]] || complain "alike: $(<out)"
+[[ $(key realizations) == 1 && $(key standard_error) == 'none: one realization' && $(key input_format) == *'for realizations 0 and 1, so that one of 3 is taken;'* ]] || complain "alike: $(<out)"
 runs 0 --sampler 'exec:echo $$ 1 | { read p q; echo .$p .5; }' -m 2 -k 2
 [[ $(key input_format) == 'of a program that prints other points each time; utk-text' ]] || complain "other points: $(<out)"
 
@@ -77,13 +77,22 @@ refuses 'not found' --sampler 'exec:./nothing {n}'
 refuses 'printed nothing' --sampler 'exec:true'
 refuses 'is not a finite number' --sampler 'exec:echo nan 1'
 refuses 'goes on after 64 points, far more than were asked for' --sampler 'exec:yes .5 .25' -n 4
-refuses 'the program printed 1 set, and 3 are asked for' --sampler 'exec:./mine.sh 4 1; : {realizations}' -m 3
-refuses 'printed more than one set; {realizations}' --sampler 'exec:./mine.sh 4 {realization}; echo "#"; ./mine.sh 4 1' -m 3
+for line in '' '#'; do
+    refuses 'has printed 1048576 lines one after the other without a point' --sampler "exec:yes '$line'"
+done
+refuses 'has printed 1048576 lines' --sampler "exec:echo .5 .5; yes ''"
+refuses 'printed 1 set, and 3 are asked for' --sampler 'exec:./mine.sh 4 1; : {realizations}' -m 3
+for run in '{realization}' 1; do # the second prints the same for every realization
+    refuses 'printed more than one set; {realizations}' --sampler "exec:./mine.sh 4 $run; echo '#'; ./mine.sh 4 1" -m 3
+done
 refuses 'a command is wanted behind exec:' --sampler 'exec: '
 refuses 'another set or sampler has this name' --sampler exec:true --sampler exec:true
 refuses 'is told how many realizations there are at most' --sampler 'exec:./mine.sh 4 {realization}' --standard-error 0.1
 refuses '--homogenize does not go with programs' --sampler 'exec:./mine.sh 4 1' --homogenize
-refuses 'comes once' --sampler 'exec:./mine.sh 4 1' --checkpoint job.npz
+refuses 'a checkpoint does not go with programs' --sampler 'exec:./mine.sh 4 1' --checkpoint job.npz
+refuses '--range does not go with programs' --sampler 'exec:./mine.sh 4 {realization}' -m 256 --range 0:128
+refuses 'of which a program is told by {n}' --sampler 'exec:./mine.sh 4 {realization}' -n 4,8
+refuses 'a program is run 1000000 times at most; with {realizations}' --sampler 'exec:./mine.sh 4 {realization}' -m 1000001
 "$program" sample --sampler exec:true >out 2>err && complain 'sample of a program'
 [[ $(<err) == *'which prints its points already'* ]] || complain "sample: $(<err)"
 runs 0 --sampler 'exec:while cat all.txt; do echo "#"; done; : {realizations}' -n 16 -m 12 -k 2

@@ -15,6 +15,18 @@ enum { BLOCK_VALUES = 1 << 18 };
 
 /* ---- lines ------------------------------------------------------------------------------- */
 
+/* What a program prints may have no end. */
+static pspec_status check_idle(ps_text_state *state, ps_line_kind kind, ps_error *error) {
+    enum { MOST_IDLE = 1 << 20 }; /* more than the longest header, and no second to read */
+    state->num_idle = kind == PS_LINE_POINT ? 0 : state->num_idle + 1;
+    return state->lines.input->program == NULL || state->num_idle <= MOST_IDLE
+               ? PSPEC_OK
+               : ps_lines_fail(&state->lines, error,
+                               "the program has printed %d lines one after the other without a "
+                               "point, and was stopped",
+                               MOST_IDLE);
+}
+
 pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind, ps_error *error) {
     ps_lines *const lines = &state->lines;
     *kind = PS_LINE_NONE;
@@ -27,7 +39,7 @@ pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind, ps_erro
     }
     const char *const text = ps_skip_blanks(lines->cursor);
     *kind = *text == '#' ? PS_LINE_MARK : ps_ends_line(text) ? PS_LINE_BLANK : PS_LINE_POINT;
-    return PSPEC_OK;
+    return check_idle(state, *kind, error);
 }
 
 /* After a blank line there may only be more of them. */

@@ -13,6 +13,7 @@ typedef struct ps_text_state {
     size_t columns_line; /* the line that fixed the columns */
     ps_text_header header;
     size_t promised; /* points, by a count at the beginning of the file */
+    size_t num_idle; /* lines one after the other that are of no point */
     bool is_in_line; /* the cursor is not at the beginning of a line (such files only) */
     /* tokens: numbers of the point that is being read */
     unsigned num_partial;
