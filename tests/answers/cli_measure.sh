@@ -52,6 +52,9 @@ printf '1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n' >octahedron.txt
 runs 0 --domain sphere octahedron.txt
 awk -F, '$1 == "least_distance" && ($2 - 1) ^ 2 < 1e-28 || $1 == "separation" && ($2 - atan2(1, 0)) ^ 2 < 1e-28 { n++ }
     END { exit n != 2 }' out || complain "octahedron: $(<out)"
+echo 1 0 0 >one.txt
+runs 0 --domain sphere one.txt
+[[ $(grep -c -e '_distance,,$' -e '^separation,,$' out) == 3 ]] || complain "one point: $(<out)"
 
 # published sets, by what psa 1.1 prints of them
 while [[ -d $data/pointsets ]] && read -r name least mean; do

@@ -70,7 +70,8 @@ PS_MEASURE_OF_SET(coincident_points) {
 
 PS_MEASURE_OF_SET(separation) {
     (void)error;
-    *value = 2 * asin(fmin(least_distance(set) / 2, 1));
+    const double chord = least_distance(set);
+    *value = 2 * asin(chord > 2 ? 1 : chord / 2); /* fmin would lose what is missing */
     return PSPEC_OK;
 }
 
