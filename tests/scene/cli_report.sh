@@ -70,6 +70,7 @@ has zphi.html '<th>white-sphere</th>' '<th>fibonacci</th>'
 
 "$program" plan report --sampler white -n 64 >out
 grep -q '^# phase: near pairs' out || complain "plan: $(<out)"
+refuses 'a page ends in .html' --sampler white -n 16 -m 2 -o mine.csv
 refuses '-o PAGE.html is needed' --sampler white
 refuses 'a report is of the plane or the whole sphere' --sampler white-hemisphere -o a.html
 refuses 'a report is of one number of points' --sampler white -n 4,8 -o a.html

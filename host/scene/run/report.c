@@ -303,6 +303,11 @@ static pspec_status produce(void *payload, ps_run *run, ps_error *error) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "-o PAGE.html is needed: where the page goes");
     }
+    if (!ps_text_ends_in(path, ".html") && !ps_text_ends_in(path, ".htm")) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "\"%s\": a page ends in .html, so that it takes no other file's place",
+                       path);
+    }
     PS_TRY(ps_outputs_check(run->arguments, false, error));
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_open_cache(run, error));
