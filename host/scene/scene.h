@@ -65,6 +65,7 @@ typedef struct ps_scene_result {
 
 typedef struct ps_scene {
     const char *path;                /* borrowed */
+    bool is_made;                    /* of ps_scene_read_text */
     const char *title, *description; /* NULL: none */
     /* What relative paths of the scene are relative to, with its /; "" for the current one */
     const char *folder;
@@ -88,7 +89,7 @@ typedef struct ps_scene {
  * itself; whether those of a question fit together is found out by who asks it. Freed by
  * ps_scene_free, also after an error. */
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) PS_MUST_CHECK;
-/* The same of a text, whose complaints begin with that name. */
+/* The same of a text that a program has made: its lines are nobody's, and complaints name none. */
 pspec_status ps_scene_read_text(ps_scene *out, const char *name, const char *text,
                                 ps_error *error) PS_MUST_CHECK;
 void ps_scene_free(ps_scene *scene);

@@ -22,6 +22,7 @@ typedef struct ps_scene_node {
 typedef struct ps_scene_file {
     ps_scene *scene;
     const char *path;
+    bool is_made;                         /* as the scene is: complaints name no line */
     const ps_scene_node *root, *defaults; /* defaults NULL: none */
     ps_error *error;
 } ps_scene_file;

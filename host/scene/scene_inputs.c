@@ -46,7 +46,7 @@ static pspec_status check_path(const input *place, const char *path) {
     if (!S_ISREG(facts.st_mode) || is_passing(path)) {
         return ps_scene_complain(
             place->file, place->line, place->key,
-            "\"%s\" is %s: a scene can be run again, and reads regular files only", path,
+            "\"%s\" is %s: it is read more than once, and so must be a regular file", path,
             S_ISREG(facts.st_mode) ? "made up by the system" : name_kind(facts.st_mode));
     }
     if (facts.st_size == 0) {
@@ -98,7 +98,7 @@ pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *
 static pspec_status visit_check(void *payload, const ps_scene *scene, const ps_scene_entry *entry,
                                 const ps_scene_value *value, const char *path, ps_error *error) {
     (void)payload;
-    const ps_scene_file file = {.path = scene->path, .error = error};
+    const ps_scene_file file = {.path = scene->path, .is_made = scene->is_made, .error = error};
     return check_path(&(input){&file, ps_scene_key(entry), value->line}, path);
 }
 

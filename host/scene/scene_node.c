@@ -17,8 +17,9 @@ pspec_status ps_scene_complain(const ps_scene_file *file, int line, const char *
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    return ps_fail(file->error, PSPEC_ERROR_INPUT, "%s:%d: %s%s%s", file->path, line,
-                   key != NULL ? key : "", key != NULL ? ": " : "", sentence);
+    return file->is_made ? ps_fail(file->error, PSPEC_ERROR_INPUT, "%s", sentence)
+                         : ps_fail(file->error, PSPEC_ERROR_INPUT, "%s:%d: %s%s%s", file->path,
+                                   line, key != NULL ? key : "", key != NULL ? ": " : "", sentence);
 }
 
 pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser) {

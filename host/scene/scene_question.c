@@ -172,6 +172,7 @@ void ps_scene_question_free(ps_scene_question *question) {
 
 pspec_status ps_scene_blame(const ps_scene *scene, const ps_scene_result *result, ps_error *error) {
     ps_error reason = *error;
-    return ps_fail(error, reason.status, "%s:%d: %s: %s", scene->path, result->line, result->name,
-                   reason.message);
+    return scene->is_made ? ps_fail(error, reason.status, "%s: %s", result->name, reason.message)
+                          : ps_fail(error, reason.status, "%s:%d: %s: %s", scene->path,
+                                    result->line, result->name, reason.message);
 }

@@ -221,8 +221,8 @@ pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) {
 
 pspec_status ps_scene_read_text(ps_scene *out, const char *name, const char *text,
                                 ps_error *error) {
-    ps_scene_file file = {.scene = out, .path = name, .error = error};
-    *out = (ps_scene){.path = name};
+    ps_scene_file file = {.scene = out, .path = name, .is_made = true, .error = error};
+    *out = (ps_scene){.path = name, .is_made = true};
     PS_TRY(ps_scene_file_parse(&file, (const unsigned char *)text, strlen(text)));
     return take_scene(&file);
 }

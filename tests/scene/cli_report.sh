@@ -70,6 +70,11 @@ has zphi.html '<th>white-sphere</th>' '<th>fibonacci</th>'
 
 "$program" plan report --sampler white -n 64 >out
 grep -q '^# phase: near pairs' out || complain "plan: $(<out)"
+mkfifo fifo
+refuses 'which a pipe cannot' fifo -o page.html
+# shellcheck disable=SC2016 # a program of the shell
+refuses 'report: spectrum: "[ 2 -lt 2 ]' --sampler 'exec:[ {realization} -lt 2 ] && echo .{realization}1 .5' -n 1 -m 3 -o page.html
+rm fifo
 refuses 'a page ends in .html' --sampler white -n 16 -m 2 -o mine.csv
 refuses '-o PAGE.html is needed' --sampler white
 refuses 'a report is of the plane or the whole sphere' --sampler white-hemisphere -o a.html

@@ -11,6 +11,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Realizations unless -m is given: a fit at low frequencies needs 8. */
 enum { DEFAULT_REALIZATIONS = 16, PLANE = 2 };
@@ -127,14 +128,21 @@ static void find_known(report *self) {
     }
 }
 
+static pspec_status check_file(const char *path, ps_error *error) {
+    struct stat facts;
+    const bool is_input = strcmp(path, "-") == 0;
+    return !is_input && (stat(path, &facts) != 0 || !S_ISFIFO(facts.st_mode))
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "points are read for every result, which %s cannot",
+                         is_input ? "standard input (-)" : "a pipe");
+}
+
 static pspec_status look(report *self, ps_error *error) {
     const ps_request *const request = self->request;
     PS_TRY(ps_sources_check(request, "nothing to report on", error));
     for (size_t i = 0; i < request->num_files; i++) {
-        if (strcmp(request->files[i], "-") == 0) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "points are read for every result, which standard input (-) cannot");
-        }
+        PS_TRY(check_file(request->files[i], error));
     }
     self->has_files = request->num_sources == 0;
     self->num_realizations = request->is_given[PS_OPTION_REALIZATIONS] ? request->num_realizations
