@@ -12,6 +12,7 @@ unset POINTSPEC_DEVICE
 export POINTSPEC_CACHE_DIR=$scratch.cache # neither figures nor results of who runs the tests
 
 checked=0 bad=0
+always=() # words of every command line
 complain() {
     printf 'cli_%s: %s\n' "$command" "$*" >&2
     bad=1
@@ -20,11 +21,11 @@ runs() { # EXIT ARGS...: standard output in out, standard error in err
     local expected=$1 code=0
     shift
     checked=$((checked + 1))
-    "$program" "$command" "$@" </dev/null >out 2>err || code=$?
+    "$program" "$command" "${always[@]}" "$@" </dev/null >out 2>err || code=$?
     # The leak sanitizer's tracer may die of a signal 11 of its own while it stops the threads of PoCL: again without it.
     if [[ $code != "$expected" && $(<err) == *'LeakSanitizer has encountered a fatal error'* ]]; then
         code=0
-        ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0 "$program" "$command" "$@" </dev/null >out 2>err || code=$?
+        ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0 "$program" "$command" "${always[@]}" "$@" </dev/null >out 2>err || code=$?
     fi
     [[ $code == "$expected" ]] || complain "exit $code, not $expected: $*: $(<err)"
 }
