@@ -64,7 +64,6 @@ typedef struct curve {
 } curve;
 
 typedef struct picture {
-    ps_figure *figure;
     ps_pool *memory;
     const ps_chart *chart;
     ps_error *error;
@@ -222,8 +221,9 @@ static pspec_status take_beside(const picture *self, const double **out, const c
 
 /* ---- series ---------------------------------------------------------------------------------- */
 
-/* What pure noise comes to, where the table has a level of it, and what is rounding: of powers the
- * square of the error of S, of others the error itself, that of pair sums in units of W^2. */
+/* What pure noise comes to, where the table has a level of it, and what is rounding. For powers
+ * that is the square of the error of S, otherwise the error itself; pair sums have it in units of
+ * W^2. */
 static void take_limits(ps_series *series, const curve *own, bool is_power) {
     const double error = entry_of(own, "predicted_error");
     const double sum = entry_of(own, "weight_sum");
@@ -371,8 +371,7 @@ pspec_status ps_lines_figure(ps_figure *out, ps_pool *memory, const ps_chart *ch
                              ps_error *error) {
     const ps_picture_kind *const what = chart->what;
     const ps_table *const table = chart->parts[0].table;
-    picture self = {.figure = out,
-                    .memory = memory,
+    picture self = {.memory = memory,
                     .chart = chart,
                     .error = error,
                     .is_of_counts = what->dealing == PS_OF_COUNTS,

@@ -174,8 +174,7 @@ typedef struct ps_survey {
 
 typedef struct ps_engine {
     const char *name;
-    const char *summary; /* one line, for plan and docs */
-    unsigned domains;    /* others are never asked */
+    unsigned domains; /* others are never asked */
     bool needs_device;
     bool rows_on_host;     /* though it needs a device: they are short */
     bool has_precision[3]; /* by ps_precision */

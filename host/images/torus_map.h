@@ -50,7 +50,7 @@ typedef struct ps_torus_map_powers {
 } ps_torus_map_powers;
 
 /* *out is freed by ps_torus_map_powers_free, also after a failure. Two passes over the pixels for
- * every PS_TORUS_MAP_ROOM of columns. */
+ * every 64 MiB of columns. */
 pspec_status ps_torus_map_find_powers(ps_torus_map_powers *out, const ps_torus_map *map,
                                       size_t cutoff, ps_error *error) PS_MUST_CHECK;
 void ps_torus_map_powers_free(ps_torus_map_powers *powers);

@@ -1,5 +1,7 @@
 #include "jobs/pattern_check.h"
 
+#include "math/unit_vector.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -7,15 +9,12 @@ static double length_off(double square) {
     return fabs(sqrt(square) - 1);
 }
 
-static double square_of(const double *u) {
-    return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-}
-
 static pspec_status refuse_vector(const ps_pattern_count *count, const pspec_pattern *block,
                                   ps_error *error) {
     size_t j = 0;
     while (j + 1 < block->num_points &&
-           length_off(square_of(block->points + j * PS_SPHERE_DIMENSION)) <= PS_UNIT_LENGTH_SLACK) {
+           length_off(ps_square_length(block->points + j * PS_SPHERE_DIMENSION)) <=
+               PS_UNIT_LENGTH_SLACK) {
         j++;
     }
     const double *u = block->points + j * PS_SPHERE_DIMENSION;
@@ -24,7 +23,7 @@ static pspec_status refuse_vector(const ps_pattern_count *count, const pspec_pat
                    "instead of 1",
                    (unsigned long long)count->realization + 1,
                    (unsigned long long)(count->num_points + j + 1), u[0], u[1], u[2],
-                   sqrt(square_of(u)));
+                   sqrt(ps_square_length(u)));
 }
 
 /* A square that overflows is infinite, and refused like any other. Roots grow with their squares,
@@ -34,7 +33,7 @@ static pspec_status check_vectors(ps_pattern_count *count, const pspec_pattern *
     double least = 1, most = 1;
     bool are_numbers = true;
     for (size_t j = 0; j < block->num_points; j++) {
-        const double square = square_of(block->points + j * PS_SPHERE_DIMENSION);
+        const double square = ps_square_length(block->points + j * PS_SPHERE_DIMENSION);
         least = square < least ? square : least;
         most = square > most ? square : most;
         are_numbers &= square == square;

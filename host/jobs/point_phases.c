@@ -1,5 +1,6 @@
 #include "jobs/point_phases.h"
 
+#include "base/text.h"
 #include "files/input_file.h"
 
 #include <inttypes.h>
@@ -79,12 +80,6 @@ static double mean_line(const unsigned char *bytes, size_t num) {
     return lines > 0 ? (double)end / (double)lines : (double)num;
 }
 
-static bool has_ending(const char *path, const char *ending) {
-    const size_t length = strlen(path);
-    const size_t wanted = strlen(ending);
-    return length >= wanted && strcmp(path + length - wanted, ending) == 0;
-}
-
 /* format: as options name it; NULL: by ending and first bytes. */
 static file_estimate estimate_file(const char *path, const char *format) {
     file_estimate out = {.bytes_of_number = sizeof(double)};
@@ -103,7 +98,7 @@ static file_estimate estimate_file(const char *path, const char *format) {
         }
     }
     ps_input_close(&input);
-    if (format != NULL ? strcmp(format, "rps") == 0 : has_ending(path, ".rps")) {
+    if (format != NULL ? strcmp(format, "rps") == 0 : ps_text_ends_in(path, ".rps")) {
         out.bytes_of_number = sizeof(float);
     }
     return out;

@@ -38,7 +38,7 @@ static double running_states(const ps_problem *problem, size_t batch) {
 }
 
 /* Those that GPUs have besides, of each block that a batch is part of
- * (spectra/accumulate/accumulate_states.h). */
+ * (spectra/accumulate/accumulate_states.c). */
 static double strip_states(const ps_device_limits *limits, size_t batch) {
     return limits->has_dedicated_local_memory ? 4.0 * most_strips(batch) : 0;
 }

@@ -12,7 +12,6 @@ typedef struct picture {
     ps_pool *memory;
     ps_series *series[MOST_PANELS];
     size_t num[MOST_PANELS]; /* of series */
-    double last;             /* the largest distance that is shown */
 } picture;
 
 /* "jittered, N = 256", or what a scene calls the part. */

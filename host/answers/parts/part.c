@@ -23,7 +23,7 @@ pspec_status ps_part_begin(ps_part *out, const ps_kind *kind, const ps_request *
                            uint64_t num_realizations, uint64_t num_parts, uint64_t part,
                            const ps_answer_hooks *hooks, ps_error *error) {
     ps_request *const own = &out->request;
-    *out = (ps_part){.kind = kind, .request = *request};
+    *out = (ps_part){.request = *request};
     own->range = ps_parts_range(num_realizations, num_parts, part);
     own->range.first += request->range.first;
     own->range.end += request->range.first;

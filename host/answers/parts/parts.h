@@ -33,7 +33,6 @@ pspec_status ps_parts_find(uint64_t *num_parts, const char *path, ps_error *erro
 
 /* Stays where it is: its request borrows from it, and from that of the job. */
 typedef struct ps_part {
-    const ps_kind *kind;
     ps_request request; /* of its range, for a table with state */
     char range[48];
     ps_text checkpoint, key;

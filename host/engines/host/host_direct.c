@@ -226,7 +226,6 @@ static void describe(const void *state, ps_text *text) {
 
 const ps_engine ps_host_direct = {
     .name = "host_direct",
-    .summary = "direct sums in long double on the host: the referee, needs no device",
     .domains = PS_ON_TORUS | PS_ON_SPHERE,
     .needs_device = false,
     .has_precision = {false, false, true},

@@ -146,7 +146,6 @@ static void describe(const void *state, ps_text *text) {
 
 const ps_engine ps_pairs_direct = {
     .name = "pairs_direct",
-    .summary = "Legendre polynomials of all pairs of points on the device",
     .domains = PS_ON_SPHERE,
     .needs_device = true,
     .rows_on_host = true,

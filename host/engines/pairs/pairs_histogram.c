@@ -277,7 +277,6 @@ static void describe(const void *state, ps_text *text) {
 
 const ps_engine ps_pairs_histogram = {
     .name = "pairs_histogram",
-    .summary = "a histogram of the chords of all pairs of points on the device",
     .domains = PS_ON_SPHERE,
     .needs_device = true,
     .rows_on_host = true,

@@ -342,7 +342,6 @@ static void describe(const void *state, ps_text *text) {
 
 const ps_engine ps_sphere_direct = {
     .name = "sphere_direct",
-    .summary = "direct sums of spherical harmonics on the device",
     .domains = PS_ON_SPHERE,
     .needs_device = true,
     .rows_on_host = true,

@@ -56,9 +56,9 @@ static double product_points(double num_points) {
  * prototypes on an H200, 2026-11-28. In double precision nobody measured both. */
 static const double time_by_units[2] = {0.66, 1};
 
-/* Additions and multiplications of products by kernels/torus/product_shared.cl for num_points
- * points of each of many realizations, of which `share` of the pairs of tiles are needed. Blocks do
- * all of their pairs, and those on the edge of a ball are done, too; a phase in a block takes as
+/* Additions and multiplications of kernels/torus/product_shared.cl for many realizations with
+ * num_points points each, when `share` of the pairs of tiles is needed. Blocks do all of their
+ * pairs, and those on the edge of a ball are done, too; a phase in a block takes as
  * long as 24 fused operations of a product. Two work-groups on each of 132 units keep an H200 busy;
  * fewer take as long as these. */
 static double shared_flops(const ps_torus_layout *layout, double num_points, double realizations,
@@ -347,7 +347,6 @@ static void describe(const void *state, ps_text *text) {
 
 const ps_engine ps_torus_direct = {
     .name = "torus_direct",
-    .summary = "direct sums on the device; grids as separable products of two tables",
     .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},

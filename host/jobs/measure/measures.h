@@ -33,7 +33,7 @@ typedef enum ps_measure_needs {
 } ps_measure_needs;
 
 typedef struct ps_measure_row {
-    const char *name, *meaning; /* a row of the table of fields, a clause without a full stop */
+    const char *name;
     bool on_torus, on_sphere;
     unsigned least_dimension, most_dimension; /* of the torus; 0: any */
     unsigned needs;                           /* of ps_measure_needs */

@@ -41,7 +41,7 @@ ps_uncertain ps_log_variances_combine(const ps_log_variance *logs, const double 
  * of squares do; what comes out is confirmed by simulation (docs/mathematics/statistics.md). */
 double ps_uncertain_p_value(const ps_uncertain *found, double exact);
 
-/* Of logs [num] by N. */
+/* How fast variances fall with N: a line through their logarithms. */
 typedef struct ps_rate {
     size_t num;
     double from, to;     /* N */

@@ -1,5 +1,5 @@
 /* Kernel systems by conjugate gradients, with the matrix made on the fly, by a device or in
- * threads, and the sparse inverse of kernel_factor.h as preconditioner. */
+ * threads, and the sparse inverse of kernel_private.h as preconditioner. */
 #include "rules/kernel/kernel_private.h"
 
 #include "base/memory.h"

@@ -8,7 +8,7 @@ enum { PS_NUM_FACES = 12 };
 
 /* No point of a square of side h in a face is farther, as an angle, from the middle of the square
  * than PS_FACE_REACH h: 1.0686 for small squares at the corners of faces between cap and belt, less
- * for large ones (tests/samplers/test_sphere_disk.c looks at all). */
+ * for large ones (tests/samplers/darts/test_sphere_disk.c looks at all). */
 #define PS_FACE_REACH 1.07
 
 /* The unit vector at (x, y) of a face. */

@@ -11,7 +11,7 @@
 struct ps_device_accumulator {
     ps_device *device;
     ps_accumulator_options options; /* lanes: those of the accumulator */
-    size_t real_bytes, num_groups, num_blocks, num_pieces, num_members;
+    size_t real_bytes, num_groups, num_blocks, num_pieces;
     bool is_gpu;
     ps_kernel *blocks, *fold;
     ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums;
@@ -46,7 +46,6 @@ static pspec_status upload_blocks(ps_device_accumulator *self, ps_error *error) 
                                        self->options.stride, error));
     self->num_blocks = blocks.num_blocks;
     self->num_pieces = blocks.num_pieces;
-    self->num_members = blocks.num_members;
     PS_TRY_OUT(status, ps_buffer_upload(self->device, &self->first_rings, blocks.first_rings,
                                         (blocks.num_blocks + 1) * sizeof *blocks.first_rings,
                                         "bins", error));

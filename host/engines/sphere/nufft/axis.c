@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Fine grids from sigma = n / 2L on, as in engines/nufft/choose.c. */
+/* Fine grids from sigma = n / 2L on, as in engines/torus/nufft/choose.c. */
 static const double least_sigma = 1.2;
 static const double largest_sigma = 4;
 

@@ -13,7 +13,8 @@ static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
  * power where aliases harm most: order 0 (or k = 0) comes back at m and -m. */
 static const double in_step = 1;
 
-/* Peaks of lattices, of power N: on a line of aliases, two, of both signs (nufft_error.c). */
+/* Peaks of lattices, of power N: on a line of aliases, two, of both signs
+ * (engines/torus/nufft/error.c). */
 static const double peaks = 4;
 
 /* What follows is rounding in units of roundoff: of points and coefficients, whatever the grid; of

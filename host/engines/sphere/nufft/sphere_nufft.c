@@ -326,7 +326,6 @@ static void describe_cells(const void *state, ps_text *text) {
 
 const ps_engine ps_sphere_nufft = {
     .name = "sphere_nufft",
-    .summary = "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products",
     .domains = PS_ON_SPHERE,
     .needs_device = true,
     .rows_on_host = true,
@@ -344,7 +343,6 @@ const ps_engine ps_sphere_nufft = {
 
 const ps_engine ps_sphere_grid = {
     .name = "sphere_grid",
-    .summary = "fast spherical-harmonic sums: points spread on a grid, a table of its cells",
     .domains = PS_ON_SPHERE,
     .needs_device = true,
     .rows_on_host = true,

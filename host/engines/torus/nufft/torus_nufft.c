@@ -320,8 +320,6 @@ static void describe(const void *state, ps_text *text) {
 
 const ps_engine ps_torus_nufft = {
     .name = "torus_nufft",
-    .summary =
-        "fast transforms of points spread on a grid, on the device; grids in 1 to 3 dimensions",
     .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},
