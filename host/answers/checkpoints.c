@@ -2,6 +2,7 @@
 
 #include "files/digest.h"
 #include "pointspec_version.h"
+#include "request/point_source.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -84,9 +85,7 @@ static pspec_status add_file(void *payload, const ps_request_file *input, ps_err
     ps_text *const key = payload;
     char digest[PS_DIGEST_BYTES];
     if (ps_points_program(input->path) != NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "a checkpoint does not go with programs: nobody knows whether they will "
-                       "print the same");
+        return ps_programs_refuse("--checkpoint", error);
     }
     if (ps_request_file_comes_once(input)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

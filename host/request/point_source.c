@@ -8,6 +8,11 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
 }
 
+pspec_status ps_programs_refuse(const char *option, ps_error *error) {
+    return fail_conflict(option, "programs", "nobody knows whether they will print the same",
+                         error);
+}
+
 /* Options that are about the other kind of source, where there is but one kind. */
 static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
     const bool are_files = ps_request_has_files(arguments);
@@ -17,8 +22,7 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
         return fail_conflict("--homogenize", "programs", "it moves the points of samplers", error);
     }
     if (arguments->is_given[PS_OPTION_RANGE] && ps_request_has_programs(arguments)) {
-        return fail_conflict(ps_option_show(arguments, PS_OPTION_RANGE).text, "programs",
-                             "nobody knows whether they will print the same", error);
+        return ps_programs_refuse(ps_option_show(arguments, PS_OPTION_RANGE).text, error);
     }
     if (are_files && ps_request_has_told(arguments)) {
         return PSPEC_OK;

@@ -36,6 +36,8 @@ bool ps_request_has_own_counts(const ps_request *arguments);
 
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_request *arguments);
+/* The sentence for an option of jobs that read their input again, or by parts. */
+pspec_status ps_programs_refuse(const char *option, ps_error *error);
 /* Refuses options about the other of samplers and files, several numbers of points of files, and
  * what does not go together in how files are read. */
 pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;

@@ -90,7 +90,7 @@ refuses 'a command is wanted behind exec:' --sampler 'exec: '
 refuses 'another set or sampler has this name' --sampler exec:true --sampler exec:true
 refuses 'is told how many realizations there are at most' --sampler 'exec:./mine.sh 4 {realization}' --standard-error 0.1
 refuses '--homogenize does not go with programs' --sampler 'exec:./mine.sh 4 1' --homogenize
-refuses 'a checkpoint does not go with programs' --sampler 'exec:./mine.sh 4 1' --checkpoint job.npz
+refuses '--checkpoint does not go with programs' --sampler 'exec:./mine.sh 4 1' --checkpoint job.npz
 refuses '--range does not go with programs' --sampler 'exec:./mine.sh 4 {realization}' -m 256 --range 0:128
 refuses 'of which a program is told by {n}' --sampler 'exec:./mine.sh 4 {realization}' -n 4,8
 refuses 'a program is run 1000000 times at most; with {realizations}' --sampler 'exec:./mine.sh 4 {realization}' -m 1000001
